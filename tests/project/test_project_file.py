@@ -43,7 +43,7 @@ PORTABLE = "[targets.scxml]\nprofile = 'portable'\n"
             [
                 "2:1: error[SW0012] `[project]` has no key `nam`",
                 "3:2: error[SW0012] `swarm.toml` has no key `lints`",
-                "5:7: error[SW0013] `out` takes text, not a whole number",
+                "5:7: error[SW0013] `out` takes a string, not a whole number",
             ],
         ),
         (
@@ -59,10 +59,10 @@ PORTABLE = "[targets.scxml]\nprofile = 'portable'\n"
             '[project]\nname = "no name"\nsources = "m"\nlibraries = ["gone", "swarm.toml", 1]',
             [
                 "2:8: error[SW0013] `name` takes a name like `sar` or `rescue.sea`, not `no name`",
-                "3:11: error[SW0013] `sources` takes a list of texts, not text",
+                "3:11: error[SW0013] `sources` takes a list of strings, not a string",
                 "4:14: error[SW0001] no such file: `gone`",
                 "4:22: error[SW0013] `libraries` takes folders, not the file `swarm.toml`",
-                "4:36: error[SW0013] `libraries` takes text, not a whole number",
+                "4:36: error[SW0013] `libraries` takes a string, not a whole number",
             ],
         ),
         (
@@ -75,10 +75,10 @@ profil = 'both'
 package = 1.5
 """,
             [
-                "2:7: error[SW0013] `adf` takes a table of options, not a truth value",
+                "2:7: error[SW0013] `adf` takes a table of options, not a boolean",
                 "3:10: error[SW0901] no target called `scmxl`",
                 "5:1: error[SW0904] target `scxml`: there is no option `profil`",
-                "7:11: error[SW0013] `package` takes text, not a number",
+                "7:11: error[SW0013] `package` takes a string, not a number",
             ],
         ),
         (
@@ -91,7 +91,7 @@ package = 'Bad Name'
 profile = true
 """,
             [
-                "2:11: error[SW0013] `license` takes text, not a whole number",
+                "2:11: error[SW0013] `license` takes a string, not a whole number",
                 "3:1: error[SW0904] target `smach`: `1.x` is not a version: expected t",
                 "4:1: error[SW0904] target `smach`: `nope` is not an e-mail address",
                 "5:1: error[SW0904] target `smach`: `Bad Name` cannot be the name of the package",
@@ -109,7 +109,7 @@ warn = ['unresolved-name', 1979-05-27]
                 "2:40: error[SW0015] `unresolved-name` is an error and cannot be downgraded",
                 "3:9: error[SW0404] the level of `unreachable-state` is given twice",
                 "4:9: error[SW0015] `unresolved-name` is an error and cannot be downgraded",
-                "4:28: error[SW0013] `warn` takes text, not a time",
+                "4:28: error[SW0013] `warn` takes a string, not a time",
             ],
         ),
     ],

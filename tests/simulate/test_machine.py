@@ -249,7 +249,7 @@ def test_what_is_simulated(simulate: Simulate) -> None:
     ran = simulate(two)
     assert (ran.code, ran.out) == (1, "")
     assert "error[SW1002]" in ran.err
-    assert "say which: `--machine M` or `--machine N`" in ran.err
+    assert "choose one: `--machine M` or `--machine N`" in ran.err
     ran = simulate(two, "--machine", "O")
     assert "error[SW0202]: no state machine called `O`" in ran.err
     assert [line["member"] for line in simulate(two + swarm).trace] == ["uav[0]", "uav[1]"]
@@ -285,8 +285,8 @@ def test_a_param_needs_a_value(simulate: Simulate) -> None:
     ("line", "said", "place"),
     [
         ('{"event": "Start" "after": 5}', "SW1003]: invalid event line: expecting ',' ", "2:19"),
-        ("[1, 2]", "SW1003]: invalid event line: an object is wanted, not a list", "2:1"),
-        ('{"after": 5}', 'SW1003]: invalid event line: it needs an `"event"`', "2:1"),
+        ("[1, 2]", "SW1003]: invalid event line: expected an object, not a list", "2:1"),
+        ('{"after": 5}', 'SW1003]: invalid event line: missing key `"event"`', "2:1"),
         ('{"event": "Start", "after": NaN}', "SW1003]: invalid event line: `NaN`", "2:29"),
         (
             '{"event": "Found", "data": {"level": 1e999}}',
@@ -295,13 +295,13 @@ def test_a_param_needs_a_value(simulate: Simulate) -> None:
         ),
         (
             '{"event": "Start", "event": "Stop"}',
-            "SW1003]: invalid event line: `event` stands in it twice",
+            "SW1003]: invalid event line: `event` is a duplicate key",
             "2:3",
         ),
         ("[" * 100_000, "SW1003]: invalid event line: it is nested too deeply", "2:1"),
         (
             '{"after": ' + "9" * 5000 + "}",
-            "SW1003]: invalid event line: a number in it has too",
+            "SW1003]: invalid event line: a number has too",
             "2:1",
         ),
         ('{"event": "Strat"}', "SW0202]: no event called `Strat`", "2:12"),
@@ -351,6 +351,6 @@ def test_messages_of_which_nothing_is_known_may_hold_anything(simulate: Simulate
     ran = simulate(text, events=[{"event": "Odd", "data": {"a": "x", "deep": 3}}])
 
     assert (ran.code, ran.trace[-1]["configuration"]) == (0, ["C"])
-    assert "`<` does not work on what a message holds" in ran.err
-    assert "`-` does not work on what a message holds" in ran.err
-    assert "`last` has no `deep.er` that could be stored" in ran.err
+    assert "`<` is not defined for a value in the message" in ran.err
+    assert "`-` is not defined for a value in the message" in ran.err
+    assert "`last` has no `deep.er` to assign to" in ran.err

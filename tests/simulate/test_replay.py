@@ -106,7 +106,7 @@ def replay(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Replay:
 def test_what_is_as_the_model_says(replay: Replay) -> None:
     code, err = replay(START, GO, AGAIN, LATE, FOUND)
 
-    assert (code, err) == (0, "5 lines of 1 member as the model says\n")
+    assert (code, err) == (0, "5 lines of 1 member as in the model\n")
 
 
 def test_several_traces(replay: Replay, tmp_path: Path) -> None:
@@ -117,15 +117,15 @@ def test_several_traces(replay: Replay, tmp_path: Path) -> None:
 
     first, second, wrong, *_ = err.splitlines()
     assert code == 1
-    assert first == f"{tmp_path / 'trace.jsonl'}: 2 lines of 1 member as the model says"
-    assert second == f"{other}: 1 line of 1 member as the model says"
+    assert first == f"{tmp_path / 'trace.jsonl'}: 2 lines of 1 member as in the model"
+    assert second == f"{other}: 1 line of 1 member as in the model"
     assert f"{other}:2:1: error[SW1011] `M` deviates from the model on `Start` at 500 ms" in wrong
 
 
 def test_what_an_activity_sends(replay: Replay) -> None:
     code, err = replay(START, GO, SENT)
 
-    assert (code, err) == (0, "3 lines of 1 member as the model says\n")
+    assert (code, err) == (0, "3 lines of 1 member as in the model\n")
 
 
 @pytest.mark.parametrize(
@@ -165,11 +165,11 @@ def test_it_is_said_what_is_different(replay: Replay) -> None:
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
-        ("{", "it is no object of JSON"),
-        ("[]", "it is no object of JSON"),
-        ('{"t": -1}', "`t` is a number of milliseconds"),
-        ('{"t": 1, "event": 2}', "`event` is the name of one"),
-        ('{"t": 1, "event": "a", "member": 3}', "`member` is the name of one"),
+        ("{", "it is not a JSON object"),
+        ("[]", "it is not a JSON object"),
+        ('{"t": -1}', "`t` must be a number of milliseconds"),
+        ('{"t": 1, "event": 2}', "`event` must be an event name"),
+        ('{"t": 1, "event": "a", "member": 3}', "`member` must be a member name"),
         ('{"t": 1, "event": "a", "configuration": [1]}', "`configuration` is a list of names"),
     ],
 )

@@ -387,7 +387,7 @@ def test_params_of_a_machine_alone(simulate: Simulate) -> None:
             "2:31",
         ),
         ("[functions.go]\naborted = 1.5", "SW0013]: `aborted` takes a probability", "2:11"),
-        ("[functions.go]\naborted = 0.6\nnever = 0.5", "SW0013]: `never` takes what the", "3:9"),
+        ("[functions.go]\naborted = 0.6\nnever = 0.5", "SW0013]: `never` takes at most", "3:9"),
         ("[functions.go.of.uva]", "SW0202]: no member called `uva`", "1:18"),
         (
             "[functions.go]\nresults = [{ cuont = 1 }]",

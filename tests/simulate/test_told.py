@@ -15,7 +15,7 @@ from rich.console import Console
 from swarmdsl.execution.engine import Machine, State
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.durations import SECOND, duration, shown
+from swarmdsl.execution.simulate.durations import SECOND, duration, format_duration
 from swarmdsl.execution.simulate.live_table import Board
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.timeline import Timeline, nth_colour
@@ -292,4 +292,4 @@ def test_the_board() -> None:
 def test_durations(written: str, length: int | None, again: str) -> None:
     assert duration(written) == length
     if length is not None:
-        assert shown(length) == again
+        assert format_duration(length) == again

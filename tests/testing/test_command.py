@@ -55,7 +55,7 @@ error[SW1101]: expected in `On`
   |                 ^^^^ at the start: `lamp[0]`, `lamp[1]`, `lamp[2]` and `spare[0]` are in `Off`
   = note: in the test `lamps are on`
 
-the last of what happened:
+the last trace lines:
      0.000  lamp[0]  (start) -> Off
      0.000  lamp[0].eye  (start) -> Off
      0.000  lamp[1]  (start) -> Off

@@ -218,7 +218,7 @@ def test_a_function_that_nobody_calls_cannot_end(ran: Callable[..., Ran]) -> Non
     found = ran(steps('{ end = "blink" }'))
 
     assert "expected `blink` to be running" in found.out
-    assert "at the start: nobody runs it" in found.out
+    assert "at the start: it is not running" in found.out
 
 
 def test_what_must_always_be_so(ran: Callable[..., Ran]) -> None:
@@ -297,7 +297,7 @@ steps = [{ send = "Start" }, { pass = "5 s" }, { no = "lamp", in = "Broken" }]
     alone = ran(text, "--seed", seed)
 
     assert alone.code == 1
-    last = "the last of what happened:"
+    last = "the last trace lines:"
     assert alone.out.partition(last)[2] == found.out.partition(last)[2] != ""
 
 

@@ -33,7 +33,7 @@ def fault(content: bytes) -> RegionError | None:
 
 
 def generated(content: bytes) -> bytes:
-    """Return a file without the content of its regions; all of it if a mark is invalid."""
+    """Return a file without region contents; all of it if a mark is invalid."""
     return b"".join(b"".join(lines) for id_, lines in _whole(content) if id_ is None)
 
 

@@ -49,7 +49,7 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
         target, dot, name = name.partition(".")
         if not (equals and dot and name):
             way = f": write `{built[0]}.{option}`" if equals and len(built) == 1 else ""
-            raise UsageError(f"`--option {option}` has not the form TARGET.NAME=VALUE{way}")
+            raise UsageError(f"`--option {option}` is not of the form TARGET.NAME=VALUE{way}")
         if target not in given:
             way = did_you_mean(target, given) or f"add `--target {target}`"
             raise UsageError(f"`--option {option}`: target `{target}` is not built: {way}")

@@ -29,8 +29,8 @@ _PACKAGE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z_][A-Za-z0-9_]*)*")
 
 # In the order of `isinstance`: a bool is an int, a datetime is a date.
 _KINDS: dict[type | tuple[type, ...], str] = {
-    str: "text",
-    bool: "a truth value",
+    str: "a string",
+    bool: "a boolean",
     int: "a whole number",
     float: "a number",
     list: "a list",
@@ -134,7 +134,7 @@ class _Reader:
             elif isinstance(value, (str, int)):
                 yield name, str(value)
             else:
-                expected = "text, a whole number or a truth value"
+                expected = "a string, a whole number or a boolean"
                 self._report_wrong((*keys, name), expected, _kind(value))
 
     def _levels(self) -> dict[str, Level]:
@@ -184,7 +184,7 @@ class _Reader:
         """Yield the keys of the items of a list."""
         value = self._get(keys)
         if not isinstance(value, list):
-            self._report_wrong(keys, "a list of texts", _kind(value))
+            self._report_wrong(keys, "a list of strings", _kind(value))
             return
         for number in range(len(value)):
             yield (*keys, number)
@@ -192,7 +192,7 @@ class _Reader:
     def _text(self, keys: Keys) -> str | None:
         value = self._get(keys)
         if not isinstance(value, str):
-            self._report_wrong(keys, "text", _kind(value))
+            self._report_wrong(keys, "a string", _kind(value))
             return None
         return value
 

@@ -155,8 +155,7 @@ class DocumentStore(Reader):
             "outside-workspace",
             at,
             path=path,
-            help="open its folder in the editor, too, "
-            "or name it in `libraries` of the project file `swarm.toml`",
+            help="open its folder in the editor too, or add it to `libraries` in `swarm.toml`",
         )
         return False
 

@@ -31,7 +31,7 @@ def renamable(workspace: Workspace, file: File, offset: int) -> Occurrence:
     """Return the name at an offset; raise RefusedError if it cannot be renamed."""
     found = occurrence_at(workspace, file, offset)
     if found is None or type(found.node) not in KINDS:
-        raise RefusedError("there is no name of something that the model declares")
+        raise RefusedError("there is no name declared in the model")
     if isinstance(found.node, _NOT_FOLLOWED):
         raise RefusedError(f"{kind_of(found.node)} cannot be renamed")
     home = _home(workspace, found.node)
@@ -44,12 +44,12 @@ def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Spa
     """Return the spans to replace by `name`; raise RefusedError if not possible."""
     found = renamable(workspace, file, offset)
     if not _NAME.fullmatch(name):
-        raise RefusedError(f"`{name}` is no name: it has letters, digits and `_`")
+        raise RefusedError(f"`{name}` is not a valid name: use letters, digits and `_`")
     if name in RESERVED:
-        raise RefusedError(f"`{name}` is a word of the language")
+        raise RefusedError(f"`{name}` is a keyword")
     spans = list(dict.fromkeys(each.span for each in occurrences_of(found.node, workspace)))
     if any(span.text != found.span.text for span in spans):
-        raise RefusedError(f"`{found.span.text}` has another name where it is used")
+        raise RefusedError(f"`{found.span.text}` has a different name where it is used")
     objection = _conflict(workspace, found, spans, name) if name != found.span.text else None
     if objection is not None:
         raise RefusedError(objection)
@@ -63,13 +63,13 @@ def _home(workspace: Workspace, node: Node) -> File | None:
 
 def _conflict(workspace: Workspace, found: Occurrence, spans: list[Span], name: str) -> str | None:
     """Return the error that a name would cause; None if all references stay the same."""
-    other = f"`{name}` would be taken for something else, or something for it"
+    other = f"`{name}` would resolve to a different declaration, or shadow one"
     before = _errors(workspace)
     with workspace.overriding(replaced(spans, name)):
         new = _errors(workspace) - before
         if new:
             known = {each.code: each.message for each in reversed(list(workspace.report))}
-            return f"with `{name}` there would be a mistake, {known[next(iter(new))]}"
+            return f"with `{name}` there would be an error: {known[next(iter(new))]}"
         path = found.span.source.path
         file = workspace.file(path) if path is not None else None
         earlier = sum(span.source.path == path and span.start < found.span.start for span in spans)

@@ -35,7 +35,7 @@ class Microstep(NamedTuple):
 
 
 class MicrostepBuilder:
-    """Compute the microsteps from one configuration; methods are named as in Appendix D."""
+    """Compute microsteps from a configuration; methods are named as in Appendix D."""
 
     def __init__(self, machine: Machine, active: int, histories: tuple[int, ...]) -> None:
         self.machine = machine

@@ -1,1 +1,1 @@
-"""Models run without a robot, on the engine of `swarmdsl.execution.engine`."""
+"""Simulate models without a robot, on `swarmdsl.execution.engine`."""

@@ -1,4 +1,4 @@
-"""The machines that run: each is of a robot, or of a part of one."""
+"""Machines of a simulation, one per robot and per part with behavior."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from swarmdsl.ir import Param, StateMachine
 
 @dataclass(eq=False)
 class Actor:
-    """A machine, whose it is, and the data it begins with.
+    """Machine of a robot or of one of its parts, with its initial data.
 
-    `name` is that of the robot, with that of the part after a dot.
+    `name` is the name of the robot, followed by a dot and the name of the part.
     """
 
     name: str | None
@@ -29,17 +29,17 @@ class Actor:
     role: str = ""
 
     def listens(self, event: str) -> bool:
-        """Whether some state of the machine waits for an event of that name."""
+        """Return True if a state of the machine reacts to the event."""
         return any(edge.matches(event) for edges in self.machine.edges for edge in edges)
 
 
 def actors(
     subject: Subject, robots: Iterable[Robot], scenario: Scenario, report: Diagnostics
 ) -> list[Actor]:
-    """All that run, in the order of the robots; a param without a value is reported."""
+    """Create the actors in the order of the robots; report params without a value."""
     size = subject.size(scenario.counts)
     if size > MOST_MEMBERS:
-        help_ = "give each role fewer in `[count]` of a scenario, or run one machine: `--machine`"
+        help_ = "reduce the numbers in `[count]` of a scenario, or run one machine: `--machine`"
         report.report("too-many-members", count=size, help=help_)
         return []
     if subject.document is not None:
@@ -56,7 +56,7 @@ def actors(
                     param.origin,
                     name=param.name,
                     machine=machine.name,
-                    help=f"give it one in `[params]` of a scenario: `{param.name} = ...`",
+                    help=f"set it in `[params]` of a scenario: `{param.name} = ...`",
                 )
             if not missing:
                 data = first_data(machine, subject.system, given)
@@ -71,7 +71,7 @@ def actors(
 def params(
     subject: Subject, robot: Robot, part: ir.Part | None, machine: StateMachine
 ) -> dict[str, Param]:
-    """The params that can be given values: of the machine, and of whoever runs it."""
+    """Return the params that can be set: of the machine and of its owner."""
     found = {param.name: param for param in machine.params}
     found.update({param.name: param for param in _owner_params(subject, robot, part)})
     return found
@@ -80,7 +80,7 @@ def params(
 def values(
     subject: Subject, robot: Robot, part: ir.Part | None, scenario: Scenario
 ) -> dict[str, Any]:
-    """The values of the params of whoever runs a machine, as the model and the scenario say."""
+    """Return the param values of a machine's owner, from the model and the scenario."""
     found: dict[str, Any] = {}
     for param in _owner_params(subject, robot, part):
         if param.default is not None:
@@ -93,7 +93,10 @@ def values(
 
 
 def words(robot: Robot, part: ir.Part | None) -> Iterator[str]:
-    """What a robot or a part of it is meant by; the last counts most. A machine alone is ""."""
+    """Yield the words that select a robot or its part, the most specific last.
+
+    The word of a machine without a swarm is "".
+    """
     for word in robot.words or ("",):
         yield word if part is None else f"{word}.{part.name}"
 

@@ -1,4 +1,4 @@
-"""A clock that goes on when it is told to."""
+"""Virtual clock."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from heapq import heappop, heappush
 
 @dataclass(order=True, slots=True)
 class Alarm:
-    """Something to do at a time; of those at the same time the first that was scheduled."""
+    """Scheduled action; actions at the same time run in the order of scheduling."""
 
     time: int
     number: int
@@ -17,7 +17,7 @@ class Alarm:
 
 
 class Clock:
-    """Time in nanoseconds from 0; nothing happens on its own, and all in a fixed order."""
+    """Time in nanoseconds from 0; deterministic, advanced explicitly."""
 
     def __init__(self) -> None:
         self.now = 0
@@ -25,25 +25,25 @@ class Clock:
         self._count = 0
 
     def schedule(self, delay: int, action: Callable[[], None]) -> Alarm:
-        """Have `action` called in so many nanoseconds."""
+        """Schedule a call of `action` after a delay in nanoseconds."""
         self._count += 1
         alarm = Alarm(self.now + max(delay, 0), self._count, action)
         heappush(self._alarms, alarm)
         return alarm
 
     def unschedule(self, alarm: Alarm) -> None:
-        """Do not have it called any more."""
+        """Cancel a scheduled action."""
         alarm.action = None
 
     @property
     def next(self) -> int | None:
-        """The time of the next thing to do; None when there is none."""
+        """Time of the next action; None if there is none."""
         while self._alarms and self._alarms[0].action is None:
             heappop(self._alarms)
         return self._alarms[0].time if self._alarms else None
 
     def step(self) -> bool:
-        """Go on to the next thing and do it; whether there was one."""
+        """Advance to the next action and execute it; return False if there is none."""
         if self.next is None:
             return False
         alarm = heappop(self._alarms)
@@ -53,7 +53,7 @@ class Clock:
         return True
 
     def advance(self, duration: int) -> None:
-        """Let time pass, and do on the way all that is to be done."""
+        """Advance the time and execute all actions that become due."""
         end = self.now + duration
         while self.next is not None and self.next <= end:
             self.step()

@@ -1,4 +1,4 @@
-"""What `swarmc simulate` does: from files to a run, and what is told of it."""
+"""`swarmc simulate`: load models, run them and print the results."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.deadlock_hint import advice
-from swarmdsl.execution.simulate.durations import shown
+from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
+from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader, lines_of
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
@@ -45,15 +45,15 @@ _ENDINGS: dict[Ending, str] = {
     "quiet": "until nothing was left to happen",
     "stopped": "until the time was over",
 }
-_NO_LATENCY = ("members that answer each other at once do so for ever: a network has a latency",)
+_NO_LATENCY = ("members answer each other without delay: give the network a latency",)
 _STANDARD_INPUT = 0
 _MOST_SHOWN = 5
-"""How many states of a circle are named."""
+"""Maximum number of states shown of a loop."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """What the command line asks for."""
+    """Arguments of the command."""
 
     paths: tuple[Path, ...]
     machine: str | None = None
@@ -70,9 +70,9 @@ class Request:
 
 
 def simulate(request: Request, tell: Tell) -> bool | None:
-    """Run what is asked for; whether it was free of errors, None if it was interrupted.
+    """Run a simulation; return True without errors, None if interrupted.
 
-    What is wrong is told as soon as it is known.
+    Errors are printed as soon as they are known.
     """
     report = Diagnostics()
     prepared = _prepare(request, report)
@@ -83,14 +83,14 @@ def simulate(request: Request, tell: Tell) -> bool | None:
 
 
 def _prepare(request: Request, report: Diagnostics) -> _Play | None:
-    """All that must be right before anything happens."""
+    """Load and check everything before the run."""
     subject = _subject(request, report)
     if subject is None:
         return None
     scenario = _scenario(request.scenario, subject, report)
     if scenario is None:
         return None
-    robots = subject.crew(scenario.counts)
+    robots = subject.create_robots(scenario.counts)
     cast = actors(subject, robots, scenario, report)
     if report.has_errors:
         return None
@@ -102,7 +102,7 @@ def _prepare(request: Request, report: Diagnostics) -> _Play | None:
 
 
 def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scenario | None:
-    """The scenario of a file, or the one in which nothing special happens."""
+    """Read a scenario, or return the default one."""
     if path is None:
         return Scenario()
     source = read_source(path, None, report, "a scenario")
@@ -114,7 +114,7 @@ def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scena
 
 
 def _subject(request: Request, report: Diagnostics) -> Subject | None:
-    """What is simulated, from the models and documents that are named."""
+    """Load the models and documents, and choose the subject."""
     documents = [path for path in request.paths if path.suffix == ".scxml"]
     models = [path for path in request.paths if path not in documents]
     read = [document for path in documents if (document := _document(path, report)) is not None]
@@ -138,7 +138,7 @@ def _document(path: Path, report: Diagnostics) -> Document | None:
 
 
 class _Play:
-    """A run with all that is told of it."""
+    """A run with its outputs."""
 
     def __init__(
         self,
@@ -160,7 +160,7 @@ class _Play:
         self._world = World(subject.system, cast, scenario, seed, self._listeners)
 
     def replay(self, tell: Tell) -> bool:
-        """Hold each trace against the model; whether all of them are as the model says."""
+        """Compare each trace with the model; return True if all conform."""
         report = Diagnostics()
         several = len(self._request.replay) > 1
         for path in self._request.replay:
@@ -171,16 +171,16 @@ class _Play:
             which = f"{printable(str(path))}: " if several else ""
             lines = f"{found.lines} line{'s' if found.lines != 1 else ''}"
             members = f"{found.members} member{'s' if found.members != 1 else ''}"
-            click.echo(f"{which}{lines} of {members} as the model says", err=True)
+            click.echo(f"{which}{lines} of {members} as in the model", err=True)
         tell(report)
         return not report.has_errors
 
     def play(self, tell: Tell) -> bool | None:
-        # A compiler needs no garbage to be looked for, but this may run for long.
+        # The compiler disables garbage collection, but a run may be long.
         gc.enable()
         report = Diagnostics()
         interrupted = False
-        ending = "until it did not come to rest"
+        ending = "until an endless loop"
         summary = Summary(self._subject, self._cast)
         self._listeners.append(summary.note)
         with ExitStack() as stack:
@@ -212,7 +212,7 @@ class _Play:
         unplayed = request.events is None and request.scenario is None
         if unplayed and ending == _ENDINGS["quiet"] and (awaited := summary.awaited):
             start = request.paths[0] if request.paths else Path()
-            click.echo(f"\n{advice(awaited, self._subject, start)}", err=True)
+            click.echo(f"\n{deadlock_hint(awaited, self._subject, start)}", err=True)
         if self._written:
             names = [printable(str(path)) for path in self._written]
             click.echo(f"\nwritten: {', '.join(names)}", err=True)
@@ -229,7 +229,7 @@ class _Play:
         return run_live(self._world, arrivals, self._until, pace)
 
     def _show_board(self, stack: ExitStack) -> None:
-        """Show who is where, on a terminal on which nothing else is written or typed."""
+        """Show the live table, if the terminal is not used otherwise."""
         if not sys.stderr.isatty() or self._request.events == _STDIN:
             return
         from rich.console import Console
@@ -240,20 +240,20 @@ class _Play:
         until = self._until if self._until is not None else last + DEFAULT_UNTIL
         board = Board(self._cast, self._world.clock, until, Console(stderr=True))
         self._listeners.append(board.note)
-        stack.enter_context(board.shown())
+        stack.enter_context(board.display())
 
     def _typed(self, tell: Tell) -> Iterator[Input | None]:
-        """The events on standard input; what is wrong with a line is told at once."""
+        """Yield the events on standard input; report errors immediately."""
         reader = Reader(self._subject, self._cast, Diagnostics())
         try:
             for each in reader.stream(lines_of(_STANDARD_INPUT)):
-                self._tell_and_forget(reader, tell)
+                self._report_and_clear(reader, tell)
                 yield each
         except OSError as error:
             reader.report.report("unreadable-file", path=STDIN, reason=str(error.strerror).lower())
-            self._tell_and_forget(reader, tell)
+            self._report_and_clear(reader, tell)
 
-    def _tell_and_forget(self, reader: Reader, tell: Tell) -> None:
+    def _report_and_clear(self, reader: Reader, tell: Tell) -> None:
         if len(reader.report):
             tell(reader.report)
             self._wrong |= reader.report.has_errors
@@ -266,18 +266,18 @@ class _Play:
         arrivals.put(None)
 
     def _stream(self, stack: ExitStack, report: Diagnostics) -> TextIO | None:
-        """Where the trace goes."""
+        """Return the stream for the trace."""
         path = self._request.trace_file
         if self._request.trace == "none":
             return None
         if path is None:
-            # A person watches the board instead, and types where there is something to type.
+            # A person watches the live table or types events instead.
             watched = sys.stdout.isatty() and self._request.events != _STDIN
             return None if watched and self._request.trace is None else sys.stdout
         return self._write_to(path, stack, report)
 
     def _picture(self, stack: ExitStack, report: Diagnostics) -> Callable[[], object] | None:
-        """Draws the timeline, if one is wanted."""
+        """Prepare drawing the timeline, if requested."""
         if self._request.timeline is None:
             return None
         stream = self._write_to(self._request.timeline, stack, report)
@@ -285,7 +285,7 @@ class _Play:
             return None
         timeline = Timeline(self._subject.name, self._cast)
         self._listeners.append(timeline.note)
-        self._world.crossed = timeline.crossed
+        self._world.transmitted = timeline.transmitted
         return lambda: stream.write(timeline.svg(self._world.clock.now))
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
@@ -312,18 +312,19 @@ class _Play:
         return write
 
     def _report_loop(self, error: LoopError, report: Diagnostics) -> None:
-        """Report that a machine goes round, at the states that it goes through."""
+        """Report an endless loop, with the states in it."""
         actor, now = self._world.trace.actor, self._world.clock.now
         machine = actor.machine
         origins = [machine.states[machine.numbers[state]].origin for state in error.states]
         places = [p for p in map(self._subject.place, origins) if p is not None]
+        states = listed(error.states[:_MOST_SHOWN], "or")
         report.report(
             "never-settles",
             places[0] if places else None,
-            label="it goes round through here",
+            label="the loop goes through this state",
             related=tuple(Label(place, "and here") for place in places[1:_MOST_SHOWN]),
             notes=_NO_LATENCY if self._subject.swarm is not None else (),
             who=f"`{actor.name or machine.name}`",
-            time=shown(now),
-            help=f"let {listed(error.states[:_MOST_SHOWN], 'or')} wait for an event or for a time",
+            time=format_duration(now),
+            help=f"add an event or a delay to a transition of {states}",
         )

@@ -1,7 +1,6 @@
-"""Which states are entered in runs, and which transitions are taken.
+"""Coverage of states and transitions.
 
-What is counted is the text of the models: a machine that is reused in states of others is one
-machine, wherever it runs.
+Elements of the model text are counted: a reused machine is counted once, wherever it runs.
 """
 
 from __future__ import annotations
@@ -18,12 +17,12 @@ from swarmdsl.ir import Transition as ModelTransition
 
 _HISTORIES = (Kind.HISTORY, Kind.DEEP_HISTORY)
 _Key = tuple[str, int]
-"""The name of a source, and where in it something begins; of a document its file and a number."""
+"""Source name and offset of an element; for a document, its file and a number."""
 
 
 @dataclass
 class MachineCoverage:
-    """The states and transitions of a machine, in words, and which were reached."""
+    """States and transitions of a machine as strings, and the reached ones."""
 
     name: str
     states: dict[_Key, str] = field(default_factory=dict)
@@ -34,13 +33,13 @@ class MachineCoverage:
 
     @property
     def missed(self) -> Iterator[str]:
-        """What was not reached."""
+        """Yield descriptions of the unreached elements."""
         for _, words in self.unreached:
             yield words
 
     @property
     def unreached(self) -> Iterator[tuple[object, str]]:
-        """The same, with the origins."""
+        """Yield unreached elements with their origins."""
         for key, words in self.states.items():
             if key not in self.entered:
                 yield self.origins[key], f"never entered: {words}"
@@ -50,23 +49,23 @@ class MachineCoverage:
 
 
 @dataclass
-class _Known:
-    """What the states and transitions of a table are in the text."""
+class _Elements:
+    """Elements of the model text for the states and transitions of a table."""
 
     states: dict[str, tuple[MachineCoverage, _Key]] = field(default_factory=dict)
     transitions: dict[int, tuple[MachineCoverage, _Key]] = field(default_factory=dict)
 
 
 class Coverage:
-    """Listens to runs."""
+    """Collect coverage from trace lines."""
 
     def __init__(self) -> None:
         self._machines: dict[tuple[str, str], MachineCoverage] = {}
-        self._known: dict[Machine, _Known] = {}
+        self._known: dict[Machine, _Elements] = {}
         self._files: dict[Machine, str] = {}
 
     def expect(self, subject: Subject) -> None:
-        """Count all machines that some robot of the model runs, whether they run now or not."""
+        """Include all machines that a robot of the model runs, even if none runs now."""
         if subject.document is not None:
             self._files[subject.document.machine] = subject.document.source.name
             self.count(subject.document.machine)
@@ -82,11 +81,11 @@ class Coverage:
                 self.count(subject.table(machine))
 
     def count(self, machine: Machine) -> None:
-        """Count a machine, whether it does something or not."""
+        """Include a machine, even if it does nothing."""
         self._of(machine)
 
     def see(self, line: Line) -> None:
-        """Take in a line."""
+        """Process a trace line."""
         known = self._of(line.actor.machine)
         for state in line.entered:
             if state in known.states:
@@ -99,24 +98,24 @@ class Coverage:
 
     @property
     def machines(self) -> list[MachineCoverage]:
-        """The machines, in the order in which they were met."""
+        """The machines, in order of their first appearance."""
         return list(self._machines.values())
 
     @property
     def percentage(self) -> float:
-        """How many of a hundred states and transitions of all machines; 100 of none."""
+        """Percentage of reached states and transitions; 100 if there are none."""
         there = sum(len(each.states) + len(each.transitions) for each in self.machines)
         reached = sum(len(each.entered) + len(each.taken) for each in self.machines)
         return 100 * reached / there if there else 100.0
 
-    def _of(self, machine: Machine) -> _Known:
+    def _of(self, machine: Machine) -> _Elements:
         known = self._known.get(machine)
         if known is None:
-            known = self._known[machine] = _Known()
+            known = self._known[machine] = _Elements()
             self._add(machine, known)
         return known
 
-    def _add(self, machine: Machine, known: _Known) -> None:
+    def _add(self, machine: Machine, known: _Elements) -> None:
         owners = {0: (machine.name, "")}
         for number, state in enumerate(machine.states[1:], 1):
             owner, prefix = owners[machine.parents[number]]
@@ -133,7 +132,7 @@ class Coverage:
             row.origins.setdefault(key, origin)
             known.states[state.id] = row, key
             for transition in state.transitions:
-                # That of a parallel state may be in its regions as well.
+                # Regions of a parallel state may have copies of its transition.
                 if _identity(transition) not in known.transitions:
                     number = len(machine.states) + len(known.transitions)
                     key = self._key(transition.origin, machine, number)
@@ -144,19 +143,19 @@ class Coverage:
     def _key(self, origin: object, machine: Machine, number: int) -> _Key:
         place = _place(origin)
         if place is None:
-            # Two documents may give their machines the same name.
+            # Two documents may have machines with the same name.
             return self._files.get(machine, machine.name), number
         return place.source.name, place.start
 
 
 def _identity(transition: Transition) -> int:
-    """What tells transitions of the model apart, however many the engine has for one."""
+    """Return a key that is the same for all engine transitions of a model transition."""
     modelled = isinstance(transition.origin, ModelTransition)
     return id(transition.origin if modelled else transition)
 
 
 def _place(origin: object) -> Span | None:
-    """Where something stands in the text of the model."""
+    """Return the span of an element in the model."""
     place = origin if isinstance(origin, Span) else getattr(origin, "origin", None)
     return place if isinstance(place, Span) else None
 

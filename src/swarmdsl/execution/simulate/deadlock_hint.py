@@ -1,4 +1,4 @@
-"""What to do about a run in which all wait for events that nobody sends."""
+"""Hint for a run in which all machines wait for events that nobody sends."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.project.read_source import read_source
 
 _MOST = 5
-"""How many events are named."""
+"""Maximum number of events in the hint."""
 
 
-def advice(awaited: list[str], subject: Subject, start: Path) -> str:
-    """Which events are waited for, and how they come: by a scenario of the project at `start`."""
+def deadlock_hint(awaited: list[str], subject: Subject, start: Path) -> str:
+    """Name the awaited events, and a scenario of the project at `start` for them."""
     events = printable(listed(awaited[:_MOST], "or"))
     more = " and others" if len(awaited) > _MOST else ""
     project = find_file(start)
@@ -27,7 +27,7 @@ def advice(awaited: list[str], subject: Subject, start: Path) -> str:
 
 
 def _scenario(folder: Path, subject: Subject) -> str | None:
-    """A file there that is a scenario of this model, and sends something."""
+    """Find a scenario of this model in a folder that sends messages."""
     for path in files_below(folder, ".toml"):
         report = Diagnostics()
         source = read_source(path, None, report)

@@ -1,4 +1,4 @@
-"""Lengths of time: as they are written, and those that chance decides."""
+"""Durations: parsing, formatting and random distributions."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ MILLISECOND = UNITS["ms"]
 SECOND = UNITS["s"]
 
 _WRITTEN = re.compile(rf"\s*([0-9]+(?:\.[0-9]+)?)\s*({'|'.join(UNITS)})\s*")
-# 292 years: what ROS holds at most.
+# 292 years: the maximum in ROS.
 _LONGEST = 2**63 - 1
-# So many evenly spread numbers have, added, a variance of 1, and are normally spread nearly.
+# The sum of 12 uniform numbers has a variance of 1 and is nearly normal.
 _ADDED = 12
 
 
 def duration(text: str) -> int | None:
-    """The nanoseconds of a duration like `1.5 min`; None for anything else."""
+    """Parse a duration like `1.5 min` into nanoseconds; None if invalid."""
     found = _WRITTEN.fullmatch(text)
     if found is None or len(found[1]) > len(str(_LONGEST)):
         return None
@@ -29,12 +29,12 @@ def duration(text: str) -> int | None:
 
 
 def is_too_long(text: str) -> bool:
-    """Whether a text is a duration but for its length, which ROS cannot hold."""
+    """Return True if a string is a duration that is too long for ROS."""
     return _WRITTEN.fullmatch(text) is not None and duration(text) is None
 
 
-def shown(length: int) -> str:
-    """A duration for people: `850 ms`, `12.5 s`, `4 min 3 s`, `2 h 0 min`."""
+def format_duration(length: int) -> str:
+    """Format a duration: `850 ms`, `12.5 s`, `4 min 3 s`, `2 h 0 min`."""
     if length < SECOND:
         return f"{length / MILLISECOND:.10g} ms"
     if length < 60 * SECOND:
@@ -47,40 +47,40 @@ def shown(length: int) -> str:
 
 @dataclass(frozen=True)
 class Fixed:
-    """Always the same length."""
+    """Constant duration."""
 
     length: int
 
     def draw(self, _chance: Random) -> int:
-        """The length."""
+        """Return the duration."""
         return self.length
 
 
 @dataclass(frozen=True)
 class Uniform:
-    """Any length between two, in whole milliseconds."""
+    """Uniform distribution, in whole milliseconds."""
 
     low: int
     high: int
 
     def draw(self, chance: Random) -> int:
-        """One of them."""
+        """Draw a duration."""
         return _whole(self.low + (self.high - self.low) * chance.random())
 
 
 @dataclass(frozen=True)
 class Normal:
-    """Lengths around a mean, in whole milliseconds, never less than none.
+    """Normal distribution, in whole milliseconds, cut off at 0.
 
-    The sum of twelve numbers: `Random.gauss` asks the platform for a logarithm, whose last
-    digit differs. So does that of `sum`, between versions of Python.
+    Computed as a sum of twelve uniform numbers: `Random.gauss` uses a logarithm of the platform,
+    whose last digit varies. That of `sum` varies between versions of Python.
     """
 
     mean: int
     deviation: int
 
     def draw(self, chance: Random) -> int:
-        """One of them."""
+        """Draw a duration."""
         spread = math.fsum(chance.random() for _ in range(_ADDED)) - _ADDED / 2
         return _whole(self.mean + self.deviation * spread)
 

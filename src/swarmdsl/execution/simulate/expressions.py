@@ -1,7 +1,7 @@
-"""Expressions as functions; the text of a model is never evaluated as code.
+"""Compile expressions to functions; model text is never evaluated as code.
 
-Values are as in Python: whole numbers of any size, `/` the division of real numbers, `%` with
-the sign of the divisor. Durations are in nanoseconds, messages are dictionaries.
+Values are those of Python: integers of any size, `/` as true division, `%` with the sign of the
+divisor. Durations are in nanoseconds, messages are dictionaries.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from swarmdsl.ir import (
 from swarmdsl.ir.operations import OPERATIONS
 
 Value = Callable[[Mapping[str, Any], Any], Any]
-"""The value of an expression, given the data of the machine and the message of the event."""
+"""Compiled expression; takes the data of the machine and the event message."""
 
 
 def function_of(expression: Expression) -> Value:
-    """The expression as a function.
+    """Compile an expression.
 
-    Called, it raises ArithmeticError or ValueError where an operation has no result, and
-    ExecutionError where a message has no such field.
+    The function raises ArithmeticError or ValueError if an operation has no result, and
+    ExecutionError for a missing field of a message.
     """
     match expression:
         case Literal(value=literal):
@@ -69,13 +69,13 @@ def _binary(symbol: str, left: Value, right: Value) -> Value:
 
 
 def _checked(symbol: str, operation: Value) -> Value:
-    """Where the fields of a message are not known, anything may be in them."""
+    """Convert TypeErrors: fields of an unknown message type can have any value."""
 
     def value(data: Mapping[str, Any], message: Any) -> Any:
         try:
             return operation(data, message)
         except TypeError:
-            raise ExecutionError(f"`{symbol}` does not work on what a message holds") from None
+            raise ExecutionError(f"`{symbol}` is not defined for a value in the message") from None
 
     return value
 

@@ -1,4 +1,4 @@
-"""Events from outside: a line of JSON each."""
+"""Events from outside, as JSON Lines."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LONGEST = 2**63 // MILLISECOND
 
 @dataclass(frozen=True)
 class Input:
-    """An event, the time that passes before it, and the machines that it reaches."""
+    """Event, the time to wait before it, and the machines that receive it."""
 
     event: str
     after: int
@@ -33,7 +33,7 @@ class Input:
 
 
 class Reader:
-    """Reads lines, and reports what is wrong with one at its place."""
+    """Parse lines, and report errors with their spans."""
 
     def __init__(self, subject: Subject, actors: Iterable[Actor], report: Diagnostics) -> None:
         self._subject = subject
@@ -41,7 +41,7 @@ class Reader:
         self.report = report
 
     def file(self, source: Source) -> list[Input]:
-        """All lines of a file; empty ones are passed over."""
+        """Parse all lines of a file; skip empty ones."""
         found: list[Input] = []
         for start, end in zip(source.line_starts, [*source.line_starts[1:], None], strict=True):
             place = Span(source, start, len(source.text) if end is None else end - 1)
@@ -51,7 +51,7 @@ class Reader:
         return found
 
     def stream(self, lines: Iterable[bytes]) -> Iterator[Input | None]:
-        """The lines of a stream as they come; None for one that is wrong."""
+        """Parse the lines of a stream as they arrive; None for an invalid one."""
         for number, line in enumerate(lines):
             before = "\n" * number
             text = before + line.decode("utf-8", "replace").rstrip("\r\n")
@@ -82,11 +82,11 @@ class Reader:
             self._bad(Span(place.source, start, start + len(word)), reason)
             return None
         except ValueError:
-            # Python's own limit for the digits of a whole number.
-            self._bad(place, "a number in it has too many digits")
+            # Limit of Python for the digits of an integer.
+            self._bad(place, "a number has too many digits")
             return None
         if not isinstance(value, dict):
-            self._bad(place, f"an object is wanted, not {kind(value)}")
+            self._bad(place, f"expected an object, not {kind(value)}")
             return None
         return self._object(value, place)
 
@@ -100,7 +100,7 @@ class Reader:
                 return None
         name = value.get("event")
         if not isinstance(name, str) or not name:
-            self._bad(place, 'it needs an `"event"`, the name of one')
+            self._bad(place, 'missing key `"event"`, the name of an event')
             return None
         after = value.get("after", 0)
         if isinstance(after, bool) or not isinstance(after, (int, float)) or not _is_time(after):
@@ -122,7 +122,7 @@ class Reader:
         return Input(name, round(after * MILLISECOND), data, to)
 
     def _recipients(self, member: Any, event: str, place: Span) -> tuple[Actor, ...] | None:
-        """Who hears it: whoever is named, else all that listen."""
+        """Return the named recipients, or all machines that react to the event."""
         if member is None:
             alone = self._subject.swarm is None
             return tuple(each for each in self._actors if alone or each.listens(event))
@@ -144,7 +144,7 @@ class Reader:
         return listening or tuple(named)
 
     def _is_known(self, name: str, place: Span) -> bool:
-        """Whether there is such an event; a machine has more than those of the model."""
+        """Return True if the event exists; machines have more than the model declares."""
         if any(each.listens(name) for each in self._actors):
             return True
         system = self._subject.system
@@ -170,7 +170,7 @@ class Reader:
 
 
 def lines_of(descriptor: int) -> Iterator[bytes]:
-    """The lines of an open file, each as soon as it is there. Raises OSError."""
+    """Yield the lines of an open file as they arrive. Raises OSError."""
     rest = b""
     while chunk := os.read(descriptor, 1 << 16):
         *lines, rest = (rest + chunk).split(b"\n")
@@ -180,7 +180,7 @@ def lines_of(descriptor: int) -> Iterator[bytes]:
 
 
 def _at(place: Span, word: str) -> Span:
-    """Where a word stands in a line, else the whole line."""
+    """Return the span of a word in a line, or of the whole line."""
     start = place.text.find(json.dumps(word))
     if start < 0:
         start = place.text.find(json.dumps(word, ensure_ascii=False))
@@ -195,11 +195,11 @@ def _is_time(after: float) -> bool:
 
 
 class _JsonError(ValueError):
-    """What Python takes for JSON, but what means nothing, or not one thing; why, and the word."""
+    """JSON that Python accepts but is invalid or ambiguous; reason and word."""
 
 
 def _no_number(word: str) -> Any:
-    raise _JsonError(f"`{word}` is no number of JSON", word)
+    raise _JsonError(f"`{word}` is not a JSON number", word)
 
 
 def _real(word: str) -> float:
@@ -210,10 +210,10 @@ def _real(word: str) -> float:
 
 
 def _fields(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """An object, of whose keys none is there twice: the first value would be lost."""
+    """Create an object; duplicate keys are an error."""
     found: dict[str, Any] = {}
     for key, value in pairs:
         if key in found:
-            raise _JsonError(f"`{key}` stands in it twice", key)
+            raise _JsonError(f"`{key}` is a duplicate key", key)
         found[key] = value
     return found

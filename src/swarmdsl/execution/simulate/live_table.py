@@ -1,4 +1,4 @@
-"""Who is where right now, on a terminal."""
+"""Live table of member states on a terminal."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from rich.text import Text
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.durations import shown
+from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.trace import Line
 
 _REFRESHED = 8
-"""How often a second: what happens faster than that nobody sees."""
+"""Refresh rate per second."""
 
 
 class Board:
-    """A table of members and states with a bar of the time that has passed."""
+    """Table of members and states, with a progress bar of virtual time."""
 
     def __init__(self, cast: Iterable[Actor], clock: Clock, until: int, console: Console) -> None:
         self._last: dict[Actor, Line | None] = dict.fromkeys(cast)
@@ -33,8 +33,8 @@ class Board:
         """Keep the last line of each machine."""
         self._last[line.actor] = line
 
-    def shown(self) -> Live:
-        """The board while it is shown; it is gone afterwards."""
+    def display(self) -> Live:
+        """Return the live display, which is removed at the end."""
         return Live(
             console=self._console,
             get_renderable=self.drawn,
@@ -43,17 +43,19 @@ class Board:
         )
 
     def drawn(self) -> Group:
-        """The table and the bar as they are now."""
+        """Render the current table and progress bar."""
         table = Table("member", "is in", "since", box=None, pad_edge=False, header_style="bold")
         rows = max(self._console.height - 5, 1)
         lines = list(self._last.items())
         for actor, line in lines[:rows]:
             who = printable(actor.name or actor.machine.name)
             where = printable(", ".join(line.configuration)) if line is not None else ""
-            since = shown(line.time) if line is not None else ""
+            since = format_duration(line.time) if line is not None else ""
             table.add_row(Text(who), Text(where, style="cyan"), since)
         if len(lines) > rows:
             table.add_row(f"and {len(lines) - rows} more", "", "")
         now = min(self._clock.now, self._until)
         bar = ProgressBar(total=max(self._until, 1), completed=now, width=50)
-        return Group(table, Text(), bar, Text(f" {shown(now)} of {shown(self._until)}"))
+        return Group(
+            table, Text(), bar, Text(f" {format_duration(now)} of {format_duration(self._until)}")
+        )

@@ -1,4 +1,4 @@
-"""Random numbers that depend on what they are for, and on nothing else."""
+"""Random numbers that depend only on a seed and a purpose."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ from hashlib import sha256
 from random import Random
 
 
-class Chance:
-    """A stream of numbers for each question, made of a seed and the words of the question.
+class RandomSource:
+    """Independent random stream for each question, derived from seed and words.
 
-    So whoever is added to a swarm changes nothing for the others, and a run is the same on
-    every platform.
+    Adding members to a swarm thus changes nothing for the others, and a run is the same on every
+    platform.
     """
 
     def __init__(self, seed: int) -> None:
         self.seed = seed
 
-    def about(self, *words: str | int | None) -> Random:
-        """The numbers for a question."""
+    def stream(self, *words: str | int | None) -> Random:
+        """Return the random stream of a question."""
         text = "\0".join(map(str, (self.seed, *words)))
         return Random(int.from_bytes(sha256(text.encode()).digest(), "big"))

@@ -1,4 +1,4 @@
-"""A trace of robots, held against the model: what happened to them happens to its machines."""
+"""Replay traces of robots on the model."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from swarmdsl.codegen.shared.default_values import default_value, result_fields
 from swarmdsl.execution.engine import Event, Instance, InstanceLike, LoopError, Run, Servers
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.durations import MILLISECOND, shown
+from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.simulate.trace_line import NAMES, read_line
@@ -22,14 +22,14 @@ from swarmdsl.execution.simulate.world import LOST
 from swarmdsl.ir import Field, Message, System, Type
 
 SHUTDOWN = "node.shutdown"
-"""The event of a machine that was stopped from outside, in a trace of a robot."""
+"""Trace event of a machine that was stopped from outside."""
 _EARLY = 5 * MILLISECOND
-"""How much sooner than the model says a delay may be over: a trace has whole milliseconds."""
+"""Tolerance for the end of delays: traces have whole milliseconds."""
 
 
 @dataclass(frozen=True)
 class _Record:
-    """A line of the trace, and where it stands."""
+    """Line of a trace, with its span."""
 
     time: int
     event: str | None
@@ -40,7 +40,7 @@ class _Record:
 
 @dataclass(frozen=True)
 class Replayed:
-    """How much of a trace is as the model says: lines, and members."""
+    """Number of conforming lines and members of a trace."""
 
     lines: int
     members: int
@@ -49,7 +49,7 @@ class Replayed:
 def replay(
     source: Source, subject: Subject, cast: Sequence[Actor], report: Diagnostics
 ) -> Replayed:
-    """Hold each line of a trace against the model; the first that departs of each is reported."""
+    """Replay a trace; report the first difference of each member."""
     by_member: dict[str | None, list[_Record]] = {}
     for start, end in zip(source.line_starts, [*source.line_starts[1:], None], strict=True):
         place = Span(source, start, len(source.text) if end is None else end - 1)
@@ -60,23 +60,23 @@ def replay(
     for member, records in by_member.items():
         actor = actors.get(member)
         if actor is None and len(by_member) == len(actors) == 1:
-            # A machine alone is called by no name, whoever ran it.
+            # A single machine has no name, whoever ran it.
             (actor,) = actors.values()
         if actor is None:
             _report_member(member, records[0].place, actors, report)
             continue
-        followed += _Replay(actor, subject, report).follow(records)
+        followed += _Replay(actor, subject, report).replay(records)
     return Replayed(followed, len(by_member))
 
 
 def _read(place: Span, by_member: dict[str | None, list[_Record]], report: Diagnostics) -> None:
-    """Read a line; what is no line of a trace is reported."""
+    """Parse a line; report an invalid one."""
     value = read_line(place.text)
     if isinstance(value, dict):
         record = _Record(value["t"] * MILLISECOND, value["event"], value.get("data"), value, place)
         by_member.setdefault(value.get("member"), []).append(record)
         return
-    help_ = "`swarmc simulate --trace json` writes such lines, and nodes of target `ros2` do"
+    help_ = "`swarmc simulate --trace json` and nodes of target `ros2` write trace lines"
     report.report("bad-trace-line", place, reason=value, help=help_)
 
 
@@ -89,7 +89,7 @@ def _report_member(
 
 
 class _Delay:
-    """A delay that is going on: when it is over, and what is done then."""
+    """Pending delay with its due time and action."""
 
     def __init__(self, due: int, action: Callable[[], None]) -> None:
         self.due = due
@@ -97,7 +97,7 @@ class _Delay:
 
 
 class _Replay:
-    """One machine, to which happens what a trace says; the `World` of the engine."""
+    """`World` of a single machine that reproduces the events of a trace."""
 
     def __init__(self, actor: Actor, subject: Subject, report: Diagnostics) -> None:
         self._actor = actor
@@ -112,57 +112,57 @@ class _Replay:
         self._instance = Instance(actor.machine, self, data=actor.data, servers=Servers())
         self._trace.watch(self._instance, actor)
 
-    def follow(self, records: Sequence[_Record]) -> int:
-        """How many records are as the model says; what is wrong with the next is reported."""
+    def replay(self, records: Sequence[_Record]) -> int:
+        """Return the number of conforming records; report the first difference."""
         for number, record in enumerate(records):
             self._clock.advance(max(record.time - self._clock.now, 0))
             if not self._lines:
-                wrong = self._cause(record)
+                wrong = self._apply(record)
                 if wrong:
-                    self._depart(record, wrong)
+                    self._report_difference(record, wrong)
                     return number
             if not self._lines:
-                self._depart(record, "the model takes no notice of it")
+                self._report_difference(record, "the model ignores it")
                 return number
             line = self._lines.popleft()
             wrong = _difference(line, record)
             if wrong:
-                self._depart(record, wrong)
+                self._report_difference(record, wrong)
                 return number
             self._last = line.configuration
         return len(records)
 
-    # ---- what the engine asks of it
+    # ---- called by the engine
 
     def schedule(self, delay: int, action: Callable[[], None]) -> _Delay:
-        """Keep it until the trace says that it is over."""
+        """Keep the delay until the trace says that it is over."""
         made = _Delay(self._clock.now + delay, action)
         self._delays.append(made)
         return made
 
     def unschedule(self, handle: _Delay) -> None:
-        """Forget it."""
+        """Remove the delay."""
         self._delays.remove(handle)
 
     def start(self, run: Run) -> None:
-        """Keep it until the trace says how it ends."""
+        """Keep the run until the trace says how it ends."""
         self._runs.append(run)
 
     def cancel(self, run: Run) -> None:
-        """Let its server be free: a trace does not tell when that was."""
+        """Free the server at once: traces do not contain the time of that."""
         self._runs.remove(run)
         run.end("preempted")
 
     def send(self, instance: InstanceLike, event: Event) -> None:
-        """Do nothing: what others heard is in their lines."""
+        """Do nothing: other members have their own lines."""
 
     def failed(self, instance: InstanceLike, error: Exception) -> None:
-        """Do nothing: the line shows what came of it."""
+        """Do nothing: the line shows the effect."""
 
-    # ---- inside
+    # ---- internal
 
-    def _cause(self, record: _Record) -> str:
-        """Let happen what the record says; why that cannot be, where it cannot."""
+    def _apply(self, record: _Record) -> str:
+        """Reproduce the event of a record; return the reason if that is impossible."""
         name, instance = record.event, self._instance
         try:
             if name is None:
@@ -171,7 +171,7 @@ class _Replay:
                 self._trace.begin(instance, None)
                 instance.start()
             elif not instance.running:
-                return "it does something after its end" if instance.final else "it has not started"
+                return "it is active after its end" if instance.final else "it has not started"
             elif name in (SHUTDOWN, LOST):
                 self._trace.begin(instance, name)
                 if name == LOST:
@@ -194,9 +194,9 @@ class _Replay:
     def _end_delay(self, name: str) -> str:
         found = next((each for each in self._delays if _event_of(each.action) == name), None)
         if found is None:
-            return f"no delay `{name}` is going on"
+            return f"delay `{name}` is not running"
         if self._clock.now < found.due - _EARLY:
-            return f"by the model it is over at {shown(found.due)}, not before"
+            return f"in the model it ends at {format_duration(found.due)}, not before"
         self._delays.remove(found)
         found.action()
         return ""
@@ -208,7 +208,7 @@ class _Replay:
                     self._runs.remove(run)
                     run.end(outcome, self._result(run, data) if outcome == "succeeded" else data)
                     return ""
-        return f"no activity that could end so is going on: `{name}`"
+        return f"no running activity can end with `{name}`"
 
     def _message(self, name: str, data: Any) -> Any:
         system = self._subject.system
@@ -224,8 +224,8 @@ class _Replay:
             return _with_fields(fields, data, system)
         return data if isinstance(data, dict) else {}
 
-    def _depart(self, record: _Record, wrong: str) -> None:
-        """Report that a record is not what the model says, with the states it was in."""
+    def _report_difference(self, record: _Record, wrong: str) -> None:
+        """Report a difference, with the states of the machine."""
         machine = self._actor.machine
         origins = [machine.states[machine.numbers[state]].origin for state in self._last]
         places = [place for place in map(self._subject.place, origins) if place is not None]
@@ -234,22 +234,22 @@ class _Replay:
             record.place,
             who=f"`{self._actor.name or machine.name}`",
             event=f"`{record.event}`" if record.event is not None else "its start",
-            time=shown(record.time),
+            time=format_duration(record.time),
             label=wrong,
             related=tuple(Label(place, "it was in this state") for place in places),
         )
 
 
 def _event_of(action: Callable[[], None]) -> str | None:
-    """The event of a delay: what the engine schedules is a method of its timer."""
+    """Return the event of a delay: its action is a method of the engine's timer."""
     timer = getattr(action, "__self__", None)
     return str(timer.event.name) if timer is not None else None
 
 
 def _difference(line: Line, record: _Record) -> str:
-    """What of a record is not as in the line that the model makes; empty where nothing is."""
+    """Return the difference between a line of the model and a record, or ""."""
     if line.event != record.event:
-        return f"first the model looks at `{line.event}`"
+        return f"the model first processes `{line.event}`"
     for key in NAMES:
         expected, found = getattr(line, key), record.done[key]
         if expected != found:
@@ -262,7 +262,7 @@ def _list(names: Sequence[str]) -> str:
 
 
 def _as(type_: Type, data: Any, system: System) -> Any:
-    """Data of a robot as that of a model: fields that it does not know are left out."""
+    """Convert data of a robot to a type of the model; unknown fields are dropped."""
     described = system.interface(type_)
     if isinstance(described, Message):
         return _with_fields(described.fields, data, system)

@@ -1,4 +1,4 @@
-"""Runs a world: in virtual time as fast as it goes, or as fast as time passes."""
+"""Run a world, in virtual or real time."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from swarmdsl.execution.simulate.inputs import Input
 from swarmdsl.execution.simulate.world import World
 
 DEFAULT_UNTIL = 10 * 60 * SECOND
-"""How long a run takes at most, after the last event from outside, if nothing is said."""
+"""Default limit of a run, after the last event from outside."""
 
 Ending = Literal["ended", "quiet", "stopped"]
-"""All machines have ended; nothing can happen any more; the time was over."""
+"""All machines ended; nothing is scheduled; the time limit was reached."""
 
-# So that an interrupt is noticed on every platform.
+# Short enough to notice an interrupt on every platform.
 _NAP = 0.2
-# How soon after it has come an event is looked at, in seconds.
+# Polling interval for events, in seconds.
 _BLINK = 0.01
 
 
 class Pace:
-    """Lets virtual time pass no faster than real time does."""
+    """Synchronize virtual time with real time."""
 
     def __init__(self) -> None:
         self._start = time.monotonic_ns()
 
     @property
     def now(self) -> int:
-        """The nanoseconds since the start."""
+        """Nanoseconds since the start."""
         return time.monotonic_ns() - self._start
 
     def wait(self, until: int) -> None:
-        """Wait for a moment."""
+        """Wait until a time."""
         while (left := until - self.now) > 0:
             time.sleep(min(left / SECOND, _NAP))
 
@@ -43,9 +43,9 @@ class Pace:
 def run(
     world: World, inputs: Iterable[Input | None], until: int | None, pace: Pace | None = None
 ) -> Ending:
-    """Start all machines, and run them with these events; None is one that was wrong.
+    """Start all machines and process the inputs; None stands for an invalid one.
 
-    Raises LoopError where a machine does not come to rest.
+    Raises LoopError if a machine does not come to rest.
     """
     world.begin()
     last = 0
@@ -69,9 +69,9 @@ def run(
 def run_live(
     world: World, arrivals: SimpleQueue[Input | None], until: int | None, pace: Pace
 ) -> Ending:
-    """The same in real time, with events that come at any time; None is the last one.
+    """Run in real time, with inputs that arrive at any time; None is the last one.
 
-    Raises LoopError where a machine does not come to rest.
+    Raises LoopError if a machine does not come to rest.
     """
     world.begin()
     while until is None or pace.now < until:
@@ -93,7 +93,7 @@ def _arrival(world: World, each: Input) -> Callable[[], None]:
 
 
 def _let_happen(world: World, until: int, pace: Pace | None) -> None:
-    """Do all that is to be done until then."""
+    """Execute everything that is due until then."""
     while not world.over and (due := world.clock.next) is not None and due <= until:
         if pace is not None:
             pace.wait(due)

@@ -1,4 +1,4 @@
-"""What happens around a swarm: how functions end, what is heard, what breaks."""
+"""Scenarios: function behavior, network, messages and faults."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ EVERY_FUNCTION = "*"
 
 @dataclass(frozen=True)
 class Robot:
-    """A member of a swarm; without a name where a machine runs alone."""
+    """Member of a swarm; without a name for a single machine."""
 
     name: str | None = None
     role: str = ""
@@ -22,15 +22,15 @@ class Robot:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """What it is meant by: the type of member, the role, the name, the last one first."""
+        """Words that select it: type of member, role and name, the most specific last."""
         return (self.kind, self.role, self.name) if self.name is not None else ()
 
 
 @dataclass(frozen=True)
-class Conduct:
-    """How a function behaves when it is called; what is left of the probability is success.
+class FunctionBehavior:
+    """Behavior of a called function; the remaining probability is that of success.
 
-    `never` is that of giving no answer. One of the `results` comes with a success.
+    `never` is the probability of no answer. One of the `results` is returned on success.
     """
 
     duration: Length = ONE_SECOND
@@ -41,7 +41,7 @@ class Conduct:
     results: tuple[Mapping[str, Any], ...] = ()
 
     def outcome(self, chance: Random) -> str | None:
-        """How a call ends, None for never."""
+        """Draw the outcome of a call, None for no answer."""
         drawn = chance.random()
         for outcome, share in (
             ("aborted", self.aborted),
@@ -56,7 +56,7 @@ class Conduct:
 
 @dataclass(frozen=True)
 class Message:
-    """An event that comes from outside, at a time or again and again; `to` names robots."""
+    """Event from outside, once or periodically; `to` selects robots."""
 
     event: str
     at: Length
@@ -67,7 +67,7 @@ class Message:
 
 @dataclass(frozen=True)
 class Fault:
-    """A robot that is lost, or a function of it that stops answering, for a while or for good."""
+    """Loss of a robot, or of answers of a function, temporary or permanent."""
 
     at: Length
     of: tuple[str, ...] | None = None
@@ -77,10 +77,10 @@ class Fault:
 
 @dataclass(frozen=True)
 class Scenario:
-    """All of it, as plain data; the default is a world in which every function succeeds.
+    """A scenario as plain data; by default, every function succeeds.
 
-    `functions` has what is said of a function, by its name and by whom it is said of: a type
-    of member, a role, a robot, or nobody in particular (""). `params` has values by whom.
+    The keys of `functions` are a function name and a word that selects robots: a type of member, a
+    role, a robot, or "" for all. `params` has values by such words.
     """
 
     seed: int = 0
@@ -93,15 +93,15 @@ class Scenario:
     messages: tuple[Message, ...] = ()
     faults: tuple[Fault, ...] = ()
 
-    def conduct(self, function: str, robot: Robot) -> Conduct:
-        """How a function of a robot behaves: what is said of it most closely counts."""
+    def behavior(self, function: str, robot: Robot) -> FunctionBehavior:
+        """Return the behavior of a robot's function; the most specific setting wins."""
         said: dict[str, Any] = {}
         for name in (EVERY_FUNCTION, function):
             for word in ("", *robot.words):
                 said.update(self.functions.get((name, word), {}))
-        return replace(Conduct(), **said)
+        return replace(FunctionBehavior(), **said)
 
 
-def meant(robot: Robot, words: tuple[str, ...] | None) -> bool:
-    """Whether a robot is one of those named; nobody in particular means all."""
+def is_selected(robot: Robot, words: tuple[str, ...] | None) -> bool:
+    """Return True if a word selects the robot; None selects all robots."""
     return words is None or any(word in words for word in robot.words)

@@ -1,4 +1,4 @@
-"""Scenarios from TOML: everything that is named in one exists, and has values that fit."""
+"""Read scenarios from TOML, and check their names and values."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FUNCTION = ("duration", "stopping", *_SHARES, "results", "of")
 
 
 def read_scenario(document: Document, subject: Subject, report: Diagnostics) -> Scenario:
-    """The scenario in a document; incomplete where errors were reported."""
+    """Read the scenario in a document; incomplete if errors were reported."""
     return _Reader(document, subject, report).read()
 
 
@@ -32,13 +32,13 @@ class _Reader:
         self.report = report
         self.robots: list[Robot] = []
         self.members: list[str] = []
-        """All words that members are meant by."""
+        """All words that select members."""
 
     def read(self) -> Scenario:
         top = self.top
         top.check_keys(TABLES, "a scenario")
         counts = self.counts()
-        self.robots = self.subject.crew(counts)
+        self.robots = self.subject.create_robots(counts)
         self.members = list(dict.fromkeys(w for robot in self.robots for w in robot.words))
         network = top.inside("network")
         network.check_keys(("latency", "loss"), "`[network]`")
@@ -58,7 +58,7 @@ class _Reader:
         )
 
     def counts(self) -> dict[str, int]:
-        """How many there are of each role, as its multiplicity allows."""
+        """Read the number of members by role, within its multiplicity."""
         table = self.top.inside("count")
         roles = {r.name: r for r in self.subject.swarm.roles} if self.subject.swarm else {}
         found: dict[str, int] = {}
@@ -73,7 +73,7 @@ class _Reader:
         return found
 
     def params(self) -> dict[str, dict[str, Any]]:
-        """The values of params, by whom they are given to."""
+        """Read param values by the word that selects members."""
         top = self.top.inside("params")
         known: dict[str, dict[str, Type]] = {}
         for robot in self.robots:
@@ -94,7 +94,7 @@ class _Reader:
         return found
 
     def param_values(self, table: Table, types: Mapping[str, Type]) -> dict[str, Any]:
-        """The values of the params of one machine."""
+        """Read the param values of a machine."""
         found: dict[str, Any] = {}
         for name in table.values:
             if name not in types:
@@ -106,7 +106,7 @@ class _Reader:
         return found
 
     def functions(self) -> dict[tuple[str, str], dict[str, Any]]:
-        """What is said of each function, in general and of members."""
+        """Read the settings of each function, for all or for some members."""
         top = self.top.inside("functions")
         known = self.known_functions()
         found: dict[tuple[str, str], dict[str, Any]] = {}
@@ -115,22 +115,22 @@ class _Reader:
                 top.unknown(top.key_place(name), name, known, "function")
                 continue
             table = top.inside(name)
-            found[name, ""] = self.conduct(table, known[name], _FUNCTION)
+            found[name, ""] = self.behavior(table, known[name], _FUNCTION)
             others = table.inside("of")
             for member in others.values:
                 if member not in self.members:
                     others.unknown(others.key_place(member), member, self.members, "member")
                     continue
                 inner = others.inside(member)
-                found[name, member] = self.conduct(inner, known[name], _FUNCTION[:-1])
+                found[name, member] = self.behavior(inner, known[name], _FUNCTION[:-1])
                 self.check_shares(inner, {**found[name, ""], **found[name, member]})
             self.check_shares(table, found[name, ""])
         return found
 
-    def conduct(
+    def behavior(
         self, table: Table, call: Communication | None, keys: tuple[str, ...]
     ) -> dict[str, Any]:
-        """What is said of a function, as far as it can be understood."""
+        """Read the valid settings of a function."""
         table.check_keys(keys, "a function")
         found: dict[str, Any] = {}
         for key in table.values:
@@ -143,7 +143,7 @@ class _Reader:
         return {key: value for key, value in found.items() if value is not None}
 
     def results(self, table: Table, call: Communication | None) -> tuple[Any, ...]:
-        """The results that a function may have."""
+        """Read the possible results of a function."""
         system = self.subject.system
 
         def fit(value: Any, way: Way) -> Any:
@@ -156,15 +156,15 @@ class _Reader:
         return tuple(each for each in found if each is not None)
 
     def check_shares(self, table: Table, said: Mapping[str, Any]) -> None:
-        """The probabilities of all that is no success are no more than one together."""
+        """Check that the probabilities of all outcomes but success are at most 1."""
         given = [share for share in _SHARES if share in table]
         together = sum(said.get(share, 0.0) for share in _SHARES)
         if given and together > 1 + 1e-9:
-            expected = "what the other outcomes leave of 1"
+            expected = "at most the remaining probability"
             table.wrong((given[-1],), expected, table.values[given[-1]])
 
     def known_functions(self) -> dict[str, Communication | None]:
-        """The functions there are, with how they are called where that is known."""
+        """Return the functions of the subject, with their communication if known."""
         found: dict[str, Communication | None] = {EVERY_FUNCTION: None}
         document = self.subject.document
         if document is not None:
@@ -176,7 +176,7 @@ class _Reader:
         return found
 
     def message(self, table: Table) -> Message | None:
-        """An event from outside."""
+        """Read an event from outside."""
         table.check_keys(("event", "at", "every", "to", "data"), "a message")
         if not self.needs(table, "event", "at"):
             return None
@@ -202,7 +202,7 @@ class _Reader:
         return Message(event, at, every, to, data) if at is not None else None
 
     def fault(self, table: Table) -> Fault | None:
-        """Something that breaks."""
+        """Read a fault."""
         table.check_keys(("at", "lost", "silent", "of", "lasts"), "a fault")
         if not self.needs(table, "at"):
             return None
@@ -210,11 +210,11 @@ class _Reader:
         if "lost" in table:
             for key in ("silent", "of", "lasts"):
                 if key in table:
-                    table.wrong((key,), "nothing where a member is lost", table.values[key])
+                    table.wrong((key,), "no such key for a lost member", table.values[key])
             of = table.names("lost", self.members, "member")
             return Fault(at, of) if at is not None else None
         if "silent" not in table:
-            help_ = "`lost` names a member that is lost, `silent` a function that does not answer"
+            help_ = "use `lost` to remove a member, `silent` for a function that does not answer"
             self.report.report("missing-key", table.value_place(()), name="lost", help=help_)
             return None
         function = table.name("silent", self.known_functions(), "function")
@@ -223,7 +223,7 @@ class _Reader:
         return Fault(at, to, function, lasts) if at is not None and function else None
 
     def needs(self, table: Table, *keys: str) -> bool:
-        """Whether a table has these keys; if not, that is reported."""
+        """Return True if a table has the keys; report a missing one."""
         for key in keys:
             if key not in table:
                 self.report.report("missing-key", table.value_place(()), name=key)

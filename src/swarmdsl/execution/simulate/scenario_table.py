@@ -1,4 +1,4 @@
-"""What may stand in a table of a scenario, whatever it is about: times, shares, names."""
+"""Typed access to tables of scenarios and tests."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _DURATION = f"{_LENGTH}, with {listed(list(UNITS))}"
 
 
 class Table:
-    """A table of a document; what is wrong with a value is reported, and the value is None."""
+    """TOML table; invalid values are reported and read as None."""
 
     def __init__(self, document: Document, keys: Keys, report: Diagnostics) -> None:
         self.document = document
@@ -43,7 +43,7 @@ class Table:
         return key in self.values
 
     def check_keys(self, known: Iterable[str], owner: str, what: str = "keys") -> None:
-        """Report keys that mean nothing."""
+        """Report unknown keys."""
         for key in self.values:
             if key not in known:
                 help_ = suggest(key, known, what)
@@ -52,13 +52,13 @@ class Table:
                 )
 
     def inside(self, key: str) -> Table:
-        """The table at a key, an empty one where there is none."""
+        """Return the table at a key, empty if missing."""
         if key not in self.values:
             return Table(Document(self.document.source, {}), (), self.report)
         return Table(self.document, (*self.keys, key), self.report)
 
     def items(self, key: str) -> Iterator[Table]:
-        """The tables of an array of tables; what is none of these is reported and left out."""
+        """Yield the tables of an array; report and skip other items."""
         found = self.values.get(key, [])
         if not isinstance(found, list):
             self.wrong((key,), f"tables: `[[{key}]]`", found)
@@ -69,7 +69,7 @@ class Table:
                 yield table
 
     def length(self, key: str) -> Length | None:
-        """A time: a fixed one, or one that chance decides."""
+        """Read a fixed or random duration."""
         value = self.values[key]
         if not isinstance(value, dict):
             fixed = self._duration((key,), value)
@@ -85,7 +85,7 @@ class Table:
     def _pair(self, name: str) -> Length | None:
         pair = self.values[name]
         if not isinstance(pair, list) or len(pair) != 2:
-            words = "the least and the greatest time" if name == "uniform" else "mean and deviation"
+            words = "minimum and maximum" if name == "uniform" else "mean and deviation"
             self.wrong((name,), f"a list of two times, {words}", pair)
             return None
         first, second = (self._duration((name, i), each) for i, each in enumerate(pair))
@@ -94,12 +94,12 @@ class Table:
         if name == "normal":
             return Normal(first, second)
         if first > second:
-            self.wrong((name,), "the least time before the greatest", pair)
+            self.wrong((name,), "the minimum before the maximum", pair)
             return None
         return Uniform(first, second)
 
     def duration(self, key: str) -> int | None:
-        """A time of a fixed length."""
+        """Read a fixed duration."""
         return self._duration((key,), self.values[key])
 
     def _duration(self, way: Way, value: Any) -> int | None:
@@ -110,7 +110,7 @@ class Table:
         return length
 
     def share(self, key: str) -> float | None:
-        """A probability."""
+        """Read a probability."""
         value = self.values[key]
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 <= value <= 1:
             self.wrong((key,), "a probability from 0 to 1", value)
@@ -118,7 +118,7 @@ class Table:
         return float(value)
 
     def whole(self, key: str, low: int | None = None, high: int | None = None) -> int | None:
-        """A whole number."""
+        """Read an integer."""
         value = self.values[key]
         plain = isinstance(value, int) and not isinstance(value, bool)
         if plain and (low is None or value >= low) and (high is None or value <= high):
@@ -132,11 +132,11 @@ class Table:
         return None
 
     def name(self, key: str, known: Iterable[str], what: str) -> str | None:
-        """A name out of some that there are."""
+        """Read one of the known names."""
         return self._name((key,), self.values[key], known, what)
 
     def names(self, key: str, known: Iterable[str], what: str) -> tuple[str, ...]:
-        """One name, or a list of them."""
+        """Read one or several known names."""
         value = self.values[key]
         if not isinstance(value, list):
             found = self._name((key,), value, known, what)
@@ -154,12 +154,12 @@ class Table:
         return None
 
     def unknown(self, place: Span, name: str, known: Iterable[str], what: str) -> None:
-        """Report a name that there is not."""
+        """Report an unknown name."""
         help_ = suggest(name, known, f"{what}s")
         self.report.report("unresolved-name", place, kind=what, name=name, help=help_)
 
     def fitted(self, fit: Callable[[Any, Way], T], *way: str | int) -> T | None:
-        """A value of a type of the model, below a key."""
+        """Read a value of a type of the model."""
         value: Any = self.values
         for key in way:
             value = value[key]
@@ -181,9 +181,9 @@ class Table:
         )
 
     def key_place(self, key: str) -> Span:
-        """Where a key stands."""
+        """Return the span of a key."""
         return self.document.places[(*self.keys, key)].key
 
     def value_place(self, way: Way) -> Span:
-        """Where the value that a way leads to stands."""
+        """Return the span of a value."""
         return self.document.places[(*self.keys, *way)].value

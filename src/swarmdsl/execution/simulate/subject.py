@@ -1,4 +1,4 @@
-"""What is simulated: a swarm of a model, or one machine of it or of an SCXML document."""
+"""Subject of a simulation: a swarm, or a machine of a model or SCXML document."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ MOST_MEMBERS = 10_000
 
 @dataclass(frozen=True)
 class Document:
-    """An SCXML file, read."""
+    """SCXML document with its machine."""
 
     source: Source
     machine: Machine
 
     @property
     def name(self) -> str:
-        """What it is called: its own name, or that of the file."""
+        """Name of the machine, or of the file."""
         path = self.source.path
         return path.stem if self.machine.name == "scxml" and path is not None else self.machine.name
 
 
 @dataclass
 class Subject:
-    """A swarm, or one machine: of the system, or of a document."""
+    """A swarm or a single machine, of a system or a document."""
 
     name: str
     system: System | None = None
@@ -44,17 +44,17 @@ class Subject:
     tables: dict[str, Machine] = field(default_factory=dict)
 
     def size(self, counts: Mapping[str, int]) -> int:
-        """How many members there are: as many as there must be, if nothing else is said.
+        """Return the number of members: by default, the minimum of each multiplicity.
 
-        One at least of each role; counts can say that there is none.
+        By default at least one of each role; counts can be 0.
         """
         return sum(self._number(role, counts) for role in self.swarm.roles) if self.swarm else 1
 
     def _number(self, role: ir.Role, counts: Mapping[str, int]) -> int:
         return counts.get(role.name, max(role.multiplicity.lower, 1))
 
-    def crew(self, counts: Mapping[str, int]) -> list[Robot]:
-        """The members, as many as `size` says, up to MOST_MEMBERS."""
+    def create_robots(self, counts: Mapping[str, int]) -> list[Robot]:
+        """Create the members, up to MOST_MEMBERS."""
         if self.swarm is None:
             return [Robot()]
         members = (
@@ -65,7 +65,7 @@ class Subject:
         return list(islice(members, MOST_MEMBERS))
 
     def behaviours(self, robot: Robot) -> Iterator[tuple[ir.Part | None, StateMachine]]:
-        """The machines of the model that a robot runs: its own, and those of its parts."""
+        """Yield the machines that a robot and its parts run."""
         if self.machine is not None:
             yield None, self.machine
         if self.system is None or self.swarm is None:
@@ -81,14 +81,14 @@ class Subject:
                 yield part, machines[behavior]
 
     def table(self, machine: StateMachine) -> Machine:
-        """The table of a machine, which all that run it share."""
+        """Return the engine table of a machine, shared by all its instances."""
         assert self.system is not None
         if machine.name not in self.tables:
             self.tables[machine.name] = table(machine, self.system)
         return self.tables[machine.name]
 
     def place(self, origin: object) -> Span | None:
-        """Where a state or transition of a table stands in a file."""
+        """Return the span of a state or transition."""
         if isinstance(origin, (ir.State, ir.Transition)):
             return origin.origin
         if isinstance(origin, int) and self.document is not None:
@@ -106,9 +106,9 @@ def choose(
     swarm: str | None,
     report: Diagnostics,
 ) -> Subject | None:
-    """What the command line names, else the only swarm there is, else the only machine.
+    """Return the named subject, else the only swarm, else the only machine.
 
-    None where there is no such thing, or more than one, which has been reported.
+    None if there is none or several, which is reported.
     """
     swarms = {each.name: each for each in system.swarms} if system is not None else {}
     machines: dict[str, StateMachine | Document] = {each.name: each for each in documents}
@@ -132,7 +132,7 @@ def choose(
     else:
         choices = [f"`--swarm {name}`" for name in swarms]
         choices += [f"`--machine {name}`" for name in machines]
-        help_ = f"say which: {', '.join(choices[:-1])} or {choices[-1]}"
+        help_ = f"choose one: {', '.join(choices[:-1])} or {choices[-1]}"
         report.report("unclear-subject", help=help_)
     return None
 

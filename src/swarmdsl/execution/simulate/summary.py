@@ -1,4 +1,4 @@
-"""A run in numbers: where everyone was, how functions ended, what was never seen."""
+"""Summary of a run: state times, function outcomes, coverage."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.execution.engine import Kind, Machine
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.coverage import Coverage
-from swarmdsl.execution.simulate.durations import shown
+from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.world import LOST, World
@@ -21,7 +21,7 @@ Row = Sequence[str]
 
 
 class Summary:
-    """Counts what the lines of a trace say."""
+    """Collect statistics from trace lines."""
 
     def __init__(self, subject: Subject, cast: Iterable[Actor]) -> None:
         self._subject = subject
@@ -39,7 +39,7 @@ class Summary:
         self._sent: Counter[str] = Counter()
 
     def note(self, line: Line) -> None:
-        """Count a line."""
+        """Process a trace line."""
         actor = line.actor
         before = self._last.get(actor)
         if before is not None:
@@ -60,12 +60,13 @@ class Summary:
                 self._times[line.actor.machine, state] += until - line.time
 
     def text(self, world: World, ending: str) -> Iterator[str]:
-        """The lines of the summary, for people."""
+        """Yield the lines of the summary."""
         now = world.clock.now
         for line in self._last.values():
             self._pass(line, now)
         members = counted(len(world.robots), "member") if self._subject.swarm else "one machine"
-        yield f"{printable(self._subject.name)}, {members}: {shown(now)} of virtual time, {ending}"
+        time = f"{format_duration(now)} of virtual time"
+        yield f"{printable(self._subject.name)}, {members}: {time}, {ending}"
         yield ""
         yield from _table(("member", "in the end", "since"), self._members(), left=2)
         yield from _table(("state", "time", "entered"), self._states())
@@ -75,7 +76,7 @@ class Summary:
 
     @property
     def awaited(self) -> list[str]:
-        """The events of the model that states wait for in which the machines are now."""
+        """Model events that the active states wait for."""
         found: dict[str, None] = {}
         for line in self._last.values():
             machine = line.actor.machine
@@ -85,7 +86,7 @@ class Summary:
                 found.update((name, None) for e in machine.edges[number] for name in e.events)
                 if number:
                     numbers.append(machine.parents[number])
-        # Those with a dot are of activities, delays and final states.
+        # Events with a dot are of activities, delays and final states.
         return [name for name in found if not {".", "*"} & set(name)]
 
     def _members(self) -> Iterator[Row]:
@@ -93,7 +94,7 @@ class Summary:
         for line in lines[:_MOST]:
             who = line.actor.name or line.actor.machine.name
             where = "lost" if line.event == LOST else ", ".join(line.configuration)
-            yield who, where, shown(self._since[line.actor])
+            yield who, where, format_duration(self._since[line.actor])
         if len(lines) > _MOST:
             yield f"and {len(lines) - _MOST} more", "", ""
 
@@ -114,11 +115,11 @@ class Summary:
 
     def _events(self, world: World) -> Iterator[Row]:
         for event, sent in self._sent.items():
-            counts = (sent, world.heard[event], world.lost[event])
+            counts = (sent, world.delivered[event], world.lost[event])
             yield event, *(str(count or "-") for count in counts)
 
     def _unseen(self) -> Iterator[str]:
-        """How much was seen, and what was not."""
+        """Yield the coverage and the unreached elements."""
         machines = self._coverage.machines
         states = counted(sum(len(each.states) for each in machines), "state")
         transitions = counted(sum(len(each.transitions) for each in machines), "transition")
@@ -140,7 +141,7 @@ def _is_over(line: Line) -> bool:
 
 
 def _table(head: Row, rows: Iterable[Row], left: int = 1) -> Iterator[str]:
-    """Names on the left, numbers on the right of their columns; nothing without rows."""
+    """Format a table with left- and right-aligned columns; empty without rows."""
     lines = [head, *([printable(cell) for cell in row] for row in rows)]
     if len(lines) == 1:
         return

@@ -1,4 +1,4 @@
-"""The shapes of a timeline as SVG."""
+"""SVG shapes of a timeline."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ _DEFINITIONS = """<defs>
 
 
 class Drawing:
-    """Shapes, in the order in which they are drawn; text is escaped here."""
+    """Shapes in drawing order; escapes strings."""
 
     def __init__(self, width: float, height: float) -> None:
         size = f'width="{_n(width)}" height="{_n(height)}" viewBox="0 0 {_n(width)} {_n(height)}"'
@@ -61,37 +61,37 @@ class Drawing:
         ]
 
     def text(self, x: float, y: float, text: str, style: str) -> None:
-        """A line of text."""
+        """Draw a line of text."""
         self._parts.append(f'<text class="{style}" x="{_n(x)}" y="{_n(y)}">{_text(text)}</text>')
 
     def line(self, x: float, y: float, to_x: float, to_y: float, style: str) -> None:
-        """A straight line."""
+        """Draw a straight line."""
         self._parts.append(f'<line class="{style}" {_ends(x, y, to_x, to_y)}/>')
 
     def rect(self, x: float, y: float, width: float, height: float, style: str) -> None:
-        """A rectangle."""
+        """Draw a rectangle."""
         self._parts.append(f'<rect class="{style}" {_box(x, y, width, height)}/>')
 
     def bar(self, x: float, y: float, width: float, height: float, colour: str, title: str) -> None:
-        """A rectangle that says what it is when one points at it."""
+        """Draw a rectangle with a tooltip."""
         self._parts.append(
             f'<rect class="bar" {_box(x, y, width, height)} rx="2" fill={quoteattr(colour)}>'
             f"<title>{_text(title)}</title></rect>"
         )
 
     def arrow(self, x: float, y: float, to_x: float, to_y: float, title: str) -> None:
-        """An arrow, with what it is."""
+        """Draw an arrow with a tooltip."""
         self._titled("arrow", _ends(x, y, to_x, to_y), title)
 
     def lost(self, x: float, y: float, to_x: float, to_y: float, title: str) -> None:
-        """An arrow that does not arrive."""
+        """Draw an arrow of a lost message."""
         self._titled("dropped", _ends(x, y, to_x, to_y), title)
 
     def _titled(self, style: str, ends: str, title: str) -> None:
         self._parts.append(f'<line class="{style}" {ends}><title>{_text(title)}</title></line>')
 
     def finish(self) -> str:
-        """The whole file."""
+        """Return the SVG file."""
         return "\n".join([*self._parts, "</svg>", ""])
 
 
@@ -108,5 +108,5 @@ def _box(x: float, y: float, width: float, height: float) -> str:
 
 
 def _n(number: float) -> str:
-    """A number as short as a hundredth of a pixel allows."""
+    """Format a number with at most two decimals."""
     return f"{number:.2f}".rstrip("0").rstrip(".")

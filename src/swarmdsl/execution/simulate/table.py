@@ -1,7 +1,7 @@
-"""State machines of a model as tables of the engine.
+"""Convert state machines of a model to tables of the engine.
 
-The events that triggers mean are those of portable SCXML; ids of states are as in the model.
-Where a state, transition or activity comes from is its `origin`: that of the IR.
+The event names are those of portable SCXML; state ids are as in the model. `origin` is the IR node
+of a state, transition or activity.
 """
 
 from __future__ import annotations
@@ -46,9 +46,9 @@ OUTCOMES = ("succeeded", "aborted", "preempted")
 
 
 def table(machine: ir.StateMachine, system: System) -> Machine:
-    """The machine as the engine runs it; the data of an instance are a dictionary by name.
+    """Convert a machine; instance data are a dictionary by name.
 
-    An instance that has values of its own for params gets them from `first_data`.
+    Instances with their own param values get their data from `first_data`.
     """
     maker = _Maker(machine, system)
     return Machine(
@@ -62,9 +62,9 @@ def table(machine: ir.StateMachine, system: System) -> Machine:
 def first_data(
     machine: ir.StateMachine, system: System, params: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """What variables and params hold at first, given the values of some params.
+    """Return the initial variables and params, given the values of some params.
 
-    Raises ValueError where a param has no value.
+    Raises ValueError for a param without a value.
     """
     data: dict[str, Any] = {}
     for param in machine.params:
@@ -83,12 +83,12 @@ def first_data(
 
 
 def first_value(param: ir.Param) -> Expression | None:
-    """The default of a param; that of the machine where those who behave so do not agree."""
+    """Return the default of a param; that of the machine if its owners disagree."""
     return param.default if param.default is not None else param.declared
 
 
 class _Maker:
-    """Makes the states of one machine."""
+    """Converter of the states of a machine."""
 
     def __init__(self, machine: ir.StateMachine, system: System) -> None:
         self.system = system
@@ -96,7 +96,7 @@ class _Maker:
         self.events = Events(machine, {state.id: state.id for state in machine.walk()})
 
     def state(self, state: ir.State, around: ir.State | None = None) -> State:
-        """A state and what is in it."""
+        """Convert a state and its content."""
         if state.kind is StateKind.HISTORY:
             default = Transition(targets=_targets(state.transitions[0]))
             kind = Kind.DEEP_HISTORY if state.deep else Kind.HISTORY
@@ -130,7 +130,7 @@ class _Maker:
         )
 
     def transition(self, transition: ir.Transition, state: ir.State) -> Transition:
-        """A transition of a state."""
+        """Convert a transition."""
         events = (e for t in transition.triggers for e in self.events.of_trigger(t, state))
         there = entered_region(transition, state) is not None
         return Transition(
@@ -143,7 +143,7 @@ class _Maker:
         )
 
     def inward(self, region: ir.State, around: ir.State) -> Iterable[Transition]:
-        """The transitions of a parallel state that its region takes."""
+        """Return the transitions of a parallel state that this region executes."""
         for event, guard, transition, number in region_transitions(region, around, self.events):
             yield Transition(
                 (event,) if event else (),
@@ -156,7 +156,7 @@ class _Maker:
             )
 
     def activity(self, state: ir.State, activity: ir.Activity) -> Activity:
-        """What a state does; what callbacks fill in is left out."""
+        """Convert an activity; parts that callbacks fill in are omitted."""
         call = self.system.function(activity.function).communication
         sent = sent_types(self.system.interface(call.type))
         goal = [(name, stored(value, sent.get(name))) for name, value in activity.arguments]
@@ -174,7 +174,7 @@ class _Maker:
         )
 
     def results(self, results: Iterable[ir.ResultMapping]) -> Effect:
-        """What stores the results of an activity."""
+        """Return the effect that stores the results of an activity."""
         return _store_results(
             [
                 (
@@ -186,7 +186,7 @@ class _Maker:
         )
 
     def effects(self, effects: Iterable[ir.Effect]) -> Effect:
-        """Effects, done one after the other until one has no value."""
+        """Return the effects as one, which stops at the first error."""
         made = [self.effect(each) for each in effects]
         if len(made) == 1:
             return made[0]
@@ -198,7 +198,7 @@ class _Maker:
         return all_of_them
 
     def effect(self, effect: ir.Effect) -> Effect:
-        """One effect."""
+        """Convert an effect."""
         match effect:
             case Assignment(variable=variable, path=path, value=expression):
                 held = field_type(self.types.get(variable), path, self.system)
@@ -236,9 +236,9 @@ def _guard(expression: Expression | None) -> Guard | None:
 
 
 def stored(expression: Expression, wanted: Type | None) -> Value:
-    """A value that is kept or sent, in what is of the type `wanted` if that is known.
+    """Compile an expression whose value is stored or sent as type `wanted`.
 
-    It is a copy, as ROS has it, durations are in whole nanoseconds, and whole numbers fit.
+    The value is a copy, as in ROS; durations are whole nanoseconds, integers are in range.
     """
     value = function_of(expression)
     bound = bound_of(expression, wanted)
@@ -259,7 +259,7 @@ def _store(data: dict[str, Any], variable: str, path: tuple[str, ...], value: An
     for field in path[:-1]:
         held = held.setdefault(field, {}) if isinstance(held, dict) else None
     if not isinstance(held, dict):
-        raise ExecutionError(f"`{variable}` has no `{'.'.join(path)}` that could be stored")
+        raise ExecutionError(f"`{variable}` has no `{'.'.join(path)}` to assign to")
     held[path[-1]] = value
 
 

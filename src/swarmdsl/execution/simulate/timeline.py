@@ -1,4 +1,4 @@
-"""A picture of a run: a lane for each machine, a bar for each state, arrows for swarm events."""
+"""Timeline of a run: lanes of machines, bars of states, arrows of swarm events."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ from typing import NamedTuple
 
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import SECOND, shown
+from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.svg import Drawing
 from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.world import LOST, Crossing
+from swarmdsl.execution.simulate.world import LOST, Transmission
 
 _WIDTH = 1200
-"""Of the time axis."""
+"""Width of the time axis."""
 _ROW = 18
 _GAP = 6
 _TOP = 78
 _LETTER = 6.2
-"""How wide a letter is, on average."""
+"""Average width of a letter."""
 _NARROWEST = 0.6
-"""Bars that are narrower are drawn together: nobody could see them."""
+"""Minimum width of a bar; narrower ones are merged."""
 _MOST_ARROWS = 2000
-# The scheme "light" for areas under dark letters, which people who see few colours tell apart:
-# Paul Tol, Colour Schemes, SRON/EPS/TN/09-002, issue 3.2. In an order in which neighbours differ.
+# Colour scheme "light" for areas below dark text, distinguishable by colour-blind people: Paul
+# Tol, Colour Schemes, SRON/EPS/TN/09-002, issue 3.2. Neighbours differ.
 _COLOURS = ("77aadd", "ee8866", "eedd88", "44bb99", "ffaabb", "99ddff", "bbcc33", "aaaa00")
-# Towards which part of white, and how far.
+# Mix with this level of grey, by this share.
 _TONES = ((255, 0.0), (255, 0.55), (0, 0.12))
 _STEPS = tuple(
     SECOND * each
@@ -56,30 +56,30 @@ _TICKS = 12
 
 
 class Timeline:
-    """Keeps what is drawn in the end."""
+    """Collect the data of the timeline."""
 
     def __init__(self, title: str, cast: Iterable[Actor]) -> None:
         self._title = title
         self._lines: dict[Actor, list[Line]] = {actor: [] for actor in cast}
-        self._crossings: list[Crossing] = []
+        self._transmissions: list[Transmission] = []
 
     def note(self, line: Line) -> None:
-        """Keep a line that changes something."""
+        """Keep a line that changes the configuration."""
         lines = self._lines[line.actor]
         if not lines or line.event == LOST or line.configuration != lines[-1].configuration:
             lines.append(line)
 
-    def crossed(self, crossing: Crossing) -> None:
-        """Keep a swarm event on its way."""
-        self._crossings.append(crossing)
+    def transmitted(self, crossing: Transmission) -> None:
+        """Keep a swarm event in transit."""
+        self._transmissions.append(crossing)
 
     def svg(self, end: int) -> str:
-        """The picture of a run that took so long."""
-        return _Picture(self._title, self._lines, self._crossings, max(end, 1)).draw()
+        """Draw a run of the given duration."""
+        return _Picture(self._title, self._lines, self._transmissions, max(end, 1)).draw()
 
 
 class _Stay(NamedTuple):
-    """A time in a state."""
+    """Time interval in a state."""
 
     state: str
     start: int
@@ -88,11 +88,15 @@ class _Stay(NamedTuple):
 
 class _Picture:
     def __init__(
-        self, title: str, lines: dict[Actor, list[Line]], crossings: list[Crossing], end: int
+        self,
+        title: str,
+        lines: dict[Actor, list[Line]],
+        transmissions: list[Transmission],
+        end: int,
     ) -> None:
         self.title = title
         self.lines = lines
-        self.crossings = crossings
+        self.transmissions = transmissions
         self.end = end
         names = [_name(actor) for actor in lines]
         self.left = 32 + 1.15 * _LETTER * max(map(len, names), default=0)
@@ -121,13 +125,13 @@ class _Picture:
     def draw(self) -> str:
         drawing = Drawing(self.left + _WIDTH + 24, self.bottom + 40 + self.legend_height())
         drawing.text(16, 26, self.title, "title")
-        words = [shown(self.end)]
+        words = [format_duration(self.end)]
         if len(self.robots) > 1:
             words.append(f"{len(self.robots)} members")
-        if self.crossings:
-            words.append("arrows are swarm events, crosses those that were lost on the way")
-        if len(self.crossings) > _MOST_ARROWS:
-            words.append(f"the first {_MOST_ARROWS} of {len(self.crossings)} are drawn")
+        if self.transmissions:
+            words.append("arrows are swarm events, crosses are lost ones")
+        if len(self.transmissions) > _MOST_ARROWS:
+            words.append(f"the first {_MOST_ARROWS} of {len(self.transmissions)} are drawn")
         drawing.text(16, 44, ", ".join(words), "note")
         self.axis(drawing)
         for actor in self.lines:
@@ -140,7 +144,7 @@ class _Picture:
         return self.left + _WIDTH * time / self.end
 
     def axis(self, drawing: Drawing) -> None:
-        """Lines at round times, with the time above and below."""
+        """Draw grid lines at round times, labelled above and below."""
         step = next((s for s in _STEPS if self.end / s <= _TICKS), self.end / _TICKS)
         number = 0
         while number * step <= self.end:
@@ -152,7 +156,7 @@ class _Picture:
             number += 1
 
     def lane(self, drawing: Drawing, actor: Actor) -> None:
-        """The name of a machine, and where it was."""
+        """Draw the name and the states of a machine."""
         top, height = self.tops[actor], self.rows[actor] * _ROW
         drawing.text(self.left - 8, top + height / 2 + 4, _name(actor), "member")
         drawing.rect(self.left, top, _WIDTH, height, "lane")
@@ -173,9 +177,9 @@ class _Picture:
                 self.blur(drawing, narrow, top + number * slot, slot)
 
     def stays(self, actor: Actor) -> dict[tuple[int, int], list[_Stay]]:
-        """Where a machine was, by place in the lane: of states active together each has its own.
+        """Return the intervals by row of the lane: one row per parallel state.
 
-        The places are the number of the state among them, and how many there are.
+        A row is the index of the state and the number of parallel states.
         """
         found: dict[tuple[int, int], list[_Stay]] = {}
         lines = self.lines[actor]
@@ -191,7 +195,7 @@ class _Picture:
         return found
 
     def bar(self, drawing: Drawing, actor: Actor, stay: _Stay, top: float, height: float) -> None:
-        """One stay in one state."""
+        """Draw one interval in a state."""
         x, width = self.x(stay.start), self.x(stay.end) - self.x(stay.start)
         lost = stay.state == LOST
         colour = "url(#lost)" if lost else self.colours[actor.machine, stay.state]
@@ -203,22 +207,23 @@ class _Picture:
             drawing.text(x + 4, top + height / 2 + 4, label, "state")
 
     def blur(self, drawing: Drawing, stays: list[_Stay], top: float, height: float) -> None:
-        """Several stays that are too short to be seen."""
+        """Draw several intervals that are too short to see."""
         start, end = stays[0].start, stays[-1].end
         title = f"{len(stays)} short stays\n{_between(start, end)}"
         width = max(self.x(end) - self.x(start), _NARROWEST)
         drawing.bar(self.x(start), top, width, height, "#8a8f98", title)
 
     def arrows(self, drawing: Drawing) -> None:
-        """Swarm events from robot to robot."""
-        for each in self.crossings[:_MOST_ARROWS]:
+        """Draw swarm events between robots."""
+        for each in self.transmissions[:_MOST_ARROWS]:
             if each.source not in self.robots or each.target not in self.robots:
                 continue
             source, target = self.robots[each.source], self.robots[each.target]
             down = self.tops[target] > self.tops[source]
             start = self.tops[source] + (self.rows[source] * _ROW if down else 0)
             end = self.tops[target] + (0 if down else self.rows[target] * _ROW)
-            words = f"{each.event}: {each.source.name} -> {each.target.name}, {shown(each.sent)}"
+            time = format_duration(each.sent)
+            words = f"{each.event}: {each.source.name} -> {each.target.name}, {time}"
             x, to = self.x(each.sent), self.x(min(each.due, self.end))
             if each.arrives:
                 drawing.arrow(x, start, to, end, words)
@@ -226,7 +231,7 @@ class _Picture:
                 drawing.lost(x, start, to, end, f"{words}, lost")
 
     def legend(self, drawing: Drawing) -> None:
-        """What the colours mean, a line a machine or more."""
+        """Draw the legend, at least one line per machine."""
         for x, y, machine, state in self.legend_items():
             if state is None:
                 drawing.text(16, y + 10, machine.name, "machine")
@@ -235,7 +240,7 @@ class _Picture:
             drawing.text(x + 16, y + 10, state, "legend")
 
     def legend_items(self) -> list[tuple[float, float, Machine, str | None]]:
-        """Where everything in the legend stands: machines, and the states that were entered."""
+        """Lay out the legend: machines and their entered states."""
         seen = {
             (actor.machine, state)
             for actor, lines in self.lines.items()
@@ -270,14 +275,14 @@ def _name(actor: Actor) -> str:
 
 
 def nth_colour(number: int) -> str:
-    """One of the colours, then one of lighter ones, then of darker ones, and again."""
+    """Return a colour; repeats in lighter and darker tones."""
     parts = (int(_COLOURS[number % len(_COLOURS)][at : at + 2], 16) for at in (0, 2, 4))
     towards, share = _TONES[number // len(_COLOURS) % len(_TONES)]
     return "#" + "".join(f"{round(part + (towards - part) * share):02x}" for part in parts)
 
 
 def _shortened(state: str, width: float) -> str:
-    """As much of a name as there is room for: all of it, its end, the first letters of that."""
+    """Shorten a name to fit: the whole, its last segment, or its first letters."""
     room = int(width / _LETTER)
     last = state.rpartition(".")[2]
     if len(last) <= room:
@@ -286,7 +291,7 @@ def _shortened(state: str, width: float) -> str:
 
 
 def _clock(time: float, step: float) -> str:
-    """A time on the axis."""
+    """Format a time of the axis."""
     if step < SECOND:
         return f"{time / SECOND:.1f} s"
     seconds = round(time / SECOND)
@@ -297,4 +302,4 @@ def _clock(time: float, step: float) -> str:
 
 
 def _between(start: int, end: int) -> str:
-    return f"{shown(start)} to {shown(end)}: {shown(end - start)}"
+    return f"{format_duration(start)} to {format_duration(end)}: {format_duration(end - start)}"

@@ -1,4 +1,4 @@
-"""What happened, a line a macrostep."""
+"""Trace of a run, one line per macrostep."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
 
 _LIMIT = 10_000
-"""How many events a machine may look at while no time passes."""
+"""Maximum number of events that a machine may process at one point in time."""
 
 
 @dataclass(slots=True)
 class Line:
-    """What one event led to. `event` is None for the start; names of states are their ids.
+    """Effects of one event; `event` is None for the start, states are given as ids.
 
-    `data` is that of the event, `messages` are those of the events in `sent`.
+    `data` belongs to the event, `messages` to the events in `sent`.
     """
 
     time: int
@@ -47,7 +47,7 @@ class Line:
 
 
 class Trace(Observer):
-    """Makes the lines, and hands each to the listeners when the machine has come to rest."""
+    """Build trace lines, and pass each to the listeners after the macrostep."""
 
     def __init__(self, clock: Clock, listeners: Sequence[Callable[[Line], None]]) -> None:
         self._clock = clock
@@ -58,14 +58,14 @@ class Trace(Observer):
         self._busy: dict[InstanceLike, tuple[int, int]] = {}
 
     def watch(self, instance: Instance, actor: Actor) -> None:
-        """Listen to an instance."""
+        """Observe an instance."""
         self._actors[instance] = actor
         instance.observer = self
 
     def begin(self, instance: InstanceLike, event: str | None, data: Any = None) -> None:
-        """An event from outside is looked at: the line of the one before is complete.
+        """Begin the line of an event from outside; the previous line is complete.
 
-        Raises LoopError where this happens again and again while no time passes.
+        Raises LoopError if this repeats too often at one point in time.
         """
         self.flush()
         now = self._clock.now
@@ -79,64 +79,64 @@ class Trace(Observer):
 
     @property
     def actor(self) -> Actor:
-        """Whose event was looked at last."""
+        """Actor that processed the last event."""
         assert self._instance is not None
         return self._actors[self._instance]
 
     def flush(self) -> None:
-        """Hand out the line that is complete, if there is one."""
+        """Pass the completed line to the listeners, if there is one."""
         line, self._line = self._line, None
         if line is None:
             return
         assert self._instance is not None
         final = self._instance.final
-        # A machine that has ended has left all states: where it ended is worth more.
+        # An ended machine has no active states: report its final state instead.
         line.configuration = [final] if final else self._instance.configuration.innermost
         for listener in self._listeners:
             listener(line)
 
-    # ---- what an instance tells
+    # ---- called by the instance
 
     def received(self, instance: InstanceLike, event: Event) -> None:
-        """Begin a line for a delay or an activity; others have begun theirs already."""
+        """Begin a line for a delay or an activity; other events have one already."""
         if event.origin is not None:
             self.begin(instance, event.name, event.data)
 
     def entered(self, instance: InstanceLike, state: State) -> None:
-        """Note it."""
+        """Record it."""
         assert self._line is not None
         self._line.entered.append(state.id)
 
     def exited(self, instance: InstanceLike, state: State) -> None:
-        """Note it, but for the final state in which the machine ended."""
+        """Record it, except for the final state of the machine."""
         assert self._line is not None
         if instance.final is None:
             self._line.exited.append(state.id)
 
     def taken(self, instance: InstanceLike, transition: Transition) -> None:
-        """Note it."""
+        """Record it."""
         assert self._line is not None
         self._line.taken.append(transition)
 
     def started(self, instance: InstanceLike, run: Run) -> None:
-        """Note it."""
+        """Record it."""
         assert self._line is not None
         self._line.started.append(run.activity.name)
 
     def cancelled(self, instance: InstanceLike, run: Run) -> None:
-        """Note it."""
+        """Record it."""
         assert self._line is not None
         self._line.cancelled.append(run.activity.name)
 
     def sent(self, instance: InstanceLike, event: Event) -> None:
-        """Note it."""
+        """Record it."""
         assert self._line is not None
         self._line.sent.append(event.name)
         self._line.messages.append(event.data)
 
 
 def as_json(line: Line) -> str:
-    """A line for programs; times are in whole milliseconds."""
+    """Format a line as JSON; times are in whole milliseconds."""
     called = line.actor.machine.called
     values = {
         "t": line.time // MILLISECOND,
@@ -156,9 +156,9 @@ def as_json(line: Line) -> str:
 
 
 def as_text(line: Line, width: int = 0) -> str:
-    """A line for people: when, who, on what, where that led, and what was done.
+    """Format a line as text: time, member, event, new states and actions.
 
-    Names of members are filled up to `width`.
+    Member names are padded to `width`.
     """
     who = f"{line.actor.name:<{width}}  " if line.actor.name is not None else ""
     head = f"{line.time / SECOND:>10.3f}  {who}{line.event or '(start)'}"

@@ -1,4 +1,4 @@
-"""Values from JSON and TOML, as data of a type."""
+"""Convert JSON and TOML values to data of model types."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ Way = tuple[str | int, ...]
 
 
 class MisfitError(ValueError):
-    """A value is not of the type that is wanted; `way` leads to the part that is wrong.
+    """Value does not have the expected type; `way` is the path to the invalid part.
 
-    `code`, a name in the catalogue, `fields` and `help` are those of a diagnostic.
+    `code`, `fields` and `help` are those of the diagnostic.
     """
 
     def __init__(self, way: Way, code: str, help_: str | None, **fields: Any) -> None:
@@ -31,9 +31,9 @@ class MisfitError(ValueError):
 
 
 def fitted(type_: Type, value: Any, system: System, way: Way = ()) -> Any:
-    """The value as data of the engine; fields that it leaves out have their defaults.
+    """Convert a value to engine data; missing fields get their defaults.
 
-    Raises MisfitError where it does not fit.
+    Raises MisfitError if it does not fit.
     """
     match type_:
         case Primitive():
@@ -56,7 +56,7 @@ def fitted(type_: Type, value: Any, system: System, way: Way = ()) -> Any:
 def fitted_result(
     call: Communication, values: Mapping[str, Any], system: System, owner: str, way: Way
 ) -> dict[str, Any]:
-    """The same for what a function gives that has succeeded; any values where it is unknown."""
+    """Convert the result of a function; any values if its type is unknown."""
     fields = result_fields(call, system)
     if fields is None:
         return dict(values)
@@ -68,7 +68,7 @@ def fitted_result(
 def _given(
     fields: Iterable[Field], values: Mapping[str, Any], system: System, owner: str, way: Way
 ) -> dict[str, Any]:
-    """Those fields that have a value."""
+    """Convert the given fields."""
     known = {field.name: field.type for field in fields}
     for name in values:
         if name not in known:
@@ -81,7 +81,7 @@ def _primitive(name: str, value: Any, way: Way) -> Any:
     if name in ("string", "wstring"):
         if isinstance(value, str):
             return value
-        raise _misfit(way, "text", value)
+        raise _misfit(way, "a string", value)
     if name == "bool":
         if isinstance(value, bool):
             return value
@@ -109,7 +109,7 @@ def _misfit(way: Way, expected: str, value: Any) -> MisfitError:
 
 
 def kind(value: Any) -> str:
-    """What a value is, for a message."""
+    """Describe a value in a message."""
     match value:
         case None:
             return "nothing"

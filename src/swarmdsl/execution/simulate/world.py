@@ -1,4 +1,4 @@
-"""The world of a simulation: servers that answer after a while, a network, and faults."""
+"""Simulated world: servers with response times, a network, and faults."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from swarmdsl.codegen.shared.default_values import default_result
 from swarmdsl.execution.engine import Event, Instance, InstanceLike, Run, Servers
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
-from swarmdsl.execution.simulate.random_source import Chance
+from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import (
     EVERY_FUNCTION,
     Fault,
     Message,
     Robot,
     Scenario,
-    meant,
+    is_selected,
 )
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.ir import System
 
 _OF_ACTIVITIES = "do."
-"""How the events of activities begin, in tables of models and of our SCXML."""
+"""Prefix of activity events, in tables of models and in our SCXML."""
 
 
 @dataclass(frozen=True)
-class Crossing:
-    """A swarm event on its way from one robot to another one, and whether it arrives."""
+class Transmission:
+    """Swarm event in transit between two robots; `arrives` is False if it is lost."""
 
     event: str
     source: Robot
@@ -40,10 +40,10 @@ class Crossing:
 
 
 class World:
-    """All that run, in virtual time; the `World` of the engine.
+    """All machines in virtual time; a `World` of the engine.
 
-    Everything that one machine makes another one do goes through the clock, so that no machine
-    is in the middle of a step when an event reaches it.
+    Events between machines go through the clock, so that no machine is in a step when an event
+    arrives.
     """
 
     def __init__(
@@ -57,23 +57,23 @@ class World:
         self.clock = Clock()
         self.trace = Trace(self.clock, listeners)
         self.failures: Counter[tuple[str, str]] = Counter()
-        """What guards and effects failed at, by machine and reason."""
+        """Failures of guards and effects, by machine and reason."""
         self.outcomes: Counter[tuple[str, str]] = Counter()
-        """How activities ended, by function and outcome."""
-        self.heard: Counter[str] = Counter()
+        """Outcomes of activities, by function and outcome."""
+        self.delivered: Counter[str] = Counter()
         self.lost: Counter[str] = Counter()
-        """How many copies of swarm events arrived at another robot, and how many did not."""
-        self.crossed: Callable[[Crossing], None] | None = None
-        """Is told of swarm events on their way to another robot."""
+        """Numbers of swarm events delivered to and lost on the way to other robots."""
+        self.transmitted: Callable[[Transmission], None] | None = None
+        """Callback for swarm events in transit."""
         self._system = system
         self._scenario = scenario
-        self._chance = Chance(seed)
+        self._chance = RandomSource(seed)
         self._calls: Counter[tuple[str | None, str]] = Counter()
-        self._crossings: Counter[tuple[str | None, str | None]] = Counter()
+        self._transmissions: Counter[tuple[str | None, str | None]] = Counter()
         self._ends: dict[Run, Alarm | None] = {}
         self._listeners: dict[tuple[str, Robot], list[Actor]] = {}
         self._silent: Counter[tuple[Robot, str]] = Counter()
-        """How many silences of a function are going on."""
+        """Number of current silences of a function."""
         self._unheard: list[Run] = []
         self._gone: set[Robot] = set()
         self._instances: dict[Actor, Instance] = {}
@@ -87,10 +87,10 @@ class World:
             self._actors[instance] = actor
         self.robots = list(servers)
 
-    # ---- what a run does with it
+    # ---- called by a run
 
     def begin(self) -> None:
-        """Start all machines, and plan what the scenario brings."""
+        """Start all machines and schedule the scenario."""
         for instance in self._instances.values():
             self.trace.begin(instance, None)
             instance.start()
@@ -99,29 +99,29 @@ class World:
         for message in self._scenario.messages:
             said[message.event] += 1
             for robot in self.robots:
-                if meant(robot, message.to):
-                    chance = self._chance.about(
+                if is_selected(robot, message.to):
+                    chance = self._chance.stream(
                         robot.name, "hears", message.event, said[message.event]
                     )
                     self.clock.schedule(message.at.draw(chance), self._message(message, robot))
         for number, fault in enumerate(self._scenario.faults):
             for robot in self.robots:
-                if meant(robot, fault.of):
-                    chance = self._chance.about(robot.name, "fault", number)
+                if is_selected(robot, fault.of):
+                    chance = self._chance.stream(robot.name, "fault", number)
                     self.clock.schedule(fault.at.draw(chance), self._fault(fault, robot))
 
     @property
     def over(self) -> bool:
-        """Whether nobody is left to do anything."""
+        """True if no machine is running."""
         return not any(instance.running for instance in self._instances.values())
 
     def step(self) -> None:
-        """Do what comes next, if there is anything."""
+        """Execute the next scheduled action, if any."""
         self.clock.step()
         self.trace.flush()
 
     def deliver(self, event: str, data: Any, to: Iterable[Actor]) -> None:
-        """Bring an event from outside to machines; that of an activity ends the activity."""
+        """Deliver an event from outside; one of an activity ends the activity."""
         for actor in to:
             instance = self._instances[actor]
             going_on = self.runs(actor) if event.startswith(_OF_ACTIVITIES) else ()
@@ -134,52 +134,52 @@ class World:
             self.trace.flush()
 
     def runs(self, actor: Actor) -> list[Run]:
-        """The activities that a machine has going on."""
+        """Return the running activities of a machine."""
         return [run for run in self._ends if run.instance is self._instances[actor]]
 
     def data(self, actor: Actor) -> Any:
-        """What the variables of a machine hold."""
+        """Return the variables of a machine."""
         return self._instances[actor].data
 
     def listeners(self, event: str, robot: Robot) -> list[Actor]:
-        """The machines of a robot that wait for an event in some state."""
+        """Return the machines of a robot that react to an event."""
         found = self._listeners.get((event, robot))
         if found is None:
             found = [a for a in self._instances if a.robot is robot and a.listens(event)]
             self._listeners[event, robot] = found
         return found
 
-    # ---- what the engine asks of it
+    # ---- called by the engine
 
     def schedule(self, delay: int, action: Callable[[], None]) -> Alarm:
-        """Call something later."""
+        """Schedule a call."""
         return self.clock.schedule(delay, action)
 
     def unschedule(self, handle: Alarm) -> None:
-        """Do not call it."""
+        """Cancel a scheduled call."""
         self.clock.unschedule(handle)
 
     def start(self, run: Run) -> None:
-        """Begin an activity, whose end chance decides."""
+        """Start an activity, with a random end."""
         robot, function = self._actors[run.instance].robot, run.activity.name
         self._calls[robot.name, function] += 1
-        conduct = self._scenario.conduct(function, robot)
-        chance = self._chance.about(robot.name, function, self._calls[robot.name, function])
-        outcome = conduct.outcome(chance)
-        chosen = int(chance.random() * len(conduct.results))
+        behavior = self._scenario.behavior(function, robot)
+        chance = self._chance.stream(robot.name, function, self._calls[robot.name, function])
+        outcome = behavior.outcome(chance)
+        chosen = int(chance.random() * len(behavior.results))
         self._ends[run] = None
         if outcome is None or self._is_silent(robot, function):
             return
         data = None
         if outcome == "succeeded":
-            data = {**self._blank(function), **(conduct.results or ({},))[chosen]}
+            data = {**self._blank(function), **(behavior.results or ({},))[chosen]}
         name = run.activity.events[outcome]
         self._ends[run] = self.clock.schedule(
-            conduct.duration.draw(chance), lambda: self._end(run, name, data)
+            behavior.duration.draw(chance), lambda: self._end(run, name, data)
         )
 
     def cancel(self, run: Run) -> None:
-        """Stop an activity, which takes the time that the scenario says."""
+        """Stop an activity, after the time given in the scenario."""
         robot, function = self._actors[run.instance].robot, run.activity.name
         self.outcomes[function, "cancelled"] += 1
         alarm = self._ends.pop(run)
@@ -191,7 +191,7 @@ class World:
             self._stop(run)
 
     def send(self, instance: InstanceLike, event: Event) -> None:
-        """Bring an event to the machines of the robot, and a swarm event to the other robots."""
+        """Deliver an event to the robot, and a swarm event to the other robots."""
         if self._system is None:
             return
         robot = self._actors[instance].robot
@@ -204,36 +204,36 @@ class World:
         for other in self.robots:
             if other is robot or not self.listeners(event.name, other):
                 continue
-            self._crossings[robot.name, other.name] += 1
-            count = self._crossings[robot.name, other.name]
-            chance = self._chance.about(robot.name, "to", other.name, count)
+            self._transmissions[robot.name, other.name] += 1
+            count = self._transmissions[robot.name, other.name]
+            chance = self._chance.stream(robot.name, "to", other.name, count)
             arrives = chance.random() >= self._scenario.loss and other not in self._gone
             delay = self._scenario.latency.draw(chance)
-            if self.crossed is not None:
+            if self.transmitted is not None:
                 now = self.clock.now
-                self.crossed(Crossing(event.name, robot, other, now, now + delay, arrives))
+                self.transmitted(Transmission(event.name, robot, other, now, now + delay, arrives))
             if not arrives:
                 self.lost[event.name] += 1
                 continue
-            self.heard[event.name] += 1
+            self.delivered[event.name] += 1
             self._later(delay, event.name, event.data, other)
 
     def failed(self, instance: InstanceLike, error: Exception) -> None:
-        """Count it."""
+        """Count the failure."""
         self.failures[instance.machine.name, str(error)] += 1
 
-    # ---- inside
+    # ---- internal
 
     def _is_silent(self, robot: Robot, function: str) -> bool:
         return any(self._silent[robot, name] for name in (function, EVERY_FUNCTION))
 
     def _stop(self, run: Run) -> None:
         robot, function = self._actors[run.instance].robot, run.activity.name
-        conduct = self._scenario.conduct(function, robot)
-        chance = self._chance.about(
+        behavior = self._scenario.behavior(function, robot)
+        chance = self._chance.stream(
             robot.name, function, self._calls[robot.name, function], "stops"
         )
-        self.clock.schedule(conduct.stopping.draw(chance), lambda: run.end("preempted"))
+        self.clock.schedule(behavior.stopping.draw(chance), lambda: run.end("preempted"))
 
     def _later(self, delay: int, event: str, data: Any, robot: Robot) -> None:
         to = self.listeners(event, robot)
@@ -251,13 +251,13 @@ class World:
         run.end(outcome, data)
 
     def _blank(self, function: str) -> Mapping[str, Any]:
-        """The result of a function in which nothing is said."""
+        """Return the default result of a function."""
         if self._system is None:
             return {}
         return default_result(self._system.function(function).communication, self._system)
 
     def _outcome(self, run: Run, event: str, data: Any) -> str:
-        """How an activity ends with an event: a response may say that nothing came of it."""
+        """Return the outcome of an end event: a service response may report failure."""
         outcome = next(each for each, name in run.activity.events.items() if name == event)
         if outcome != "succeeded" or self._system is None or not isinstance(data, Mapping):
             return outcome
@@ -294,7 +294,7 @@ class World:
         return strike
 
     def _answer(self, answers: tuple[Robot, str]) -> None:
-        """End a silence; what was asked to stop in it does so now."""
+        """End a silence, and stop the runs that were cancelled during it."""
         self._silent[answers] -= 1
         unheard, self._unheard = self._unheard, []
         for run in unheard:
@@ -304,7 +304,7 @@ class World:
                 self._stop(run)
 
     def lose(self, robot: Robot) -> None:
-        """Let a robot be gone: it does nothing any more, and nothing is done on leaving."""
+        """Remove a robot, without executing exit effects."""
         self._gone.add(robot)
         for actor, instance in self._instances.items():
             if actor.robot is robot and instance.running:
@@ -318,4 +318,4 @@ class World:
 
 
 LOST = "fault.lost"
-"""The event of a robot that is lost, in a trace; no event of a model has such a name."""
+"""Trace event of a lost robot; no model event has such a name."""

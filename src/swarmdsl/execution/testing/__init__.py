@@ -1,1 +1,1 @@
-"""Behaviour tests: text beside a model that says what must happen when it runs."""
+"""Behavior tests: TOML files beside a model with steps and expectations."""

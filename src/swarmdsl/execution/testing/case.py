@@ -1,6 +1,6 @@
-"""Tests as plain data: what is done to the robots, and what is expected of them.
+"""Tests as plain data: steps and expectations.
 
-A machine that runs is known by its number in the cast, so that a test can run with any seed.
+Machines are identified by their number in the cast, so that a test can run with any seed.
 """
 
 from __future__ import annotations
@@ -14,26 +14,26 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 
-Deed = Literal["sends", "starts", "cancels"]
-"""What a machine does in a moment; what it is in is another thing."""
+ActionKind = Literal["sends", "starts", "cancels"]
+"""Kind of action of a machine in a step, in contrast to its state."""
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """How many of those who are named; no bound on either side means all of them."""
+    """Number of machines that must satisfy a claim; without bounds, all of them."""
 
     least: int | None = None
     most: int | None = None
 
     def holds(self, count: int, of: int) -> bool:
-        """Whether so many of so many are enough, and not too many."""
+        """Return True if `count` of `of` machines are within the bounds."""
         if self.least is None and self.most is None:
             return count == of > 0
         return count >= (self.least or 0) and (self.most is None or count <= self.most)
 
     @property
     def waits(self) -> bool:
-        """Whether somebody is needed: what nobody needs to do is so from the beginning."""
+        """True if at least one machine is needed; otherwise the claim holds initially."""
         return bool(self.least) or self == ALL
 
 
@@ -44,11 +44,11 @@ NONE = Quantity(most=0)
 
 @dataclass(frozen=True)
 class Claim:
-    """That so many of the machines `who` are in all these states, hold values, or did something.
+    """Claim that a number of the machines `who` have states, values or did an action.
 
-    `states` has, for each machine that is meant, the states, and `values` what its variables
-    hold; `deed` and `name` are what was done, `data` what the event carries that is sent. Of
-    data, what is not named may be anything. `text` says it in words.
+    `states` maps each selected machine to its expected states, `values` to its expected variables;
+    `action` and `name` are the expected action, `data` is the expected data of a sent event.
+    Unnamed fields may have any value. `text` describes the claim.
     """
 
     place: Span
@@ -57,14 +57,14 @@ class Claim:
     who: tuple[int, ...]
     states: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
     values: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
-    deed: Deed | None = None
+    action: ActionKind | None = None
     name: str = ""
     data: Any = None
 
 
 @dataclass(frozen=True)
 class Send:
-    """An event from outside."""
+    """Event from outside."""
 
     place: Span
     event: str
@@ -74,7 +74,7 @@ class Send:
 
 @dataclass(frozen=True)
 class End:
-    """A function that robots are running ends."""
+    """End of a running function."""
 
     place: Span
     function: str
@@ -85,7 +85,7 @@ class End:
 
 @dataclass(frozen=True)
 class Pass:
-    """Time passes, in nanoseconds."""
+    """Passing of time, in nanoseconds."""
 
     place: Span
     length: int
@@ -93,7 +93,7 @@ class Pass:
 
 @dataclass(frozen=True)
 class Lose:
-    """Robots are lost; by name."""
+    """Loss of robots, by name."""
 
     place: Span
     robots: tuple[str | None, ...]
@@ -101,7 +101,7 @@ class Lose:
 
 @dataclass(frozen=True)
 class Expect:
-    """Something is so: now, at some time `within` so long, or all the time `lasting` so long."""
+    """Expectation: now, at some time `within` a duration, or during all of `lasting`."""
 
     place: Span
     claim: Claim
@@ -114,7 +114,7 @@ Step = Send | End | Pass | Lose | Expect
 
 @dataclass(frozen=True)
 class Case:
-    """One test. It passes where at least the share `passing` of its runs does."""
+    """A test. It passes if at least the share `passing` of its runs does."""
 
     name: str
     place: Span
@@ -127,8 +127,8 @@ class Case:
 
 
 @dataclass(frozen=True)
-class Unread:
-    """A test that is not run, for what is wrong with it."""
+class InvalidTest:
+    """A test that cannot run, with its errors."""
 
     name: str
     problems: tuple[Diagnostic, ...]
@@ -136,14 +136,14 @@ class Unread:
 
 @dataclass(frozen=True)
 class TestFile:
-    """The tests of a file, in their order."""
+    """Tests of a file, in their order."""
 
-    __test__ = False  # for pytest, which takes the class for a test
+    __test__ = False  # for pytest, which would collect the class
 
     source: Source
-    cases: tuple[Case | Unread, ...]
+    cases: tuple[Case | InvalidTest, ...]
 
     @property
-    def unread(self) -> tuple[Unread, ...]:
-        """Those that are not run."""
-        return tuple(case for case in self.cases if isinstance(case, Unread))
+    def unread(self) -> tuple[InvalidTest, ...]:
+        """Tests that cannot run."""
+        return tuple(case for case in self.cases if isinstance(case, InvalidTest))

@@ -1,4 +1,4 @@
-"""What `swarmc test` does: finds tests, runs them, and tells what came of them."""
+"""`swarmc test`: find tests, run them and print the results."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.simulate.coverage import Coverage
 from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.testing.case import Unread
+from swarmdsl.execution.testing.case import InvalidTest
 from swarmdsl.execution.testing.console import Console
 from swarmdsl.execution.testing.discovery import selected, test_files
 from swarmdsl.execution.testing.junit import junit
@@ -24,7 +24,7 @@ from swarmdsl.project.read_source import read_source
 
 @dataclass(frozen=True)
 class Request:
-    """What the command line asks for."""
+    """Arguments of the command."""
 
     paths: tuple[Path, ...]
     pattern: str | None = None
@@ -37,8 +37,8 @@ class Request:
 
 
 def run(request: Request, stdout: TextIO, stderr: TextIO) -> bool:
-    """Run the tests; whether all is well."""
-    # A compiler needs no garbage to be looked for, but this may run for long.
+    """Run the tests; return True if all pass."""
+    # The compiler disables garbage collection, but a run may be long.
     gc.enable()
     return _Session(request, stdout, stderr).run()
 
@@ -64,7 +64,7 @@ class _Session:
             raise
         self._finish(report)
         self._tell(report, began)
-        return not report.has_errors and all(outcome.is_well for outcome in self._outcomes)
+        return not report.has_errors and all(outcome.passed for outcome in self._outcomes)
 
     def _tell(self, report: Diagnostics, began: float) -> None:
         for outcome in self._outcomes:
@@ -82,7 +82,7 @@ class _Session:
         cases = tests.cases if tests is not None else ()
         chosen = [c for c in cases if selected(f"{path.as_posix()}::{c.name}", self._pattern)]
         self._left_out += len(cases) - len(chosen)
-        unread = tuple(case for case in chosen if isinstance(case, Unread))
+        unread = tuple(case for case in chosen if isinstance(case, InvalidTest))
         report.include(problem for case in unread for problem in case.problems)
         outcome = FileOutcome(path, tests is not None, tuple(report), unread)
         if cases and not chosen:
@@ -90,7 +90,7 @@ class _Session:
         self._outcomes.append(outcome)
         self._console.file(outcome)
         for case in chosen:
-            if isinstance(case, Unread):
+            if isinstance(case, InvalidTest):
                 self._console.unread(case)
                 continue
             self._coverage.expect(case.subject)
@@ -111,7 +111,7 @@ class _Session:
             self._console.trace(seed, line)
 
     def _finish(self, report: Diagnostics) -> None:
-        """What can only be said when all tests have run."""
+        """Check the results that depend on all tests."""
         request = self._request
         if self._left_out and not self._outcomes:
             help_ = f"`-k {request.pattern}` leaves out all {self._left_out}"

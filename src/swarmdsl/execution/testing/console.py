@@ -1,4 +1,4 @@
-"""What is told of the tests: a line each, the failures, all in all."""
+"""Console output of tests: a line per test, failures and a summary."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swarmdsl.base.diagnostics.render import counted, render
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.execution.simulate.coverage import Coverage, MachineCoverage
 from swarmdsl.execution.simulate.trace import Line, as_text
-from swarmdsl.execution.testing.case import Unread
+from swarmdsl.execution.testing.case import InvalidTest
 from swarmdsl.execution.testing.outcome import FileOutcome
 from swarmdsl.execution.testing.verdict import Verdict
 
@@ -21,9 +21,9 @@ _COLOURS = {"ok": "green", "FAILED": "red", "unread": "red"}
 
 
 class Console:
-    """Writes what becomes of each test and the failures to `stdout`, all in all to `stderr`.
+    """Write results and failures to `stdout`, the summary to `stderr`.
 
-    Where programs read the failures, nothing else is written to `stdout`.
+    In formats for programs, only the failures go to `stdout`.
     """
 
     def __init__(self, stdout: TextIO, stderr: TextIO, format_: str) -> None:
@@ -33,7 +33,7 @@ class Console:
         self._format = format_
 
     def file(self, outcome: FileOutcome) -> None:
-        """Begin a file; what is wrong with it comes first."""
+        """Begin a file, with its errors."""
         self._say(printable(outcome.path.as_posix()))
         if not outcome.read and not outcome.problems:
             self._say("  not run: the model has errors")
@@ -41,28 +41,28 @@ class Console:
         render(outcome.problems, self._format, self._stream)
 
     def verdict(self, verdict: Verdict) -> None:
-        """Say how a test ended."""
+        """Print the result of a test."""
         name = verdict.case.name
         runs = len(verdict.seeds)
         if runs > 1:
             name += f" ({runs - len(verdict.failures)} of {runs} seeds)"
         self._test("ok" if verdict.passed else "FAILED", name)
 
-    def unread(self, case: Unread) -> None:
-        """Say which test was not run; what is wrong with it has been said of the file."""
+    def unread(self, case: InvalidTest) -> None:
+        """Print a test that could not run; its errors are printed with the file."""
         self._test("unread", case.name)
 
     def trace(self, seed: int, line: Line) -> None:
-        """Show what happens, with its seed."""
+        """Print a trace line with its seed."""
         self._say(f"    seed {seed} {printable(as_text(line))}")
 
     def problems(self, found: Iterable[Diagnostic]) -> None:
-        """Show what is wrong with all of it."""
+        """Print diagnostics about the whole run."""
         self._flush()
         render(found, self._format, self._stream)
 
     def findings(self, verdict: Verdict, found: Sequence[Diagnostic]) -> None:
-        """Show what a test failed at; for people, with what happened before."""
+        """Print the failure of a test; for people, with the last trace lines."""
         if not found:
             return
         self._flush()
@@ -70,11 +70,11 @@ class Console:
             self._stream.write("\n")
         render(found, self._format, self._stream)
         if self._format == "text" and not verdict.passed:
-            self._stream.write("the last of what happened:\n")
+            self._stream.write("the last trace lines:\n")
             self._stream.writelines(f"{printable(as_text(line))}\n" for line in verdict.last)
 
     def coverage(self, coverage: Coverage) -> None:
-        """Show what the tests have reached, and what not."""
+        """Print the coverage and the unreached elements."""
         rows = [("coverage", "states", "transitions")]
         rows += [_row(each) for each in coverage.machines]
         widths = [max(len(row[column]) for row in rows) for column in range(3)]
@@ -89,7 +89,7 @@ class Console:
         self._flush()
 
     def summary(self, outcomes: Sequence[FileOutcome], left_out: int, seconds: float) -> None:
-        """All in all, for a person: "11 passed, 1 failed in 0.41 s"."""
+        """Print a summary such as "11 passed, 1 failed in 0.41 s"."""
         verdicts = [verdict for outcome in outcomes for verdict, _ in outcome.verdicts]
         failed = sum(not verdict.passed for verdict in verdicts)
         unread = sum(len(outcome.unread) for outcome in outcomes)

@@ -1,4 +1,4 @@
-"""Data that a test names in part: fields of a message, variables of a machine."""
+"""Partial data in tests: fields of a message, variables of a machine."""
 
 from __future__ import annotations
 
@@ -6,31 +6,31 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 
-def only(fitted: Any, given: Any) -> Any:
-    """Of a value that was filled up with defaults, what was given."""
+def given_part(fitted: Any, given: Any) -> Any:
+    """Restrict a value with defaults to the given part."""
     if isinstance(given, dict) and isinstance(fitted, Mapping):
-        return {key: only(fitted[key], each) for key, each in given.items()}
+        return {key: given_part(fitted[key], each) for key, each in given.items()}
     return fitted
 
 
-def agrees(expected: Any, held: Any) -> bool:
-    """Whether a value is the expected one; fields that are not named may be anything."""
+def matches(expected: Any, held: Any) -> bool:
+    """Return True if a value matches; unnamed fields may have any value."""
     if isinstance(expected, Mapping):
         return isinstance(held, Mapping) and all(
-            key in held and agrees(each, held[key]) for key, each in expected.items()
+            key in held and matches(each, held[key]) for key, each in expected.items()
         )
     if isinstance(expected, list):
         return (
             isinstance(held, list)
             and len(held) == len(expected)
-            and all(map(agrees, expected, held))
+            and all(map(matches, expected, held))
         )
-    # To Python, true is 1.
+    # In Python, True == 1.
     return isinstance(expected, bool) == isinstance(held, bool) and bool(expected == held)
 
 
-def told(held: Any, names: Iterable[str]) -> str:
-    """What some fields hold, in words: `tries = 2, found = true`."""
+def describe_fields(held: Any, names: Iterable[str]) -> str:
+    """Describe the values of fields: `tries = 2, found = true`."""
     fields = held if isinstance(held, Mapping) else {}
     return ", ".join(f"{name} = {_shown(fields.get(name))}" for name in names)
 
@@ -46,5 +46,5 @@ def _shown(value: Any) -> str:
         case list():
             return f"[{', '.join(map(_shown, value))}]"
         case Mapping():
-            return f"{{ {told(value, value)} }}" if value else "{ }"
+            return f"{{ {describe_fields(value, value)} }}" if value else "{ }"
     return str(value)

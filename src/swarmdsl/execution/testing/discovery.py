@@ -1,4 +1,4 @@
-"""Where test files lie."""
+"""Find test files."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SUFFIX = ".swarmtest.toml"
 
 
 def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
-    """The test files named and those in folders named; where there is none, that is reported."""
+    """Return the named test files and those in named folders; report missing ones."""
     found: dict[str, Path] = {}
     for path in paths:
         if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
@@ -25,7 +25,7 @@ def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
                     path=path,
                     actual=f"a {path.suffix or 'nameless'} file",
                     expected=f"a test file, *{SUFFIX}",
-                    help="name its folder: the tests lie beside the model",
+                    help="name its folder: the tests are beside the model",
                 )
             continue
         inside = files_below(path, SUFFIX)
@@ -38,5 +38,5 @@ def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
 
 
 def selected(name: str, pattern: str | None) -> bool:
-    """Whether a test, with its file, has the pattern in its name."""
+    """Return True if the name of a test, with its file, contains the pattern."""
     return pattern is None or pattern.lower() in name.lower()

@@ -1,4 +1,4 @@
-"""The data that a claim wants, from TOML to values of the types in the model."""
+"""Expected data of claims, from TOML to values of model types."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from typing import Any
 
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.values import Way, fitted
-from swarmdsl.execution.testing.data import only
+from swarmdsl.execution.testing.data import given_part
 from swarmdsl.execution.testing.names import Names
 from swarmdsl.ir import System, Type
 
 
 def event_data(table: Table, names: Names, event: str) -> Mapping[str, Any] | None:
-    """The fields that an event that is sent has, as far as they are named."""
+    """Read the expected fields of a sent event, as far as given."""
     given, system = table.values["data"], names.subject.system
     if not isinstance(given, dict) or not given:
         table.wrong(("data",), "a table of fields", given)
@@ -23,13 +23,13 @@ def event_data(table: Table, names: Names, event: str) -> Mapping[str, Any] | No
         return given
     type_ = system.event(event).type
     found = table.fitted(lambda value, way: fitted(type_, value, system, way), "data")
-    return only(found, given) if found is not None else None
+    return given_part(found, given) if found is not None else None
 
 
 def variables(
     table: Table, names: Names, who: list[int], word: str
 ) -> dict[int, Mapping[str, Any]]:
-    """What the variables of each machine hold that is meant."""
+    """Read the expected variables of each selected machine."""
     given, system = table.values["has"], names.subject.system
     if not isinstance(given, dict) or not given:
         table.wrong(("has",), "a table of variables", given)
@@ -38,7 +38,7 @@ def variables(
     named = [(name, places[(*table.keys, "has", name)].key) for name in given]
     found: dict[int, Mapping[str, Any]] = {}
     read: dict[str, Mapping[str, Any]] = {}
-    for number in names.holders(who, word, named):
+    for number in names.machines_with(who, word, named):
         machine = names.cast[number].machine
         if machine.name not in read:
             types = names.variables(machine)
@@ -48,7 +48,7 @@ def variables(
                     held = table.fitted(partial(_fit, type_, system), "has", name)
                     if held is None:
                         return {}
-                    values[name] = only(held, given[name])
+                    values[name] = given_part(held, given[name])
             read[machine.name] = values
         found[number] = read[machine.name]
     return found

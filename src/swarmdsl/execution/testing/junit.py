@@ -1,4 +1,4 @@
-"""What came of the tests as JUnit XML, as Jenkins, GitLab and others read it."""
+"""Test results as JUnit XML, for Jenkins, GitLab and others."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from swarmdsl.execution.testing.discovery import SUFFIX
 from swarmdsl.execution.testing.outcome import FileOutcome
 from swarmdsl.execution.testing.verdict import Verdict
 
-# XML has no way to say them.
+# Characters that XML cannot represent.
 _CONTROL = dict.fromkeys([*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF], "\ufffd")
 
 
 def junit(outcomes: Iterable[FileOutcome]) -> bytes:
-    """The file, with a suite for each test file, and a case for each test."""
+    """Return the file, with a suite per test file and a case per test."""
     root = etree.Element("testsuites", name="swarmc test")
     counts = [0, 0, 0]
     seconds = 0.0
@@ -75,7 +75,7 @@ def _suite(outcome: FileOutcome) -> etree._Element:
 
 
 def _class_name(path: PurePath) -> str:
-    """The path with dots, as classes of Java have it: `examples.storage.shift`."""
+    """Convert a path to a Java class name: `examples.storage.shift`."""
     parts = [part for part in path.parts if part not in ("..", ".", path.anchor)]
     return _text(".".join([*parts[:-1], parts[-1].removesuffix(SUFFIX)]))
 

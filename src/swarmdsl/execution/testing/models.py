@@ -1,4 +1,4 @@
-"""The models that tests are about, each compiled once."""
+"""Compile the models of tests, each once."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ _SCXML = ".scxml"
 
 @dataclass
 class Model:
-    """A system, or SCXML documents; its subjects are kept, with the tables in them."""
+    """A system, or SCXML documents; caches subjects with their tables."""
 
     system: System | None
     documents: dict[str, Document]
     subjects: dict[tuple[str, str], Subject] = field(default_factory=dict)
 
     def subject(self, table: Table, key: str | None, report: Diagnostics) -> Subject | None:
-        """The swarm or the machine that `key` of a table names, else the only one there is."""
+        """Return the swarm or machine named by `key`, else the only one."""
         swarms = {each.name: each for each in self.system.swarms} if self.system else {}
         machines = {each.name: each for each in self.system.machines} if self.system else {}
         names = {"swarm": list(swarms), "machine": [*machines, *self.documents]}
@@ -60,7 +60,7 @@ class Model:
 
 
 class Models:
-    """Compiles models, and remembers them."""
+    """Cache of compiled models."""
 
     def __init__(self) -> None:
         self._known: dict[tuple[Path, ...], Model | None] = {}
@@ -68,9 +68,9 @@ class Models:
     def of(
         self, named: list[tuple[Path, Span]], test_file: Path, report: Diagnostics
     ) -> Model | None:
-        """The model in files and folders, else that of the project or folder of a test file.
+        """Return the named model, else that of the project or folder of a test file.
 
-        None where it has errors, which are reported.
+        None if it has errors, which are reported.
         """
         places = dict(named)
         if named:
@@ -113,5 +113,5 @@ def _compiled(paths: Iterable[Path], test_file: Path, report: Diagnostics) -> Mo
 
 
 def _start(table: Table) -> Span:
-    """Where a test says what it is about, or could."""
+    """Return the span where a test names its subject, or could."""
     return table.key_place("name") if "name" in table else table.value_place(())

@@ -1,4 +1,4 @@
-"""What the names in a test mean: members, states, events, functions."""
+"""Resolve the names in tests: members, states, events, functions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from swarmdsl.base.suggest import did_you_mean, suggest
 from swarmdsl.execution.engine import Kind, Machine
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.testing.case import Deed
+from swarmdsl.execution.testing.case import ActionKind
 from swarmdsl.ir import Send as SendEffect
 from swarmdsl.ir import State as ModelState
 from swarmdsl.ir import StateKind, StateMachine, Type
@@ -20,20 +20,20 @@ _PASSED_THROUGH = (StateKind.CHOICE, StateKind.HISTORY)
 
 
 class Names:
-    """The names of what runs in a test; one that means nothing is reported."""
+    """Scope of a test; unresolved names are reported."""
 
     def __init__(self, subject: Subject, cast: Sequence[Actor], report: Diagnostics) -> None:
         self.subject = subject
         self.cast = cast
         self._report = report
-        self._abilities: dict[tuple[str, Deed], frozenset[str] | None] = {}
+        self._abilities: dict[tuple[str, ActionKind], frozenset[str] | None] = {}
 
-    def everybody(self) -> list[int]:
-        """All machines."""
+    def all_machines(self) -> list[int]:
+        """Return all machines."""
         return list(range(len(self.cast)))
 
     def members(self, word: str, place: Span) -> list[int]:
-        """The machines of a robot, of a role or of a type of member, or of parts of these."""
+        """Return the machines of a robot, role, type of member, or part of one."""
         found = [
             number
             for number, actor in enumerate(self.cast)
@@ -42,7 +42,7 @@ class Names:
         if not found:
             known = {w: None for a in self.cast for w in (*a.robot.words, *_own_words(a))}
             if self.subject.swarm is None:
-                help_ = f"`{self.subject.name}` runs alone: it has no name"
+                help_ = f"`{self.subject.name}` is a single machine without members"
             else:
                 roles = dict.fromkeys(actor.robot.role for actor in self.cast)
                 help_ = did_you_mean(word, known) or suggest(word, roles, "roles")
@@ -52,7 +52,7 @@ class Names:
     def in_state(
         self, who: list[int], word: str, states: Iterable[tuple[str, Span]]
     ) -> dict[int, tuple[str, ...]]:
-        """Which of the machines have the states, and which of their states are meant."""
+        """Return the machines that have the states, with the ids of these."""
         found: dict[int, tuple[str, ...]] = dict.fromkeys(who, ())
         for name, place in states:
             meant = {n: self._state(self.cast[n].machine, name) for n in found}
@@ -71,20 +71,24 @@ class Names:
         own = {n: ids for n, ids in found.items() if word in ("", *_own_words(self.cast[n]))}
         return own or found
 
-    def able(self, who: list[int], word: str, deed: Deed, name: str, place: Span) -> list[int]:
-        """Those of the machines that can do something with a name; none is reported."""
-        kind = "event" if deed == "sends" else "function"
+    def machines_able(
+        self, who: list[int], word: str, action: ActionKind, name: str, place: Span
+    ) -> list[int]:
+        """Return the machines that can do an action; report if none can."""
+        kind = "event" if action == "sends" else "function"
         if not self.is_known(kind, name, place):
             return []
-        able = [n for n in who if self._can(self.cast[n].machine, deed, name)]
+        able = [n for n in who if self._can(self.cast[n].machine, action, name)]
         if not able:
             called = f"`{word}`" if word else f"`{self.subject.name}`"
-            verb = "sends" if deed == "sends" else "calls"
+            verb = "sends" if action == "sends" else "calls"
             self._report.report("impossible-step", place, reason=f"{called} never {verb} `{name}`")
         return [n for n in able if word in ("", *_own_words(self.cast[n]))] or able
 
-    def holders(self, who: list[int], word: str, named: Iterable[tuple[str, Span]]) -> list[int]:
-        """Those of the machines that have all these variables; one that none has is reported."""
+    def machines_with(
+        self, who: list[int], word: str, named: Iterable[tuple[str, Span]]
+    ) -> list[int]:
+        """Return the machines with all the variables; report a variable that none has."""
         for name, place in named:
             known = {n: self.variables(self.cast[n].machine) for n in who}
             found = [n for n, types in known.items() if types is None or name in types]
@@ -99,7 +103,7 @@ class Names:
         return [n for n in who if word in ("", *_own_words(self.cast[n]))] or who
 
     def variables(self, machine: Machine) -> Mapping[str, Type] | None:
-        """The variables and params of a machine; of documents little is known."""
+        """Return the variables and params of a machine; None for a document."""
         if self.subject.system is None:
             return None
         model = next(each for each in self.subject.system.machines if each.name == machine.name)
@@ -107,7 +111,7 @@ class Names:
         return {**params, **{each.name: each.type for each in model.variables}}
 
     def is_known(self, kind: str, name: str, place: Span) -> bool:
-        """Whether there is an event or a function of that name; of documents little is known."""
+        """Return True if an event or function exists, or may exist in a document."""
         known = self._events if kind == "event" else self._functions
         if known is None or name in known:
             return True
@@ -122,20 +126,20 @@ class Names:
 
     @cached_property
     def _functions(self) -> list[str]:
-        """The functions that are called at all."""
+        """The functions that are called."""
         machines = dict.fromkeys(actor.machine for actor in self.cast)
         found = {s.activity.name: None for m in machines for s in m.states if s.activity}
         return list(found)
 
-    def _can(self, machine: Machine, deed: Deed, name: str) -> bool:
-        key = (machine.name, deed)
+    def _can(self, machine: Machine, action: ActionKind, name: str) -> bool:
+        key = (machine.name, action)
         if key not in self._abilities:
-            self._abilities[key] = self._find(machine, deed)
+            self._abilities[key] = self._find(machine, action)
         can = self._abilities[key]
         return can is None or name in can
 
-    def _find(self, machine: Machine, deed: Deed) -> frozenset[str] | None:
-        if deed != "sends":
+    def _find(self, machine: Machine, action: ActionKind) -> frozenset[str] | None:
+        if action != "sends":
             return frozenset(s.activity.name for s in machine.states if s.activity)
         system = self.subject.system
         if system is None:
@@ -149,14 +153,14 @@ class Names:
 
 
 def _own_words(actor: Actor) -> tuple[str, ...]:
-    """What a machine itself is meant by: with the part, where it is that of a part."""
+    """Return the words that select a machine; with the part, for that of a part."""
     robot = actor.robot
     part = (actor.name or "")[len(robot.name or "") :]
     return tuple(f"{word}{part}" for word in robot.words)
 
 
 def _states(machine: Machine) -> list[str]:
-    """The states that a machine can be in when it has come to rest."""
+    """Return the states in which a machine can come to rest."""
     return [
         state.id
         for state in machine.states[1:]

@@ -1,4 +1,4 @@
-"""Test files: what is tested, with what around it, and the tests."""
+"""Read test files: subjects, scenarios and tests."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.testing.case import Case, End, Step, TestFile, Unread
+from swarmdsl.execution.testing.case import Case, End, InvalidTest, Step, TestFile
 from swarmdsl.execution.testing.models import Model, Models
 from swarmdsl.execution.testing.names import Names
 from swarmdsl.execution.testing.steps import StepReader
@@ -26,23 +26,23 @@ _SHARED = ("swarm", "machine", "scenario", "seeds", "passing")
 _FILE = ("model", *_SHARED, "test")
 _TEST = ("name", *_SHARED, "steps", "always")
 _NEVER = {"aborted": 0.0, "preempted": 0.0, "never": 1.0}
-# More than that is no test any more.
+# Upper limit that is reasonable for a test.
 _MOST_SEEDS = 10_000
 
 
 def read_tests(source: Source, models: Models, report: Diagnostics) -> TestFile | None:
-    """The tests of a file; None where it has errors, which are reported.
+    """Read the tests of a file; None if it has errors, which are reported.
 
-    What is wrong with one test alone is kept with that, so that the others can run.
+    Errors in a single test are kept with it, so that the others can run.
     """
     document = parse_toml(source, report)
     if document is None:
         return None
-    assert source.path is not None  # what it names lies beside it
+    assert source.path is not None  # paths in it are relative to the file
     cases = _Reader(document, source.path, models, report).read()
     if not cases or report.has_errors:
         for case in cases:
-            report.include(case.problems if isinstance(case, Unread) else ())
+            report.include(case.problems if isinstance(case, InvalidTest) else ())
         return None
     return TestFile(document.source, tuple(cases))
 
@@ -54,8 +54,8 @@ class _Reader:
         self._report = report
         self._top = Table(document, (), report)
 
-    def read(self) -> list[Case | Unread]:
-        """The tests; none where the model has mistakes."""
+    def read(self) -> list[Case | InvalidTest]:
+        """Return the tests; none if the model has errors."""
         self._top.check_keys(_FILE, "a test file")
         if self._top.values.get("test", []) == []:
             help_ = "a test begins with `[[test]]`"
@@ -73,14 +73,16 @@ class _Reader:
         tables = enumerate(self._top.items("test"))
         return [self._read(number, table.keys, names, model) for number, table in tables]
 
-    def _read(self, number: int, keys: Keys, names: dict[str, Span], model: Model) -> Case | Unread:
+    def _read(
+        self, number: int, keys: Keys, names: dict[str, Span], model: Model
+    ) -> Case | InvalidTest:
         report = Diagnostics()
         table = Table(self._top.document, keys, report)
         table.check_keys(_TEST, "a test")
         name = self._name(table, names)
         case = self._case(table, name or "", model)
         if case is None or report.has_errors:
-            return Unread(name or f"test {number + 1}", tuple(report))
+            return InvalidTest(name or f"test {number + 1}", tuple(report))
         self._report.include(report)
         return case
 
@@ -90,7 +92,7 @@ class _Reader:
             return None
         name, place = table.values["name"], table.value_place(("name",))
         if not isinstance(name, str) or not name.strip() or not name.isprintable():
-            table.wrong(("name",), "a text in one line", name)
+            table.wrong(("name",), "a string without line breaks", name)
             return None
         if name in names:
             related = (Label(names[name], "the first one"),)
@@ -106,7 +108,7 @@ class _Reader:
         share = passing.share("passing") if "passing" in passing else 1.0
         if subject is None or scenario is None:
             return None
-        cast = actors(subject, subject.crew(scenario.counts), scenario, table.report)
+        cast = actors(subject, subject.create_robots(scenario.counts), scenario, table.report)
         if not cast:
             return None
         reader = StepReader(Names(subject, cast, table.report), table.report)
@@ -141,7 +143,7 @@ class _Reader:
         for holder in (table, self._top):
             given = [key for key in ("swarm", "machine") if key in holder]
             if len(given) > 1:
-                reason = "`swarm` and `machine` are not given together"
+                reason = "`swarm` and `machine` cannot be combined"
                 holder.report.report("impossible-step", holder.key_place("machine"), reason=reason)
                 return None
             if given:
@@ -149,7 +151,7 @@ class _Reader:
         return model.subject(table, None, table.report)
 
     def _scenario(self, table: Table, subject: Subject) -> Scenario | None:
-        """What is around the test: a file, or a table in this one."""
+        """Read the scenario of a test, from a file or a table."""
         holder = self._holder(table, "scenario")
         value: Any = holder.values.get("scenario", {})
         if "scenario" not in holder:
@@ -171,11 +173,11 @@ class _Reader:
         return (holder.whole(key, 1, _MOST_SEEDS) or 1) if key in holder else 1
 
     def _holder(self, table: Table, key: str) -> Table:
-        """The test, where it has a key, else the file."""
+        """Return the table with a key: the test, else the file."""
         return table if key in table else self._top
 
     def _paths(self, table: Table, key: str) -> Iterator[tuple[Path, Span]]:
-        """The paths that a text or a list of texts names, from the folder of the test file."""
+        """Yield paths from a string or list, relative to the folder of the test file."""
         value = table.values[key]
         for number, each in enumerate(value if isinstance(value, list) else [value]):
             way = (key, number) if isinstance(value, list) else (key,)
@@ -186,7 +188,7 @@ class _Reader:
 
 
 def _part(table: Table, key: str) -> Document:
-    """A table in a document as a document of its own."""
+    """Return a nested table as a separate document."""
     keys = (*table.keys, key)
     inside: dict[tuple[str | int, ...], Place] = {
         way[len(keys) :]: place
@@ -197,7 +199,7 @@ def _part(table: Table, key: str) -> Document:
 
 
 def _with_ends(scenario: Scenario, steps: list[Step], cast: list[Actor]) -> Scenario:
-    """A scenario in which the functions that a test ends do not end by themselves."""
+    """Return a scenario in which functions ended by the test do not end on their own."""
     functions = {key: dict(said) for key, said in scenario.functions.items()}
     for step in steps:
         if isinstance(step, End):

@@ -1,4 +1,4 @@
-"""Runs one test with one seed, in virtual time."""
+"""Run one test with one seed, in virtual time."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.durations import shown
+from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.execution.testing.case import Case, Claim, End, Expect, Lose, Pass, Send, Step
-from swarmdsl.execution.testing.recorder import Witness
+from swarmdsl.execution.testing.recorder import Recorder
 
 
 @dataclass(frozen=True)
-class Played:
-    """What came of a run; `faults` are what guards and effects had no value for, by machine."""
+class RunResult:
+    """Result of a run; `faults` are failed guards and effects, by machine."""
 
     failure: Failure | None
     faults: tuple[tuple[str, str], ...]
@@ -26,7 +26,7 @@ class Played:
 
 @dataclass(frozen=True)
 class Failure:
-    """What a run failed at: the diagnostic that says so, in its parts, and what came before."""
+    """Failure of a run: the parts of its diagnostic, and the last trace lines."""
 
     code: str
     place: Span
@@ -37,33 +37,33 @@ class Failure:
 
 
 class _FailedError(Exception):
-    """The run has failed at a step."""
+    """A step or claim failed."""
 
-    def __init__(self, place: Span, expected: str, told: str) -> None:
+    def __init__(self, place: Span, expected: str, actual: str) -> None:
         super().__init__(expected)
         self.place = place
         self.expected = expected
-        self.told = told
+        self.actual = actual
 
 
-def play(case: Case, seed: int, listener: Callable[[Line], None]) -> Played:
-    """Run a test to its end, or to what it fails at."""
-    return _Play(case, seed, listener).play()
+def run_case(case: Case, seed: int, listener: Callable[[Line], None]) -> RunResult:
+    """Run a test until its end or first failure."""
+    return _CaseRun(case, seed, listener).run_case()
 
 
-class _Play:
+class _CaseRun:
     def __init__(self, case: Case, seed: int, listener: Callable[[Line], None]) -> None:
         self._case = case
-        robots = case.subject.crew(case.scenario.counts)
-        # Those of another run are no longer as they began.
+        robots = case.subject.create_robots(case.scenario.counts)
+        # Actors are not reusable: a run changes their data.
         self._cast = actors(case.subject, robots, case.scenario, Diagnostics())
-        self._witness = Witness(self._cast, lambda actor: self._world.data(actor))
-        listeners = [self._witness.see, listener]
+        self._recorder = Recorder(self._cast, lambda actor: self._world.data(actor))
+        listeners = [self._recorder.see, listener]
         self._world = World(case.subject.system, self._cast, case.scenario, seed, listeners)
 
-    def play(self) -> Played:
+    def run_case(self) -> RunResult:
         failure = self._failed()
-        return Played(failure, tuple(self._world.failures))
+        return RunResult(failure, tuple(self._world.failures))
 
     def _failed(self) -> Failure | None:
         place = self._case.place
@@ -75,9 +75,9 @@ class _Play:
                 self._do(step)
         except _FailedError as failed:
             now = self._world.clock.now
-            when = f"after {shown(now)}" if now else "at the start"
+            when = f"after {format_duration(now)}" if now else "at the start"
             fields = {"expected": failed.expected}
-            label = f"{when}: {failed.told}"
+            label = f"{when}: {failed.actual}"
             self._world.trace.flush()
             return self._failure("failed-expectation", failed.place, fields, label)
         except LoopError as error:
@@ -88,7 +88,7 @@ class _Play:
         if isinstance(step, Expect):
             self._expect(step)
             return
-        self._witness.mark()
+        self._recorder.mark()
         match step:
             case Send(event=event, data=data, to=to):
                 self._world.deliver(event, data, [self._cast[number] for number in to])
@@ -103,7 +103,7 @@ class _Play:
         self._pass(0)
 
     def _pass(self, length: int) -> None:
-        """Let time pass; none, for all that happens at this moment."""
+        """Let time pass; with 0, process everything that happens now."""
         self._check_always()
         for _ in self._moments(length):
             self._check_always()
@@ -111,20 +111,20 @@ class _Play:
     def _end(self, step: End) -> None:
         running = [actor for actor in self._actors(step.of) if self._events(actor, step)]
         if not running:
-            raise _FailedError(step.place, f"`{step.function}` to be running", "nobody runs it")
+            raise _FailedError(step.place, f"`{step.function}` to be running", "it is not running")
         for actor in running:
             for event in self._events(actor, step):
                 self._world.deliver(event, step.result, [actor])
 
     def _events(self, actor: Actor, step: End) -> list[str]:
-        """The events that are the ends of a function that a machine is running."""
+        """Return the events that end a running function of a machine."""
         runs = [run for run in self._world.runs(actor) if run.activity.name == step.function]
         return [run.activity.events[step.outcome] for run in runs]
 
     def _actors(self, numbers: tuple[int, ...]) -> list[Actor]:
         return [self._cast[number] for number in numbers]
 
-    # ---- what is expected
+    # ---- expectations
 
     def _expect(self, step: Expect) -> None:
         claim = step.claim
@@ -134,25 +134,27 @@ class _Play:
                 self._check_always()
                 self._check(claim)
             return
-        if not self._witness.holds(claim) and step.within is not None:
+        if not self._recorder.holds(claim) and step.within is not None:
             for _ in self._moments(step.within):
                 self._check_always()
-                if self._witness.holds(claim):
+                if self._recorder.holds(claim):
                     break
         self._check(claim)
         self._pass(0)
 
     def _check(self, claim: Claim) -> None:
-        if not self._witness.holds(claim):
-            raise _FailedError(claim.place, claim.text, self._witness.told(claim))
+        if not self._recorder.holds(claim):
+            raise _FailedError(claim.place, claim.text, self._recorder.describe_actual(claim))
 
     def _check_always(self) -> None:
         for claim in self._case.always:
-            if not self._witness.holds(claim):
-                raise _FailedError(claim.place, f"always {claim.text}", self._witness.told(claim))
+            if not self._recorder.holds(claim):
+                raise _FailedError(
+                    claim.place, f"always {claim.text}", self._recorder.describe_actual(claim)
+                )
 
     def _moments(self, length: int) -> Iterator[None]:
-        """Let time pass, and stop after all that happens on the way."""
+        """Let time pass, and yield after each action."""
         clock = self._world.clock
         end = clock.now + length
         while (due := clock.next) is not None and due <= end:
@@ -165,7 +167,7 @@ class _Play:
     def _loop(self, error: LoopError, place: Span) -> Failure:
         self._world.trace.flush()
         states = set(error.states)
-        actors = [line.actor for line in self._witness.last]
+        actors = [line.actor for line in self._recorder.last]
         going = [actor for actor in actors if states <= actor.machine.numbers.keys()]
         who = going[-1].name or self._case.subject.name if going else self._case.subject.name
         related = []
@@ -174,7 +176,7 @@ class _Play:
             origin = getattr(machine.states[machine.numbers[state]].origin, "origin", None)
             if isinstance(origin, Span):
                 related.append(Label(origin, "part of the loop"))
-        fields = {"who": f"`{who}`", "time": shown(self._world.clock.now)}
+        fields = {"who": f"`{who}`", "time": format_duration(self._world.clock.now)}
         label = f"it loops through {listed(error.states, 'and')}"
         return self._failure("never-settles", place, fields, label, tuple(related))
 
@@ -186,4 +188,4 @@ class _Play:
         label: str,
         related: tuple[Label, ...] = (),
     ) -> Failure:
-        return Failure(code, place, fields, label, related, tuple(self._witness.last))
+        return Failure(code, place, fields, label, related, tuple(self._recorder.last))

@@ -1,4 +1,4 @@
-"""Steps of a test from TOML: a verb each, and everything that is named exists."""
+"""Read test steps from TOML, and resolve their names."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
-from swarmdsl.execution.simulate.durations import shown
+from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.table import OUTCOMES
 from swarmdsl.execution.simulate.values import fitted, fitted_result, kind
@@ -18,8 +18,8 @@ from swarmdsl.execution.testing.case import (
     ALL,
     ANY,
     NONE,
+    ActionKind,
     Claim,
-    Deed,
     End,
     Expect,
     Lose,
@@ -28,7 +28,7 @@ from swarmdsl.execution.testing.case import (
     Send,
     Step,
 )
-from swarmdsl.execution.testing.data import told
+from swarmdsl.execution.testing.data import describe_fields
 from swarmdsl.execution.testing.expected_data import event_data, variables
 from swarmdsl.execution.testing.names import Names
 
@@ -39,11 +39,15 @@ _ACTIONS: Mapping[str, tuple[str, ...]] = {
     "lose": (),
 }
 _SUBJECTS: Mapping[str, Quantity] = {"who": ALL, "all": ALL, "any": ANY, "no": NONE}
-_DEEDS: Mapping[str, Deed] = {"sends": "sends", "starts": "starts", "cancels": "cancels"}
-_VERBS = ("in", "has", *_DEEDS)
+_ACTION_KINDS: Mapping[str, ActionKind] = {
+    "sends": "sends",
+    "starts": "starts",
+    "cancels": "cancels",
+}
+_VERBS = ("in", "has", *_ACTION_KINDS)
 _TIMES = ("within", "for")
 _CLAIM = (*_SUBJECTS, "count", "of", *_VERBS, "data")
-# What other tools and languages call it.
+# Words of other tools and languages.
 _OTHER_WORDS = {
     **dict.fromkeys(("wait", "sleep", "delay", "after", "advance", "elapse"), "pass"),
     **dict.fromkeys(("event", "raise", "emit", "publish", "trigger"), "send"),
@@ -61,14 +65,14 @@ _COUNT = re.compile(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}|\*))?")
 
 
 class StepReader:
-    """Reads the steps of one test; a step in which something is wrong is None."""
+    """Reader of the steps of a test; an invalid step is None."""
 
     def __init__(self, names: Names, report: Diagnostics) -> None:
         self._names = names
         self._report = report
 
     def step(self, table: Table) -> Step | None:
-        """A step: something that is done, or something that is expected."""
+        """Read a step: an action or an expectation."""
         verbs = [key for key in table.values if key in _ACTIONS]
         if not verbs:
             return self._expect(table)
@@ -83,12 +87,12 @@ class StepReader:
         return read[verb](table)
 
     def claim(self, table: Table) -> Claim | None:
-        """Something that must be so all the time."""
+        """Read a claim that must hold all the time."""
         self._check_keys(table, _CLAIM, "what is always so")
         return self._claim(table)
 
     def _check_keys(self, table: Table, known: Iterable[str], owner: str) -> None:
-        """Report keys that mean nothing, some with what they may have been meant for."""
+        """Report unknown keys, some with a hint."""
         known = list(known)
         for key in table.values:
             if key not in known:
@@ -97,12 +101,12 @@ class StepReader:
                 place = table.key_place(key)
                 self._report.report("unknown-key", place, name=key, owner=owner, help=help_)
 
-    # ---- what is done
+    # ---- actions
 
     def _send(self, table: Table) -> Send | None:
         place = table.value_place(("send",))
         event = _text(table, "send", "the name of an event")
-        who = self._members(table, "to") if "to" in table else self._names.everybody()
+        who = self._members(table, "to") if "to" in table else self._names.all_machines()
         if event is None or not who or not self._names.is_known("event", event, place):
             return None
         listening = [n for n in who if self._names.cast[n].listens(event)]
@@ -121,15 +125,15 @@ class StepReader:
         place = table.value_place(("end",))
         function = _text(table, "end", "the name of a function")
         outcome = table.name("as", OUTCOMES, "outcome") if "as" in table else "succeeded"
-        who = self._members(table, "of") if "of" in table else self._names.everybody()
+        who = self._members(table, "of") if "of" in table else self._names.all_machines()
         if function is None or outcome is None or not who:
             return None
         word = table.values.get("of", "")
-        able = self._names.able(who, word, "starts", function, place)
+        able = self._names.machines_able(who, word, "starts", function, place)
         result = None
         if "result" in table and able:
             if outcome != "succeeded":
-                table.wrong(("result",), "nothing unless it succeeds", table.values["result"])
+                table.wrong(("result",), "no result unless it succeeds", table.values["result"])
             result = self._result(table, function)
         return End(place, function, outcome, result, tuple(able)) if able else None
 
@@ -152,7 +156,7 @@ class StepReader:
         robots = dict.fromkeys(self._names.cast[n].robot.name for n in who)
         return Lose(table.value_place(("lose",)), tuple(robots)) if who else None
 
-    # ---- what is expected
+    # ---- expectations
 
     def _expect(self, table: Table) -> Expect | None:
         self._check_keys(table, (*_ACTIONS, *_CLAIM, *_TIMES), "a step")
@@ -167,12 +171,12 @@ class StepReader:
         within, lasting = (lengths.get(key) for key in _TIMES)
         text = claim.text
         if within is not None:
-            text += f" within {shown(within)}"
+            text += f" within {format_duration(within)}"
         if lasting is not None:
-            text += f" for {shown(lasting)}"
-        if within is not None and claim.deed is not None and not claim.quantity.waits:
-            reason = "nothing has to be done for this, so that `within` waits for nothing"
-            help_ = "`for` lets time pass in which it stays so"
+            text += f" for {format_duration(lasting)}"
+        if within is not None and claim.action is not None and not claim.quantity.waits:
+            reason = "`within` has no effect: the claim holds without any action"
+            help_ = "use `for` to check it during a time"
             self._report.report(
                 "impossible-step", table.key_place("within"), reason=reason, help=help_
             )
@@ -188,16 +192,16 @@ class StepReader:
         quantity = self._quantity(table)
         key = "of" if "of" in table else next((k for k in _SUBJECTS if k in table), None)
         if key == "of" and "count" not in table:
-            reason, place = "`of` stands with a `count`", table.key_place("of")
-            help_ = "write `all`, `any` or `no` in its place"
+            reason, place = "`of` requires a `count`", table.key_place("of")
+            help_ = "write `all`, `any` or `no` instead"
             self._report.report("impossible-step", place, reason=reason, help=help_)
             return None
-        who = self._members(table, key) if key is not None else self._names.everybody()
+        who = self._members(table, key) if key is not None else self._names.all_machines()
         if verb is None or quantity is None or not who:
             return None
         if "data" in table and verb != "sends":
-            reason, place = "`data` stands with `sends`", table.key_place("data")
-            help_ = "`has` says what variables hold"
+            reason, place = "`data` requires `sends`", table.key_place("data")
+            help_ = "use `has` for the values of variables"
             self._report.report("impossible-step", place, reason=reason, help=help_)
             return None
         words = _words(table, key)
@@ -215,7 +219,7 @@ class StepReader:
         elif verb == "has":
             values = variables(table, self._names, who, word)
             text = (
-                f"{words}to have `{told(table.values['has'], table.values['has'])}`"
+                f"{words}to have `{describe_fields(table.values['has'], table.values['has'])}`"
                 if values
                 else ""
             )
@@ -225,7 +229,8 @@ class StepReader:
             what = "the name of an event" if verb == "sends" else "the name of a function"
             name = _text(table, verb, what)
             place = table.value_place((verb,))
-            able = self._names.able(who, word, _DEEDS[verb], name, place) if name else []
+            action = _ACTION_KINDS[verb]
+            able = self._names.machines_able(who, word, action, name, place) if name else []
             said = {"sends": "to send", "starts": "to start", "cancels": "to cancel"}[verb]
             text = f"{words}{said} `{name}`"
             data = None
@@ -233,13 +238,20 @@ class StepReader:
                 data = event_data(table, self._names, name)
                 if data is None:
                     return None
-                text += f" with `{told(data, data)}`"
-            deed = _DEEDS[verb]
-            claim = Claim(place, text, quantity, tuple(able), deed=deed, name=name or "", data=data)
+                text += f" with `{describe_fields(data, data)}`"
+            claim = Claim(
+                place,
+                text,
+                quantity,
+                tuple(able),
+                action=action,
+                name=name or "",
+                data=data,
+            )
         return claim if claim.who and self._is_possible(table, claim) else None
 
     def _is_possible(self, table: Table, claim: Claim) -> bool:
-        """Whether there are as many machines as are wanted."""
+        """Return True if enough machines exist."""
         least, there = claim.quantity.least or 0, len(claim.who)
         if least <= there:
             return True
@@ -292,12 +304,12 @@ class StepReader:
         return None
 
     def _one_of(self, table: Table, keys: list[str]) -> None:
-        reason = f"{listed(keys, 'and')} are not given together"
+        reason = f"{listed(keys, 'and')} cannot be combined"
         self._report.report("impossible-step", table.key_place(keys[1]), reason=reason)
 
 
 def _words(table: Table, key: str | None) -> str:
-    """Whom a claim is about, in words."""
+    """Describe the machines of a claim."""
     name = f"`{table.values[key]}` " if key is not None else ""
     if "count" in table:
         return f"{table.values['count']} {f'of {name}' if name else ''}"

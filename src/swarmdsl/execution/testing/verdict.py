@@ -1,4 +1,4 @@
-"""Whether a test passes: with its seeds, as many of its runs as must."""
+"""Verdict on a test, from its runs with all seeds."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.testing.case import Case
-from swarmdsl.execution.testing.run_case import Failure, play
+from swarmdsl.execution.testing.run_case import Failure, run_case
 
 _SHOWN = 8
-# A share of 0.9 asks for 9 of 10, in spite of how computers hold 0.9.
+# Tolerance for rounding: a share of 0.9 means 9 of 10.
 _HAIR = 1e-9
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of a test: the failures by seed, and the seconds that it took."""
+    """Result of a test: failures by seed, and its duration in seconds."""
 
     case: Case
     seeds: tuple[int, ...]
@@ -30,12 +30,12 @@ class Verdict:
 
     @property
     def passed(self) -> bool:
-        """Whether enough of the runs have passed."""
+        """True if enough runs passed."""
         runs = len(self.seeds)
         return runs - len(self.failures) >= self.case.passing * runs - _HAIR
 
     def report(self, report: Diagnostics) -> None:
-        """Report the first failure where there are too many, and what had no value."""
+        """Report the first failure if too many runs failed, and failed expressions."""
         for machine, reason in self.faults:
             note = f"in the test `{self.case.name}`"
             report.report("failed-expression", machine=machine, reason=reason, notes=(note,))
@@ -66,23 +66,23 @@ class Verdict:
 
     @property
     def _wanted(self) -> str:
-        """How many must pass, where that is not all of them."""
+        """Required number of passing runs, if not all."""
         least = math.ceil(self.case.passing * len(self.seeds) - _HAIR)
         return f", {least} must" if least < len(self.seeds) else ""
 
     @property
     def last(self) -> Sequence[Line]:
-        """What happened before the first failure."""
+        """Trace lines before the first failure."""
         return next(iter(self.failures.values())).last if self.failures else ()
 
 
 def judge(case: Case, seeds: Sequence[int], listener: Callable[[int, Line], None]) -> Verdict:
-    """Run a test with each of the seeds."""
+    """Run a test with each seed."""
     began = time.perf_counter()
     failures: dict[int, Failure] = {}
     faults: dict[tuple[str, str], None] = {}
     for seed in seeds:
-        played = play(case, seed, partial(listener, seed))
+        played = run_case(case, seed, partial(listener, seed))
         faults.update(dict.fromkeys(played.faults))
         if played.failure is not None:
             failures[seed] = played.failure
