@@ -110,12 +110,12 @@ def test_it_is_called_otherwise_wherever_it_is_named(old, new, parts, model, swa
         ("Camra", "Eye", "SW1503", "did you mean `Camera`?"),
         ("MissionStart", "Go", "SW1503", "a library declares it, and libraries cannot be changed"),
         ("Idle", "Still", "SW1504", "qualify it, such as `Going.Idle`"),
-        ("Camera", "on", "SW1505", "a word of the language"),
-        ("Camera", "My-Eye", "SW1505", "is no name"),
+        ("Camera", "on", "SW1505", "is a keyword"),
+        ("Camera", "My-Eye", "SW1505", "is not a valid name"),
         ("Going.Busy.Drive", "Going.Busy.Roll", "SW1505", "give the unqualified name: `Roll`"),
         ("Camera", "Cart", "SW1505", "cannot rename"),
         ("Going.Done", "Idle", "SW1505", "cannot rename"),
-        ("Cart.speed", "velocity", "SW1505", "there would be a mistake"),
+        ("Cart.speed", "velocity", "SW1505", "there would be an error"),
     ],
 )
 def test_what_cannot_be_renamed(old, new, code, said, swarmc, yard) -> None:

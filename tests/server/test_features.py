@@ -179,7 +179,7 @@ async def test_rename_to_invalid_names(client, editor, folder):
         ("rounds =", "limit", "declared twice"),
         ("Idle {", "Home", "declared twice"),
         ("Idle {", "2nd", "no name"),
-        ("Idle {", "state", "a word of the language"),
+        ("Idle {", "state", "is a keyword"),
         ("initial", "first", "no name of something"),
     ):
         with pytest.raises(JsonRpcException, match=why):
