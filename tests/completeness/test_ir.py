@@ -23,7 +23,7 @@ from swarmdsl.codegen.exchange.scxml import Options, emit
 from swarmdsl.codegen.swarm_printer.system import print_system
 from swarmdsl.driver import pipeline
 from swarmdsl.ir.dump import dump
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 from swarmdsl.tools.compare.comparison import compare
 from swarmdsl.tools.diagram.dot import dot
 from swarmdsl.tools.diagram.views import diagrams
@@ -183,7 +183,7 @@ def test_a_change_is_formatted_and_merged(name: str) -> None:
     if not texts(name):
         pytest.skip("the printer refuses each change of this field alone")
     for before, after in texts(name)[:2]:
-        text = formatted(Source("model.swarm", after), Diagnostics())
+        text = format_source(Source("model.swarm", after), Diagnostics())
         if text is None:  # the change is not in the grammar
             continue
         assert "".join(text.split()) == "".join(after.split())
