@@ -73,7 +73,7 @@ class Python:
         return f"{type_.package}.{kind}.{type_.name}"
 
     def imported(self, type_: Named, kind: str) -> str:
-        """Module `demo.msg`; actions of ROS 1 are messages."""
+        """Return the module `demo.msg`; actions of ROS 1 are messages."""
         module = "msg" if kind == "action" and self.ros == 1 else kind
         return f"{type_.package}.{module}"
 
@@ -124,7 +124,7 @@ class Python:
         return python_field(name)
 
     def refusal(self, why: str, response: Mapping[str, str]) -> tuple[str, ...]:
-        """An exception; in ROS 2, which has none for clients, a field `success`."""
+        """Return an exception; in ROS 2, which has none for clients, a field `success`."""
         if self.ros == 1:
             return (f"raise rospy.ServiceException({why!r})",)
         lines = [f"self.get_logger().error({why!r})"]
@@ -194,7 +194,7 @@ class Cpp:
         return values.get(name, f"{name}{{1}}")
 
     def field(self, name: str) -> str:
-        """The name unchanged."""
+        """Return the name unchanged."""
         return name
 
     def refusal(self, why: str, response: Mapping[str, str]) -> tuple[str, ...]:

@@ -86,7 +86,9 @@ _REASONS: dict[str, dict[str, str]] = {
             "FunctionPort.topic FunctionPort.type"
         ),
     },
-    "document": {},
+    "document": {
+        "makes no difference in a transition without a target": "Transition.internal",
+    },
 }
 
 LEFT_OUT = {

@@ -32,7 +32,7 @@ else:
         return _Field(about)
 
     def replace(of, /, **changes):
-        """The same with other values, as with `dataclasses.replace`, which has to know more."""
+        """Return a copy with other values, like `dataclasses.replace`."""
         kept = {
             name: getattr(of, name)
             for name, about in of.__parts__.items()

@@ -46,7 +46,7 @@ class Source:
         return line, offset - self.line_starts[line - 1] + 1
 
     def line_text(self, line: int) -> str:
-        """The text of a line (counted from 1) without its end."""
+        """Return the text of a line (counted from 1) without its end."""
         start = self.line_starts[line - 1]
         end = self.text.find("\n", start)
         return self.text[start : end if end >= 0 else len(self.text)].rstrip("\r")
@@ -67,7 +67,7 @@ class Piece(Source):
         return self.whole.line_column(self.base + offset)
 
     def line_text(self, line: int) -> str:
-        """The text of a line of the file."""
+        """Return the text of a line of the file."""
         return self.whole.line_text(line)
 
 

@@ -13,7 +13,7 @@ _COMPARED = 50
 
 
 def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
-    """The known word most like another, None when none is that like (1 is the same)."""
+    """Return the known word most like another, None if none is similar enough (1: equal)."""
     by_lower = {name.lower(): name for name in known}
     if not word or not by_lower:
         return None
@@ -36,7 +36,7 @@ def _pairs(word: str) -> frozenset[tuple[str, str]]:
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str | None:
-    """A question that names the closest known word, None when nothing comes close."""
+    """Return a question that names the closest known word, None if none is similar."""
     name = closest(word, known)
     return f"did you mean `{name}`?" if name else None
 

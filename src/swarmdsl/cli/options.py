@@ -30,7 +30,7 @@ _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 
 
 def option(about: Option) -> Callable[[_Decorated], _Decorated]:
-    """Decorator that adds an option described as plain data."""
+    """Return a decorator that adds an option described as plain data."""
     types = {None: None, str: None, Path: PLACE}
     return click.option(
         *about.flags,

@@ -41,7 +41,7 @@ def _check(model: Any, _metamodel: Any) -> None:
 
 
 def _settings(path: Path) -> Settings:
-    """Settings of the project of a model."""
+    """Return the settings of the project of a model."""
     from swarmdsl.driver.config import find_settings
 
     report = Diagnostics()

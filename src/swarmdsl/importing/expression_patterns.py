@@ -36,7 +36,7 @@ class TypeInference:
         self.event = event
 
     def common(self, *trees: Any) -> Type | None:
-        """Common type of operands; number literals count last."""
+        """Return the common type of operands; number literals count last."""
         found = [type_ for type_ in map(self.of, trees) if type_ is not None]
         sure = [
             t

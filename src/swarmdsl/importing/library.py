@@ -121,11 +121,11 @@ class Library:
         self.by_name[function.name] = key
 
     def function_named(self, name: str) -> Function | None:
-        """Function by its name in the portable profile."""
+        """Return the function by its name in the portable profile."""
         return self.functions.get(self.by_name[name]) if name in self.by_name else None
 
     def function(self, call: Call) -> Function:
-        """Function of a call, created if it is unknown."""
+        """Return the function of a call, created if it is unknown."""
         known = self.functions.get((call.paradigm, call.name, call.type))
         if known is None:
             name = call.function

@@ -32,14 +32,14 @@ class NamePool:
         return self.given[text]
 
     def exact(self, text: str) -> str:
-        """The string itself if it is a valid and free name, otherwise a new name."""
+        """Return the string itself if it is a valid and free name, otherwise a new name."""
         if not is_plain(text) or text in self.taken:
             return self.new(text)
         self.taken.add(text)
         return text
 
     def new(self, text: str) -> str:
-        """New unique name in the usual style."""
+        """Return a new unique name in the usual style."""
         ascii_ = text.encode("ascii", "ignore").decode()
         name = self.style(re.sub(r"[^A-Za-z0-9]+", "_", ascii_))
         if not name or not name[0].isalpha():

@@ -55,7 +55,7 @@ class _Resolver:
         draft.children = [each for each in draft.children if each.kind is not StateKind.HISTORY]
 
     def initial(self, draft: PartialState) -> PartialState:
-        """Initial state of a composite state."""
+        """Return the initial state of a composite state."""
         first = next((e for e in draft.children if e.kind is not StateKind.HISTORY), None)
         first = first or draft.children[0]
         node, attribute = draft.node, "initial"
@@ -85,7 +85,7 @@ class _Resolver:
         return next((e for e in self.known.get(name, ()) if draft in e.ancestors()), None)
 
     def resolved(self, edge: Edge, source: PartialState) -> Edge | None:
-        """The edge with its target; None if it cannot be imported."""
+        """Return the edge with its target; None if it cannot be imported."""
         ids = edge.node.get("target", "").split()
         if not ids:
             return edge

@@ -15,7 +15,7 @@ from swarmdsl.syntax.formatter import format_source
 
 
 def model_text(system: System, path: Path, report: Diagnostics) -> str | None:
-    """Formatted text of a system; None if it is empty or cannot be printed."""
+    """Return the formatted text of a system; None if it is empty or cannot be printed."""
     if not (report.has_errors or _has_content(system)):
         report.report("nothing-to-import", path=path.as_posix())
     if report.has_errors:

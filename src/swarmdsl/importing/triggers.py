@@ -61,7 +61,7 @@ class Triggers:
         return tuple(self._merged(list(found), draft))
 
     def message(self, triggers: tuple[Trigger, ...]) -> Type | None:
-        """Common message type of all triggers; None if there is none."""
+        """Return the common message type of all triggers; None if there is none."""
         heard = [each.event for each in triggers if isinstance(each, EventTrigger)]
         types = set(map(self.events.message, heard))
         if len(types) != 1 or len(heard) < len(triggers):

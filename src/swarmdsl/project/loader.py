@@ -40,7 +40,7 @@ _WAYS = {
     ".xml": _IMPORTED,
     ".scxml": _IMPORTED,
 }
-"""What files are for that are often given in place of models, by their suffix."""
+"""Purpose of files that are often given instead of models, by suffix."""
 
 
 @dataclass(eq=False)

@@ -185,7 +185,10 @@ def _check_direction(connector: Connector, source: Port, target: Port, context: 
 
 
 def _places(end: PortRef, port: Port) -> tuple[str, ...]:
-    """Allowed ends of a connector for a port. Own ports of the member have the inner direction."""
+    """Return the ends of a connector that a port may be.
+
+    Ports of the member itself have the direction of their inner side.
+    """
     if port.direction == "inout":
         return ("start", "end")
     return ("start",) if (port.direction == "out") == (end.part is not None) else ("end",)

@@ -180,7 +180,7 @@ class ControlFlowGraph:
         self._enter(node, stays, path[stay:])
 
     def _kept(self, arrow: Transition | Branch, source: Vertex, target: Vertex) -> int:
-        """Number of common ancestors that stay active; the last is not parallel (SCXML 3.13)."""
+        """Count the common ancestors that stay active; the last is not parallel (SCXML 3.13)."""
         sources, path = self._hierarchy.path(source), self._hierarchy.path(target)
         inward = isinstance(arrow, Transition) and arrow.internal and isinstance(source, State)
         if len(sources) == len(path) and sources[-2] is path[-2] and not inward:
@@ -242,7 +242,7 @@ class ControlFlowGraph:
 def _actions(
     kind: type[Entry] | type[Exit], hierarchy: StateHierarchy
 ) -> Mapping[State | Parallel, list[Access]]:
-    """Accesses of the entry or exit actions of all states."""
+    """Return the accesses of the entry or exit actions of all states."""
     if not nodes_of(hierarchy.machine, kind):
         return {}
     return {state: found for state in hierarchy.states if (found := action_accesses(kind, state))}

@@ -37,7 +37,7 @@ ALL_WARNINGS = "warnings"
 
 
 MOST_HINTS = 50
-"""How many of one kind of mistake are reported with what may be meant, at most."""
+"""Diagnostics of one kind that get a hint, at most."""
 
 
 _NOTHING: dict[Diagnostic, None] = {}

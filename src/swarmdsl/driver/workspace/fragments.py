@@ -70,12 +70,12 @@ class Fragment:
             fragment.users |= {self}
 
     def owners(self) -> Iterator[Declaration | Optimization]:
-        """The declarations and optimizations in it."""
+        """Yield the declarations and optimizations in it."""
         yield from self.parsed.model.declarations
         yield from self.parsed.model.optimizations
 
     def runners(self) -> Iterator[Member | Component]:
-        """The declarations in it that run state machines."""
+        """Yield the declarations in it that run state machines."""
         for declaration in self.parsed.model.declarations:
             if isinstance(declaration, (Member, Component)):
                 yield declaration

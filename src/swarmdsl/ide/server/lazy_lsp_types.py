@@ -46,7 +46,7 @@ def unfinished() -> frozenset[type]:
 
 
 def _define_lazily(cls: type | None = None, **options: Any) -> Any:
-    """Replacement of `attrs.define` that postpones its work."""
+    """Return a replacement of `attrs.define` that postpones its work."""
     if cls is None or options:
         return _define(cls, **options)
     _unfinished.add(cls)

@@ -37,7 +37,7 @@ def update(
     complete: bool = True,
     force: bool = False,
 ) -> Mapping[str, str]:
-    """Changed texts of the model's files by source name.
+    """Return the changed texts of the model's files by source name.
 
     Comments and everything that the import does not contain stay. `complete` is True if the import
     format states interfaces completely, including empty ones and bounds of strings and arrays.

@@ -119,7 +119,7 @@ def _merge_params(
 
 
 def _bases(component: Component) -> list[Component]:
-    """Base components, the root first."""
+    """Return the base components, the root first."""
     chain: list[Component] = []
     base = component.base.target if component.base is not None else None
     while base is not None and base not in chain:

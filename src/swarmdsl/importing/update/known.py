@@ -101,6 +101,6 @@ def group_of(declaration: Declaration) -> str | None:
 
 
 def groups_before(group: str) -> list[str]:
-    """Groups that are usually before another one in a file."""
+    """Return the groups that are usually before another one in a file."""
     groups = list(_GROUPS)
     return groups[: groups.index(group)]

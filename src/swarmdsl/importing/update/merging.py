@@ -103,11 +103,11 @@ class Merge:
                 add(node_text(item))
 
     def below(self, item: Documented) -> Callable[[str], None]:
-        """Function that adds text below an item."""
+        """Return a function that adds text below an item."""
         return lambda text: self.edits.below(item.span.end, text)
 
     def inside(self, at: int) -> Callable[[str], None]:
-        """Function that adds text at the start of the next block after an offset."""
+        """Return a function that adds text at the start of the next block after an offset."""
 
         def add(text: str) -> None:
             brace = next(token for token in self.tokens.code(at, 64) if token.text == "{")
@@ -116,7 +116,7 @@ class Merge:
         return add
 
     def last(self, items: Sequence[Documented], at: int) -> Callable[[str], None]:
-        """Function that adds text below the last item of the next block after an offset."""
+        """Return a function that adds text below the last item of the next block."""
         return self.below(items[-1]) if items else self.inside(at)
 
     def kept(self, place: Span, what: str, reason: str, hint: str | None = None) -> None:

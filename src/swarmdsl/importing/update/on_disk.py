@@ -48,7 +48,7 @@ class Existing:
         }
 
     def functions(self) -> dict[str, Function]:
-        """Declared functions by name, with a placeholder for their communication."""
+        """Return the declared functions by name, with a placeholder for their communication."""
         call = Communication("action", "unknown", Named("std_msgs", "Empty"))
         return {
             str(declared.name): Function(str(declared.name), declared.category, call, (), ())
@@ -109,7 +109,7 @@ def update_files(
 
 
 def _layout(name: str, text: str, report: Diagnostics) -> Layout | None:
-    """Changed file in canonical layout with its original line ends."""
+    """Return a changed file in canonical layout with its original line ends."""
     before = Path(name).read_bytes()
     windows = before.partition(b"\n")[0].endswith(b"\r")
     content = text.replace("\n", "\r\n") if windows else text

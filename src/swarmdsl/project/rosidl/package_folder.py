@@ -194,7 +194,7 @@ class _Finder:
         return (holder.parent if holder in within else home).name
 
     def _within(self, folder: Path, inside: Sequence[str]) -> list[Path]:
-        """A folder and its ancestors that may be the folder of its package.
+        """Return a folder and its ancestors that may be the folder of its package.
 
         If the user named a folder `inside` a package, the package is around it.
         """

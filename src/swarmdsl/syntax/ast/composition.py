@@ -121,7 +121,7 @@ _METRES = {"mm": 0.001, "cm": 0.01, "km": 1000.0, "m": 1.0}
 
 
 def in_metres(length: str) -> float:
-    """A length as written, `10 m` for instance, in metres."""
+    """Return a length as written, `10 m` for instance, in metres."""
     unit = next(unit for unit in _METRES if length.endswith(unit))
     return float(length.removesuffix(unit)) * _METRES[unit]
 

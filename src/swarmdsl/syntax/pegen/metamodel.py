@@ -10,7 +10,7 @@ from swarmdsl.base.resources import grammar
 
 
 def metamodel() -> Any:
-    """The textX metamodel of the language; references stay unresolved."""
+    """Return the textX metamodel of the language; references stay unresolved."""
     made = metamodel_from_file(str(grammar() / "swarm.tx"), autokwd=True)
     made.register_scope_providers({"*.*": lambda _object, _attribute, reference: reference})
     return made

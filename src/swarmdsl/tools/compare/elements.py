@@ -104,12 +104,12 @@ def type_value(type_: Type | None) -> Value:
 
 
 def state_kind(machine: str) -> str:
-    """Reference kind of the states of a machine."""
+    """Return the reference kind of the states of a machine."""
     return f"state of {machine}"
 
 
 def variable_kind(machine: str) -> str:
-    """Reference kind of the variables and params of a machine."""
+    """Return the reference kind of the variables and params of a machine."""
     return f"variable of {machine}"
 
 

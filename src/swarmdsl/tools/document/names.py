@@ -57,7 +57,7 @@ class NameResolver:
         return Code(tuple(_single_line(pieces)))
 
     def head(self, owner: Element) -> Code:
-        """Declaration up to its opening brace."""
+        """Return the declaration up to its opening brace."""
         span = owner.node.span
         # Ignore braces in comments and strings.
         end = _COMMENT.sub(lambda found: " " * len(found[0]), span.text).find("{")

@@ -37,7 +37,7 @@ class Ports:
 
 
 def block(doc: str, head: str, lines: Iterable[str]) -> str:
-    """Declaration with its doc comment."""
+    """Return the declaration with its doc comment."""
     body = "".join(f"  {line}\n" for line in lines)
     inside = f"{{\n{body}}}" if body else "{ }"
     return f"{doc_comment(doc)}\n{head} {inside}" if doc else f"{head} {inside}"
@@ -51,7 +51,7 @@ def params(arguments: Iterable[str]) -> Iterable[str]:
 
 
 def call(action: str | None, service: str | None) -> str:
-    """Action or service of a function, given as `SERVER:TYPE`."""
+    """Return the action or service of a function, given as `SERVER:TYPE`."""
     if (action is None) == (service is None):
         raise UsageError("give either `--action` or `--service`")
     word, argument = ("action", action) if action is not None else ("service", service or "")

@@ -26,7 +26,7 @@ Options = Mapping[str, Any]
 
 
 def component(options: Options) -> list[FindInsertion]:
-    """New component, optionally with a state machine and as a part of a member."""
+    """Return a new component, optionally with a state machine and as a part of a member."""
     name = options["name"]
     lines = [
         *_ports(options),
@@ -44,7 +44,7 @@ def component(options: Options) -> list[FindInsertion]:
 
 
 def member(options: Options) -> list[FindInsertion]:
-    """New member, optionally with a state machine and as a role of a swarm."""
+    """Return a new member, optionally with a state machine and as a role of a swarm."""
     name = options["name"]
     head = [*_behaviour(options), *element_text.params(options["params"]), *_ports(options)]
     parts, connectors = (
@@ -63,7 +63,7 @@ def member(options: Options) -> list[FindInsertion]:
 
 
 def function(options: Options) -> list[FindInsertion]:
-    """New function."""
+    """Return a new function."""
     name = options["name"]
     lines = [
         element_text.call(options["action"], options["service"]),
@@ -76,7 +76,7 @@ def function(options: Options) -> list[FindInsertion]:
 
 
 def event(options: Options) -> list[FindInsertion]:
-    """New event."""
+    """Return a new event."""
     name = options["name"]
     kind = "swarm event" if options["swarm"] else "event"
     topic = f' on "{options["topic"]}"' if options["topic"] else ""
@@ -85,7 +85,7 @@ def event(options: Options) -> list[FindInsertion]:
 
 
 def swarm(options: Options) -> list[FindInsertion]:
-    """New swarm."""
+    """Return a new swarm."""
     name = options["name"]
     lines = [*element_text.roles(options["members"])]
     lines += [f"{word} {options[word]}" for word in ("environment", "fitness") if options[word]]
@@ -94,7 +94,7 @@ def swarm(options: Options) -> list[FindInsertion]:
 
 
 def state(options: Options) -> list[FindInsertion]:
-    """New state and the transitions to it."""
+    """Return a new state and the transitions to it."""
     path = options["name"]
     owner, _, name = path.rpartition(".")
     if not owner:

@@ -124,7 +124,7 @@ def _test_changes(
     texts: Mapping[Path, str],
     report: Diagnostics,
 ) -> dict[Path, list[Change]]:
-    """Changes from an old name to a new one in tests and scenarios of the project.
+    """Return the changes from an old name to a new one in tests and scenarios of the project.
 
     Old names that remain are reported.
     """

@@ -82,7 +82,7 @@ def _references_in(
 
 
 def _unresolved(source: Source, places: list[tuple[int, int]], check: Check) -> set[int]:
-    """Indices of the places inside diagnostics on unresolved names."""
+    """Return the indices of the places inside diagnostics on unresolved names."""
     spans = [each.primary.span for each in check(source) if each.primary is not None]
     inside = [span for span in spans if span.source.path == source.path]
     return {

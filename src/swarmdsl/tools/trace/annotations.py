@@ -29,7 +29,7 @@ class Annotator:
         self._shown: set[object] = set()
 
     def annotate(self, line: LogLine, found: list[tuple[Location, GeneratedFile]]) -> str:
-        """Notes below a log line, each with the process prefix of that line."""
+        """Return the notes below a log line, each with the process prefix of that line."""
         pieces: list[Piece] = []
         for mention, file in found:
             if line.kind is not LineKind.CHAIN:

@@ -85,7 +85,7 @@ class OutputFolders:
             self._load(str(folder))
 
     def _file(self, path: str) -> GeneratedFile | None:
-        """Generated file that a logged path refers to, if any."""
+        """Return a generated file that a logged path refers to, if any."""
         parts = [part for part in path.replace("\\", "/").split("/") if part not in ("", ".", "..")]
         if not parts or "\0" in path:
             return None
@@ -159,6 +159,6 @@ def _matches(file: GeneratedFile, parts: list[str]) -> bool:
 
 
 def _common_suffix(one: list[str], other: list[str]) -> int:
-    """Number of common parts at the ends of two paths."""
+    """Return the number of common parts at the ends of two paths."""
     pairs = zip(reversed(one), reversed(other), strict=False)
     return next((n for n, (a, b) in enumerate(pairs) if a != b), min(len(one), len(other)))

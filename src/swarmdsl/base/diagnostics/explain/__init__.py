@@ -10,12 +10,12 @@ _PAGES = Path(__file__).resolve().parent
 
 
 def page_path(code: str) -> Path:
-    """Where the page of a code lies."""
+    """Path of the page of a code."""
     return _PAGES / f"{code}.md"
 
 
 def find_code(word: str) -> str | None:
-    """The code meant by `SW0202`, `202` or `unresolved-name`; None for none."""
+    """Return the code meant by `SW0202`, `202` or `unresolved-name`; None for none."""
     if word.lower() in CODES:
         return CODES[word.lower()].code
     code = f"SW{word:0>4}" if word.isdecimal() else word.upper()
@@ -23,5 +23,5 @@ def find_code(word: str) -> str | None:
 
 
 def page(code: str) -> str:
-    """The page of a code, in Markdown."""
+    """Return the page of a code, in Markdown."""
     return page_path(code).read_text(encoding="utf-8")

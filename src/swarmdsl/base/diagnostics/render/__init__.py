@@ -38,5 +38,5 @@ def summary(report: Diagnostics, files: int) -> str:
 
 
 def counted(number: int, noun: str) -> str:
-    """A number of things: "1 file", "3 files"."""
+    """Return a number of things: "1 file", "3 files"."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

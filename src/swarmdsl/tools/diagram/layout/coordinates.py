@@ -159,7 +159,7 @@ def _lines(layers: Layers) -> list[list[Vertex]]:
 
 
 def _longest_increasing(numbers: Sequence[int]) -> list[int]:
-    """Indices of a longest increasing subsequence."""
+    """Return the indices of a longest increasing subsequence."""
     ends: list[int] = []
     at_end: list[int] = []
     before: list[int] = []
@@ -221,7 +221,7 @@ class _CellSide:
         self.cell = cell
 
     def fixed(self) -> list[End]:
-        """Ends that cannot move."""
+        """Return the ends that cannot move."""
         narrow = self.cell.high - self.cell.low < _NARROW
         return [
             end for end, moves in zip(self.ends, self.movable, strict=True) if narrow or not moves
@@ -281,7 +281,7 @@ def _monotone(values: Sequence[int]) -> list[int]:
 
 
 def _sides(layers: Layers, cells: Sequence[Cell]) -> list[_CellSide]:
-    """Ends of links for each side of each cell."""
+    """Return the ends of links for each side of each cell."""
     found: dict[tuple[int, str], list[tuple[End, End, int]]] = {}
     for segment in layers.segments:
         for end, other in ((segment.start, segment.end), (segment.end, segment.start)):

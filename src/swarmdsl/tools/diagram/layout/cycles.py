@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 
 def feedback_edges(count: int, edges: Sequence[tuple[int, int]], roots: Sequence[int]) -> set[int]:
-    """Indices of edges that break all cycles when reversed.
+    """Return the indices of edges that break all cycles when reversed.
 
     The smaller of two sets: edges against the order of nodes in the model, or back edges of a
     depth-first search from the roots. Both contain only edges in cycles.

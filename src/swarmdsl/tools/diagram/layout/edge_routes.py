@@ -74,7 +74,7 @@ class EdgeRoutes:
         return found
 
     def _above(self, node: str) -> list[str]:
-        """A node and its containers up to the frame."""
+        """Return a node and its containers up to the frame."""
         found = [node]
         while found[-1] in self.parents:
             found.append(self.parents[found[-1]])

@@ -146,7 +146,7 @@ def _swap_neighbours(layers: Layers, before: Neighbours, after: Neighbours) -> N
 
 
 def _gain(ones: list[float], others: list[float]) -> int:
-    """Number of crossings removed by swapping two vertices, by neighbor positions."""
+    """Return the number of crossings removed by swapping two vertices, by neighbor positions."""
     return sum((a > b) - (a < b) for a in ones for b in others)
 
 

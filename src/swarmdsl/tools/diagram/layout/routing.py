@@ -167,7 +167,7 @@ def _assign_tracks(bars: list[_Crossbar]) -> int:
 
 
 def _cost(one: _Crossbar, other: _Crossbar) -> int:
-    """Number of crossings and weighted overlaps if `one` is on a track before `other`."""
+    """Count crossings and weighted overlaps if `one` is on a track before `other`."""
     cost = sum(other.low < down < other.high for down in one.downs)
     cost += sum(one.low < up < one.high for up in other.ups)
     near = sum(abs(down - up) < _NEAR for down in one.downs for up in other.ups)

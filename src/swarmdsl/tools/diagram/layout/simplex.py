@@ -145,7 +145,7 @@ class _Solver:
             heappush(heap, (len(members[joined]), joined))
 
     def number(self, root: int, parent: int, low: int) -> int:
-        """Number a subtree in preorder and return its size."""
+        """Assign preorder numbers to a subtree; return its size."""
         tail, head, tree, parents = self.tail, self.head, self.tree, self.parent
         lows, lasts = self.low, self.last
         parents[root] = parent
