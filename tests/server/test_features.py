@@ -178,7 +178,7 @@ async def test_rename_to_invalid_names(client, editor, folder):
     for word, name, why in (
         ("rounds =", "limit", "declared twice"),
         ("Idle {", "Home", "declared twice"),
-        ("Idle {", "2nd", "no name"),
+        ("Idle {", "2nd", "not a valid name"),
         ("Idle {", "state", "is a keyword"),
         ("initial", "first", "no name of something"),
     ):
