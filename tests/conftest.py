@@ -60,7 +60,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 @pytest.fixture
 def bless(request: pytest.FixtureRequest) -> bool:
-    """Whether golden files are to be rewritten instead of compared."""
+    """Return True if golden files are to be rewritten instead of compared."""
     return bool(request.config.getoption("--bless"))
 
 

@@ -1,4 +1,4 @@
-"""What a compiler makes is freed without a search for garbage, which it does not do."""
+"""Objects of the compiler are freed without garbage collection."""
 
 import gc
 from pathlib import Path

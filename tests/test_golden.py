@@ -1,4 +1,4 @@
-"""What comes out of a model, whole: the IR and the files of every target.
+"""Complete output for a model: the IR and the files of every target.
 
 `pytest --bless` writes what is expected anew; read the difference before you commit it.
 """

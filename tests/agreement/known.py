@@ -1,4 +1,4 @@
-"""Where the engines of others are known to do something else, and why.
+"""Known deviations of third-party engines from SCXML 1.0, with their causes.
 
 Each cause is shown by a document of its own. It is no fault of the model or of the document
 made of it: SCXML 1.0 says what ours does.
@@ -116,14 +116,14 @@ def _stores_in_fields(machine: ir.StateMachine) -> bool:
 
 
 def _is_done(state: ir.State) -> bool:
-    """Whether each region of a parallel state can be done."""
+    """Return True if every region of a parallel state can be done."""
     return state.kind is StateKind.PARALLEL and all(
         any(inner.kind is StateKind.FINAL for inner in region.states) for region in state.states
     )
 
 
 def _disagrees(state: ir.State) -> bool:
-    """Whether regions may answer one event in ways that exclude each other."""
+    """Return True if regions may take conflicting transitions on one event."""
     heard: list[set[str]] = []
     leads_out = False
     for region in state.states if state.kind is StateKind.PARALLEL else ():

@@ -28,7 +28,7 @@ def needs(engine: str) -> list[pytest.MarkDecorator]:
 
 
 def difference(make: Callable[[bytes], Engine], document: bytes, script: Script) -> str | None:
-    """Where an engine departs from a script; None where it does not."""
+    """Return the first deviation of an engine from a script, or None."""
     engine = make(document)
     for step, expected in zip((None, *script.steps), script.expected, strict=True):
         if step is not None:

@@ -24,14 +24,14 @@ from .engines import Ours, Step
 from .values import Values
 
 DRAWS = 10
-"""How many messages of an event, and results of an activity, are tried."""
+"""Number of messages tried per event, and of results per activity."""
 SITUATIONS = 400
-"""How many situations of a machine are gone on from."""
+"""Maximum number of situations of a machine to continue from."""
 WALKS, STEPS = 10, 40
-"""How many walks by chance there are, and how long they are."""
+"""Number of random walks, and steps in each."""
 
 APART = 50_000_000
-"""How far delays end from each other, in nanoseconds: those of documents are in milliseconds."""
+"""Minimum time between the ends of delays, in ns; documents use milliseconds."""
 
 
 @dataclass(frozen=True)
@@ -225,7 +225,7 @@ class Model(Ours):
 
     @property
     def choices(self) -> list[Step]:
-        """What can happen now."""
+        """Return the steps that are possible now."""
         if not self.instance.running:
             return []
         found = list(self.subject.events)
@@ -244,7 +244,7 @@ class Model(Ours):
 
     @property
     def gave_up(self) -> bool:
-        """Whether something happened by itself in the last step.
+        """True if something happened by itself in the last step.
 
         That is an activity that is aborted because its goal has no value, which is the business
         of the host to make, or a delay of no time, which engines without time do not know.
@@ -253,7 +253,7 @@ class Model(Ours):
 
     @property
     def went_on(self) -> bool:
-        """Whether a delay of no time has passed at the start."""
+        """True if a delay of zero length has passed at the start."""
         return any(map(self._is_from_outside, self.watch.events))
 
     def _is_from_outside(self, event: str) -> bool:

@@ -16,7 +16,7 @@ def document(cause: Cause) -> bytes:
 
 
 def script(cause: Cause) -> Script:
-    """What ours does."""
+    """Record the script that our engine follows."""
     engine = ENGINES["document"](document(cause))
     expected = [engine.active]
     for event in cause.events:

@@ -1,4 +1,4 @@
-"""Whatever happens to a model, the document made of it does the same in every engine."""
+"""The document generated from a model behaves the same in every engine."""
 
 from __future__ import annotations
 

@@ -105,7 +105,7 @@ class Maker:
 
 
 def script(document: bytes, dice: random.Random) -> Script:
-    """What ours does with events by chance, up to where the machine does not come to rest."""
+    """Record our engine on random events, up to the first endless loop."""
     engine = Document(document)
     steps, expected = [], [engine.active]
     while engine.instance.running and len(steps) < STEPS:

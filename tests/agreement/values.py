@@ -63,7 +63,7 @@ class Values:
         return message
 
     def result(self, activity: ir.Activity) -> dict[str, Any]:
-        """What an activity gives, with all that the machine stores of it."""
+        """Return a result of an activity, with every field that the machine stores."""
         known = self.system.interface(self.system.function(activity.function).communication.type)
         inner: tuple[ir.Field, ...] = ()
         if isinstance(known, Action):

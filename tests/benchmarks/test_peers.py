@@ -1,4 +1,4 @@
-"""What swarmdsl is measured beside reads the same language, and as many lines."""
+"""The peers in benchmarks parse the same language and as many lines."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ def test_a_project_file_and_options_in_it_cost_little_to_read(tmp_path, monkeypa
 
 
 def imported(arguments):
-    """What is slow to import and was imported by a command."""
+    """Return the slow modules that a command imported."""
     code = (
         "import sys\nfrom swarmdsl.cli import run\n"
         f"run({arguments!r})\n"

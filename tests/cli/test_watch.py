@@ -38,7 +38,7 @@ class Watching:
         self.process.stdout.close()
 
     def run(self) -> str:
-        """What is printed until it waits again."""
+        """Return the output up to the next wait for changes."""
         text = ""
         while "waiting for changes" not in text:
             try:

@@ -54,7 +54,7 @@ def system(model: Path) -> ir.System:
 
 
 def shown(consumer: Callable[[ir.System], object], given: ir.System) -> object:
-    """What a consumer makes of a system; a value that it refuses has been looked at."""
+    """Return a consumer's result for a system, or the type of the exception raised."""
     try:
         return consumer(given)
     except Exception as error:

@@ -1,4 +1,4 @@
-"""Where things are in pictures: nothing lies on anything else, and lines lead where they should."""
+"""Layout of diagrams: nothing overlaps, and lines end where they should."""
 
 from __future__ import annotations
 

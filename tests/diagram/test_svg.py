@@ -1,4 +1,4 @@
-"""What other programs find in an SVG file."""
+"""Contents of SVG files as other programs read them."""
 
 from __future__ import annotations
 

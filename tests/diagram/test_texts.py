@@ -1,4 +1,4 @@
-"""What diagrams say, in every format."""
+"""Texts in diagrams, in every format."""
 
 from __future__ import annotations
 

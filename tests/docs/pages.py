@@ -83,7 +83,7 @@ class Page:
 
     @cached_property
     def links(self) -> list[str]:
-        """Where links and images lead."""
+        """Return the targets of links and images."""
         found = [
             token.attrGet("href") if token.type == "link_open" else token.attrGet("src")
             for token in self.inline()

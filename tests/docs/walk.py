@@ -164,7 +164,7 @@ def sides(diff: str) -> tuple[str, str]:
 
 
 def matches(printed: str, shown: str) -> bool:
-    """Whether it is what is shown, `...` standing for anything."""
+    """Return True if the output matches the one shown; `...` matches anything."""
     parts = (re.escape(part) for part in _normal(shown).split("..."))
     return re.fullmatch(".*".join(parts), _normal(printed), re.DOTALL) is not None
 

@@ -41,7 +41,7 @@ class Page:
         return " ".join(self.at(anchor).text_content().split())
 
     def fact(self, anchor: str, term: str) -> str:
-        """What an entry says of a term."""
+        """Return the description of a term in an entry."""
         terms = [each for each in self.at(anchor).findall("dl/div") if each[0].text == term]
         return " ".join(terms[0][1].text_content().split()) if terms else ""
 

@@ -1,4 +1,4 @@
-"""What a page says of a model."""
+"""Content of the page generated from a model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What goes on while a state is active: activities, the servers they need, delays."""
+"""Activities of active states, the servers they need, and delays."""
 
 from __future__ import annotations
 

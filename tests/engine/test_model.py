@@ -439,7 +439,7 @@ def test_a_guard_without_a_value_does_not_hold(run: Start) -> None:
 
 
 def test_a_whole_number_stays_in_its_type(run: Start) -> None:
-    """What is too large is not stored, and the effects after it are not done."""
+    """A value out of range is not stored, and later effects are skipped."""
     m = run("""
       endless statemachine M {
         var n    : int32 = 50000

@@ -1,4 +1,4 @@
-"""Whatever a machine looks like, it comes to rest or is reported, in a legal configuration."""
+"""Any machine comes to rest or is reported, in a legal configuration."""
 
 from __future__ import annotations
 

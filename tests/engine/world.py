@@ -38,7 +38,7 @@ class StillWorld:
 
 
 class Trace(Observer):
-    """What an instance did, a word or two each."""
+    """Trace of an instance, one short line per action."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []

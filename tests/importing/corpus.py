@@ -1,4 +1,4 @@
-"""Where real files of other projects lie, if there are any."""
+"""Folder of real files from other projects, which may be missing."""
 
 from __future__ import annotations
 

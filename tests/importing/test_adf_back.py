@@ -1,4 +1,4 @@
-"""What target adf writes of a model comes back, in the form of D5.4."""
+"""Round trip of a model through target adf, in the form of D5.4."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def read_again(system: System, folder: Path) -> System:
 
 
 def carried(system: System) -> System:
-    """What the file carries: functions, and the interfaces that it describes for them."""
+    """Reduce a system to what the file holds: functions and their interfaces."""
     known = {interface.type: interface for interface in system.interfaces}
     kept: dict[Type, Action | Service | Message] = {}
     functions = tuple(map(_plain, system.functions))

@@ -205,7 +205,7 @@ def test_fields_that_nothing_names_lead_to_a_description(
 
 
 def vertices(system: System) -> dict[str, object]:
-    """What each state is and does, with the servers it asks instead of the names they go by."""
+    """Describe each state by its behavior, with servers in place of names."""
 
     def described(state: State) -> object:
         does = state.activity

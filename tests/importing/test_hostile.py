@@ -23,7 +23,7 @@ BILLION = "".join(f'<!ENTITY x{n} "{f"&x{n - 1};" * 10 if n else "ha"}">' for n 
 
 
 def said(text: str) -> list[tuple[str, str]]:
-    """What is said of a document."""
+    """Return the diagnostics of a document: name and message."""
     report = Diagnostics()
     import_scxml([Source("a.xml", text)], [], "a", report)
     return [(found.name, found.message) for found in report]

@@ -1,4 +1,4 @@
-"""Whatever a document is like: an import ends with a model that is right, or says why not."""
+"""Import of any document yields a valid model or a diagnostic."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the portable profile of SCXML says of a model comes back."""
+"""Round trip of a model through the portable profile of SCXML."""
 
 from __future__ import annotations
 
@@ -153,7 +153,7 @@ def read_again(system: System, folder: Path) -> System:
 
 
 def carried(system: System) -> System:
-    """What the documents of its machines carry of a system."""
+    """Reduce a system to what the documents of its machines hold."""
     machines = tuple(map(_plain, system.machines))
     heard = {event for machine in machines for event in _events(machine)}
     called = {s.activity.function for m in machines for s in m.walk() if s.activity is not None}
@@ -238,7 +238,7 @@ def told_in_whole_milliseconds(node: Any) -> Any:
 
 
 def divides_durations(node: Any) -> bool:
-    """Whether a length of time is divided by one: in a document that may be a number as well."""
+    """Return True if a duration is divided by a duration; documents may hold numbers."""
     if isinstance(node, Binary) and node.operator in ("/", "%"):
         operands = (getattr(each, "type", None) for each in (node.left, node.right))
         if all(type_ == DURATION for type_ in operands):

@@ -45,7 +45,7 @@ def said(report: Diagnostics) -> list[tuple[str, str]]:
 
 
 def ways(state: State) -> list[tuple[list[str], str | None]]:
-    """What leads where, events and outcomes by name."""
+    """Return the triggers, by name, and the target of each transition."""
     return [
         (
             [

@@ -1,4 +1,4 @@
-"""Whatever is imported into a model: comments and what only the model has stay."""
+"""Any import into a model keeps comments and what only the model has."""
 
 from __future__ import annotations
 

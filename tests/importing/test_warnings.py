@@ -1,4 +1,4 @@
-"""How often each code is reported for each real file: nobody changes that without seeing it.
+"""Number of diagnostics per code for each real file, so that changes show.
 
 The files are not part of the project; here they are called by what they are made of (SHA-256).
 """

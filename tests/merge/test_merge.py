@@ -238,7 +238,7 @@ def test_what_cannot_be_parsed_is_merged_by_lines(
 
 
 def test_as_a_driver_of_git(tmp_path: Path) -> None:
-    """What git alone takes for a conflict, two events added in one place, is none."""
+    """Two events added in one place, a conflict for git alone, merge cleanly."""
     driver = f'"{sys.executable}" -m swarmdsl merge %O %A %B -o %A'
 
     def git(*words: str) -> None:

@@ -28,7 +28,7 @@ CHANGES = {"os.mkdir", "os.rename", "os.remove", "os.rmdir", "os.chmod"}
 
 
 def package(name: str, body: str = "pass") -> list[OutputFile]:
-    """What is generated for an element: a file to fill in, one with a region, and another one."""
+    """Files generated for an element: one to fill in, one with a region, one plain."""
     facts = (f"class {name}",)
     region = f"# swarmc:begin {name}.more\n# swarmc:end {name}.more\n"
     return [
@@ -180,7 +180,7 @@ def test_a_list_that_stays_as_it_is_outlives_a_kill(tmp_path: Path, lost: str) -
 
 
 def test_a_second_kill_loses_nothing(kills: list[Path], tmp_path: Path) -> None:
-    """When the user has filled the places to which files were to be moved, after the first."""
+    """After the first kill, the user creates files at the targets of moves."""
     first = next(state for state in kills if (state / "t/climb/climb.py").exists())
     before = kills[kills.index(first) - 1]
     out = shutil.copytree(before, tmp_path / "out")

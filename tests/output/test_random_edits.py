@@ -175,7 +175,7 @@ def test_no_line_of_the_user_is_lost(
 
 
 def test_the_test_sees_all_kinds_of_changes() -> None:
-    """What is random above happens here for certain: nothing is tested that cannot be."""
+    """Each random kind of change above occurs here for certain."""
     one, other = {"takeoff": ("float64", False)}, {"land": ("float64", False)}
     with TemporaryDirectory() as folder:
         out = Path(folder, "out")

@@ -1,4 +1,4 @@
-"""How diagnostics look, for people and for programs."""
+"""Rendering of diagnostics, for people and for programs."""
 
 import io
 import json

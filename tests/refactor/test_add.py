@@ -372,7 +372,7 @@ def things(draw: st.DrawFn) -> Callable[[pipeline.Result, int], FindInsertion]:
 
 
 def _is_insertion(before: bytes, after: bytes) -> bool:
-    """Whether something was put in at one place, and no other byte is another one."""
+    """Return True if bytes were inserted in one place and no others changed."""
     same = next(
         (at for at, (a, b) in enumerate(zip(before, after, strict=False)) if a != b), len(before)
     )

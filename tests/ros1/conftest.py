@@ -94,7 +94,7 @@ class Workspace:
         return self._made[folder]
 
     def can_make(self, folder: str) -> bool:
-        """Whether the target can express an example."""
+        """Return True if the target can express an example."""
         result = pipeline.check(sorted((ROOT / "examples" / folder).glob("*.swarm")))
         assert result.system is not None
         supported = load("smach").supports
@@ -156,7 +156,7 @@ class Workspace:
 
 @pytest.fixture(scope="session")
 def workspace(smach_path: tuple[Path, ...], tmp_path_factory: pytest.TempPathFactory) -> Workspace:
-    """Where packages are generated."""
+    """Workspace for generated packages."""
     return Workspace(tmp_path_factory.mktemp("ros1"), smach_path)
 
 

@@ -91,7 +91,7 @@ class Graph:
         return process
 
     def printed(self, output: str) -> str:
-        """What processes with this output have printed."""
+        """Return what processes with this output have printed."""
         path = self.home / f"{output}.txt"
         return path.read_text(encoding="utf-8") if path.exists() else ""
 
@@ -174,7 +174,7 @@ class Graph:
 
 
 def _smach_packages() -> list[str]:
-    """Where the manifests of the real smach lie: smach_ros asks for its own."""
+    """Folders of the manifests of the real smach; smach_ros looks up its own."""
     known = os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep)
     named = os.environ.get("SWARMDSL_SMACH_PATH", "").split(os.pathsep)
     return [*filter(None, known), *{str(Path(folder).parents[1]) for folder in named if folder}]

@@ -48,7 +48,7 @@ def plain(value):
 
 
 class Server:
-    """What servers of actions and services have in common: how a call ends."""
+    """Base of action and service servers: the end of a call."""
 
     def __init__(self, name, answers=(), deaf=False):
         self.name = name

@@ -1,4 +1,4 @@
-"""What smach_viewer sees of a node with `~introspection`; needs the real smach_ros."""
+"""Node with `~introspection` as seen by smach_viewer; needs real smach_ros."""
 
 from collections.abc import Callable
 from typing import Any

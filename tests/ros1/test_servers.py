@@ -1,4 +1,4 @@
-"""What becomes of a node when servers are missing, die, or do not answer."""
+"""Nodes whose servers are missing, die, or do not answer."""
 
 import time
 from collections.abc import Callable

@@ -44,17 +44,17 @@ class Peers:
         self.process.stdin.flush()
 
     def all(self, what: str) -> list[tuple[str, Any]]:
-        """What was told of this kind, with the names."""
+        """Return the reports of this kind, with their names."""
         with self._changed:
             return [(name, content) for told, name, content in self.told if told == what]
 
     def times(self, what: str, name: str) -> list[float]:
-        """When that was told, in seconds of the clock of the peers."""
+        """Return the times of the reports, in seconds of the peers' clock."""
         with self._changed:
             return [time for told, of, time in self._times if (told, of) == (what, name)]
 
     def count(self, what: str, name: str) -> int:
-        """How often that was told."""
+        """Return the number of such reports."""
         return sum(1 for each, _ in self.all(what) if each == name)
 
     def wait_for(self, what: str, name: str, number: int = 1) -> Any:
@@ -212,7 +212,7 @@ class Node:
         threading.Thread(target=self._listen, args=(reading,), daemon=True).start()
 
     def printed(self) -> str:
-        """What the node has printed."""
+        """Return the output of the node."""
         return str(self.world.graph.printed(self.output))
 
     def wait_in(self, *paths: str) -> None:

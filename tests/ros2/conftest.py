@@ -45,7 +45,7 @@ def load_module(name: str) -> ModuleType:
 def emit(
     system: System, target: str = "ros2", **options: str
 ) -> tuple[list[OutputFile], Diagnostics]:
-    """What the generator makes of a system, and what it reports."""
+    """Generate from a system; return the files and the diagnostics."""
     generator = load(target)
     report = Diagnostics()
     chosen = parse_options(generator, options, report)
@@ -67,7 +67,7 @@ def generate(compiled: Callable[[str], System]) -> Callable[..., dict[str, Outpu
 
 @pytest.fixture
 def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str, str, str]]]:
-    """What is reported about a model: name, message, the text it points at."""
+    """Diagnostics of a model: name, message, and the text of the primary span."""
 
     def reported(text: str, **options: str) -> list[tuple[str, str, str]]:
         _, report = emit(compiled(text), **options)
@@ -129,7 +129,7 @@ def ros(ros_folder: Path, packages: list[Path], tmp_path: Path) -> Iterator[Any]
 
 
 def _agrees(node: Any, scenario: Path) -> None:
-    """What a node did is what its machine does in the model when the same happens to it."""
+    """Replay the trace of a node on its machine in the model; both must agree."""
     environment = load_module("environment")
     (model,) = [m for m in environment.MODELS if f"{_system(m).name}_behavior" == node.package]
     # What targets `yasmin` and `smach` call it.

@@ -47,7 +47,7 @@ _HEADER = Message(
 
 
 def ready(folder: Path) -> bool:
-    """Whether the environment is there, and of today's requirements and models."""
+    """Return True if the environment exists for today's requirements and models."""
     mark = folder / _READY
     usable = mark.exists() and (folder / "setup.sh").exists()
     return usable and mark.read_text() == _fingerprint()
@@ -139,7 +139,7 @@ def _texts(package: InterfacePackage) -> Iterator[tuple[str, str]]:
 
 
 def _external(system: System) -> Iterator[Interface]:
-    """What nodes use of the interfaces of others, described or only named."""
+    """Yield the third-party interfaces that nodes use, described or only named."""
     described = {interface.type: interface for interface in system.interfaces}
     of_actions = messages_of_actions(system)
     used: dict[Named, Interface] = {}

@@ -14,7 +14,7 @@ from typing import Any
 
 HERE = Path(__file__).resolve().parent
 PATIENCE = 60.0
-"""How long something may take until it counts as not happening, in seconds."""
+"""Timeout for an expected event, in seconds."""
 
 
 class Ros:
@@ -131,7 +131,7 @@ class Fakes:
         self.wait("listeners", [*topics], before + 1)
 
     def count(self, key: str, value: Any) -> int:
-        """How often something was seen."""
+        """Return the number of lines seen with this value."""
         with self._condition:
             return sum(each.get(key) == value for each in self.seen)
 
@@ -183,7 +183,7 @@ class RosNode:
 
     @property
     def log(self) -> str:
-        """What the node has logged."""
+        """Log of the node."""
         return self.log_file.read_text(encoding="utf-8")
 
     @property

@@ -1,4 +1,4 @@
-"""What of `launch` and `launch_ros` generated launch files use: `launch` is in no package index.
+"""Stand-in for `launch` and `launch_ros`; `launch` is in no package index.
 
 An action is done as launch does it: launch configurations are set where nothing is set, groups
 have their own, namespaces are pushed and popped, included files see what the including one has set.

@@ -1,4 +1,4 @@
-"""What nodes tell the tools that watch a robot, and what they hear of actions on the way."""
+"""Diagnostics that nodes publish, and feedback that they get from actions."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def test_a_server_that_is_missing(ros: Any) -> None:
 
 
 def test_feedback_is_an_event(ros: Any) -> None:
-    """What is monitored of an action is stored, where its guard holds."""
+    """Monitored feedback of an action is stored where its guard holds."""
     watched = Watched(ros)
     shares = [{"share": 0.5}, {"share": 0.25}]
     watched.fakes.action(*WORK, {"outcome": "never", "feedback": shares})

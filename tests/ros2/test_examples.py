@@ -40,7 +40,7 @@ GONE = 3.0
 """After how many seconds without a server a call is aborted."""
 _ONCE = ("event", "wait", "gone")
 _PATIENCE = {"wait": 0.5, "gone": 12.0}
-"""How many seconds what was done may need to show, if it does."""
+"""Seconds to wait for a visible effect, by kind of deed."""
 _OF_OTHERS = "bridge/events/"
 
 Deed = tuple[str, str]
@@ -164,7 +164,7 @@ class Robot:
         return self.states[state_id].kind is StateKind.FINAL and "." not in state_id
 
     def _ways(self, active: list[str]) -> Iterator[tuple[Deed, Transition]]:
-        """What can happen to active states, and the transition that it triggers."""
+        """Yield possible deeds for active states, with the transition triggered."""
         for state_id in active:
             state = self.states[state_id]
             for transition in state.transitions:
@@ -195,7 +195,7 @@ class Robot:
         return FAR
 
     def _can_be(self, transition: Transition, reached: set[str]) -> bool:
-        """Whether a transition on the end of a state has the final state that it needs."""
+        """Return True unless a done trigger needs a final state not yet reached."""
         wanted = [t for t in transition.triggers if isinstance(t, DoneTrigger) and t.final]
         return not wanted or any(t.final in reached for t in wanted)
 

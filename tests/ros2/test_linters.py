@@ -1,4 +1,4 @@
-"""What `ament_flake8` and `ament_pep257` run finds nothing in generated packages.
+"""Linters of `ament_flake8` and `ament_pep257` pass on generated packages.
 
 The linters of ROS are in no package index, but the programs and plugins that they call are. How
 they call them is said in ament_lint: `ament_flake8.ini`, and the convention `ament` of

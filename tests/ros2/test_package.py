@@ -1,4 +1,4 @@
-"""What a team does with a generated package: builds it, tests it, manages its nodes, edits it."""
+"""Use of a generated package: build, test, manage its nodes, edit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What ROS 2 cannot express is reported at its place; every option is checked."""
+"""Diagnostics for what ROS 2 cannot express, and for invalid options."""
 
 from __future__ import annotations
 

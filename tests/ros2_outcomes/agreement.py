@@ -99,7 +99,7 @@ class Host:
 
     @property
     def seen(self) -> tuple[frozenset[str], list[str]]:
-        """What is active in the engine, and what has been entered."""
+        """Active states of the engine, and the states entered."""
         model = self.model
         return Ours.active.fget(model) if model else frozenset(), [*self.told.order]
 
@@ -211,7 +211,7 @@ def check_run(subject: Subject, steps: tuple[Step, ...], twin: Twin) -> None:
 
 
 def is_reported(system: System, twin: type[Twin]) -> bool:
-    """Whether the generator finds something that it cannot make."""
+    """Return True if the generator reports something that it cannot emit."""
     report = Diagnostics()
     generator = load(twin.target)
     list(generator.emit(system, parse_options(generator, twin.options, report), report))

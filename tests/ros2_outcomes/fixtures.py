@@ -1,4 +1,4 @@
-"""What a target makes of the text of a model: a fixture `emit` beside the tests says which one."""
+"""Fixtures that generate from a model; the tests' fixture `emit` sets the target."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def generate(compiled: Callable[[str], System], emit: Emit) -> Callable[..., dic
 def reported(
     compiled: Callable[[str], System], emit: Emit
 ) -> Callable[..., list[tuple[str, str, str]]]:
-    """What is reported about a model: name, message, the text it points at."""
+    """Diagnostics of a model: name, message, and the text of the primary span."""
 
     def reported(text: str, **options: str) -> list[tuple[str, str, str]]:
         _, report = emit(compiled(text), **options)

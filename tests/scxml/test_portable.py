@@ -187,7 +187,7 @@ def result(function: str, system: System, dice: random.Random) -> dict[str, Any]
 
 
 def has_durations(machine: ir.StateMachine) -> bool:
-    """Whether data hold durations: they are milliseconds in a document, nanoseconds here."""
+    """Return True if data hold durations: ms in a document, ns here."""
     held = [*machine.variables, *machine.params]
     return any(str(each.type) == "duration" for each in held)
 
@@ -227,7 +227,7 @@ def portable(machine: ir.StateMachine, system: System) -> Machine:
 
 
 class Taken(Observer):
-    """Where the transitions stand in the model that were taken."""
+    """Source positions of the transitions taken."""
 
     def __init__(self) -> None:
         self.places: set[object] = set()

@@ -26,7 +26,7 @@ swarm event Found : Report
 
 @dataclass
 class Ran:
-    """What came of a run: the exit code, the trace as objects, what was said."""
+    """Result of a run: exit code, output with the trace, and messages."""
 
     code: int
     out: str
@@ -40,7 +40,7 @@ class Ran:
         return [line for line in self.trace if line["member"] == member]
 
     def steps(self, member: str | None = None) -> list[tuple[int, str | None, list[str]]]:
-        """When, on which event, into which configuration."""
+        """Return the time, event and configuration of each step."""
         return [(line["t"], line["event"], line["configuration"]) for line in self.of(member)]
 
 

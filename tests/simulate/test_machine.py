@@ -156,7 +156,7 @@ def test_an_event_that_nothing_reacts_to_has_a_line(simulate: Simulate) -> None:
 
 
 def test_messages_of_events_are_whole(simulate: Simulate) -> None:
-    """What is left out of a message has its default: there are no fields missing."""
+    """Fields left out of a message have their defaults; none is missing."""
     ran = simulate(MACHINE, events=[{"event": "Found"}, {"event": "Found", "data": {"level": 4}}])
 
     assert [line["entered"] for line in ran.trace[1:3]] == [[], ["Wait"]]

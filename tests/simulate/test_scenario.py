@@ -1,4 +1,4 @@
-"""What scenarios bring: durations, outcomes, results, messages, faults, and mistakes in them."""
+"""Scenarios: durations, outcomes, results, messages, faults, and errors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is told of a run beside its trace: the summary, the timeline, the board."""
+"""Output of a run beside its trace: summary, timeline, board."""
 
 from __future__ import annotations
 
@@ -128,7 +128,7 @@ def test_nothing_is_missing_when_all_was_seen(simulate: Simulate) -> None:
 
 
 def bars(svg: str) -> list[tuple[str, float, float]]:
-    """What the bars say, where they begin, and how wide they are."""
+    """Return the title, start and width of each bar."""
     root = ElementTree.fromstring(svg)
     return [
         (bar.findtext(f"{SVG}title") or "", float(bar.attrib["x"]), float(bar.attrib["width"]))

@@ -43,7 +43,7 @@ Emit = Callable[..., tuple[dict[str, OutputFile], list[Any]]]
 
 @pytest.fixture(scope="session")
 def emit(tmp_path_factory: pytest.TempPathFactory) -> Emit:
-    """What the generator makes of a model, the text of one or the file of one, and reports."""
+    """Generate from a model, a string or a file; return files and diagnostics."""
 
     def emit(model: str | Path = MODEL, **options: str) -> tuple[dict[str, OutputFile], list[Any]]:
         if isinstance(model, str):

@@ -186,7 +186,7 @@ def test_what_no_remapping_can_connect(
 
 
 def test_the_table_is_true(emit: Emit) -> None:
-    """What `swarmc targets skeleton` says becomes of a construct is there."""
+    """Output contains what `swarmc targets skeleton` names for each construct."""
     made, _ = emit(MODEL)
     functions, _ = emit()
     text = "\n".join(file.text for file in (*made.values(), *functions.values()))
@@ -331,7 +331,7 @@ def test_roslaunch_reads_the_launch_files(launch: Callable[..., Any]) -> None:
 
 
 def test_a_message_goes_through_connectors(graph: Any, launch: Callable[..., Any]) -> None:
-    """What two cameras send reaches one port each, and what comes of it leaves the robot."""
+    """Each camera's messages reach one port, and the result leaves the robot."""
     started = launch(
         "/usr/bin/roslaunch", "lab_bringup", "uav.launch", "name:=seeing", output="bringup"
     )

@@ -330,7 +330,7 @@ def test_a_message_goes_through_connectors(
 
 
 def _as_arguments(node: dict[str, Any]) -> Iterator[str]:
-    """What launch would start a node with."""
+    """Yield the arguments with which launch would start a node."""
     yield from ("-r", f"__ns:={node['namespace']}", "-r", f"__node:={node['name']}")
     for name, topic in node["remappings"]:
         yield from ("-r", f"{name}:={topic}")

@@ -1,4 +1,4 @@
-"""Which states of a running SMACH machine are active; real and stand-in containers alike."""
+"""Active states of a running SMACH machine, real or stand-in."""
 
 
 def paths(machine):
@@ -7,7 +7,7 @@ def paths(machine):
 
 
 def settled(machine):
-    """Whether SMACH has come to the states that are active."""
+    """Return True if SMACH has reached the active states."""
     for label in running(machine):
         child = machine.get_children()[label]
         if child.following is not child.current or child.current.is_over:

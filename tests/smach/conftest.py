@@ -48,7 +48,7 @@ active = _load("active")
 
 
 def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
-    """What the generator makes of a system, and what it reports."""
+    """Generate from a system; return the files and the diagnostics."""
     generator = load("smach")
     report = Diagnostics()
     chosen = parse_options(generator, options, report)
@@ -74,7 +74,7 @@ def generate(compiled: Callable[[str], System]) -> Callable[..., dict[str, Outpu
 
 @pytest.fixture
 def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str, str, str]]]:
-    """What is reported about a model: name, message, the text it points at."""
+    """Diagnostics of a model: name, message, and the text of the primary span."""
 
     def reported(text: str, **options: str) -> list[tuple[str, str, str]]:
         _, report = emit(compiled(text), **options)
@@ -142,7 +142,7 @@ class Robot:
         return self.outcome
 
     def preempt(self) -> str | None:
-        """What a shutdown does."""
+        """Preempt the machine, as a shutdown does; return the outcome."""
         self.machine.request_preempt()
         return self.ended()
 

@@ -138,7 +138,7 @@ def spread(fields: dict[str, Any]) -> dict[str, Any]:
 
 
 def fill(message: Any, values: list[dict[str, Any]]) -> None:
-    """What `genpy.message.fill_message_args` does with one dictionary."""
+    """Fill a message as `genpy.message.fill_message_args` does from one dict."""
     for field, value in values[0].items():
         if isinstance(value, dict):
             fill(getattr(message, field), [value])
@@ -147,7 +147,7 @@ def fill(message: Any, values: list[dict[str, Any]]) -> None:
 
 
 class World:
-    """What the machine under test lives in.
+    """Environment of the machine under test.
 
     A call waits until the test ends it, unless `answers` has an outcome for it. A server in
     `deaf` goes on when it is cancelled.

@@ -47,8 +47,7 @@ SYSTEMS = 50
 BEGIN = 10.0
 """The time at which generated machines begin, in seconds."""
 LATE = 1e-6
-"""How much later than in the engine each step comes, in seconds, for delays to be over in spite of
-rounding: less than any delay."""
+"""Lag of steps behind the engine in seconds, against rounding; below any delay."""
 
 Build = Callable[..., Any]
 
@@ -100,7 +99,7 @@ class Twin:
 
     @property
     def calls(self) -> Counter[str]:
-        """What was asked of servers."""
+        """Calls to servers and cancellations, counted."""
         begun = (f"call {call.name} {self.plain_goal(call)}" for call in [*self.world.calls])
         cancelled = (f"cancel {name}" for what, name in [*self.world.log] if what == "cancel")
         return Counter([*begun, *cancelled])
@@ -171,7 +170,7 @@ class Twin:
 
 
 def is_due(chart: Any) -> bool:
-    """Whether a delay is over that the machine has not looked at."""
+    """Return True if a delay is over that the machine has not yet handled."""
     with chart.changed:
         now = sys.modules["fake_ros"].Time.now()
         return any(now >= due for due, *_ in chart._timers)
@@ -195,12 +194,12 @@ def fields_of(system: System, call: ir.Communication) -> dict[str, ir.Type]:
 
 
 def python_name(field: str) -> str:
-    """What a field is called in Python."""
+    """Return the name of a field in Python."""
     return f"{field}_" if keyword.iskeyword(field) else field
 
 
 def model_name(field: str) -> str:
-    """What a field of a message in Python is called in the model."""
+    """Return the name in the model of a field of a Python message."""
     return field[:-1] if keyword.iskeyword(field[:-1]) else field
 
 
@@ -226,7 +225,7 @@ def flat(fields: dict[str, Any]) -> dict[str, Any]:
 
 
 def without_header(message: Any) -> Any:
-    """What a message has of its own: a header is filled in when it is sent."""
+    """Return the fields of a message without its header, which sending fills in."""
     known = flat(message)
     return {name: value for name, value in known.items() if name not in ("header", "swarmio")}
 
@@ -345,7 +344,7 @@ def rounded(value: Any) -> Any:
 
 
 def is_reported(system: System) -> bool:
-    """Whether the generator finds something that it cannot make."""
+    """Return True if the generator reports something that it cannot emit."""
     report = Diagnostics()
     generator = load("smach")
     list(generator.emit(system, generator.options_type(), report))

@@ -1,4 +1,4 @@
-"""What `swarmc codegen` makes of SCXML and ADF runs as it says there."""
+"""Code of `swarmc codegen` runs as its SCXML and ADF describe."""
 
 from __future__ import annotations
 

@@ -297,7 +297,7 @@ def _systems(examples: Path, compiled: Callable[[str], System]) -> list[System]:
 
 @pytest.fixture
 def folder(examples: Path, compiled: Callable[[str], System], tmp_path: Path) -> Path:
-    """What is generated from the examples and from the model above."""
+    """Output generated from the examples and from the model above."""
     generator = load("smach")
     for number, system in enumerate(_systems(examples, compiled)):
         report = Diagnostics()

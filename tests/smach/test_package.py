@@ -1,4 +1,4 @@
-"""What is around the nodes in a package: launch files, parameters, the test, the README."""
+"""Package files beside nodes: launch files, parameters, test, README."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the target cannot express or name is reported where it stands."""
+"""Diagnostics, with locations, for what the target cannot express or name."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -22,7 +22,7 @@ SMALL = "initial A state A { on E -> B } final B"
 
 
 ENDED = "initial B final B"
-"""What ends as soon as it begins."""
+"""Body of a machine that ends at once."""
 UNSUPPORTED = "target `smach` cannot express an initial state that is final"
 
 

@@ -1,4 +1,4 @@
-"""What generated machines do: one construct of the model a test."""
+"""Behavior of generated machines, one construct of the model per test."""
 
 import random
 import sys

@@ -1,4 +1,4 @@
-"""What SMACH documents, of the stand-in and of the real one; and what that one does otherwise."""
+"""Documented behavior of SMACH, stand-in and real; deviations of the real one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What generated machines do on entry, on exit, without a trigger and without a target."""
+"""Generated entry, exit, triggerless and targetless behavior."""
 
 from collections.abc import Callable
 from typing import Any

@@ -157,7 +157,7 @@ def test_internal_transition_does_not_leave_its_state(robot: Run) -> None:
 
 
 def test_nothing_is_lost_while_a_server_is_cancelled(robot: Run) -> None:
-    """What was decided meanwhile is done: states that were left already do not begin anything."""
+    """Pending decisions are carried out; states already left start nothing."""
     work = robot(
         HEADER
         + """

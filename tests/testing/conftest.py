@@ -87,7 +87,7 @@ swarm Lamps {
 
 @dataclass
 class Ran:
-    """What a command came to."""
+    """Result of a command."""
 
     code: int
     out: str

@@ -1,4 +1,4 @@
-"""What steps do, and when claims hold: each is tried where it is so and where it is not."""
+"""Steps and claims of tests; each is tried where it holds and where it fails."""
 
 from __future__ import annotations
 

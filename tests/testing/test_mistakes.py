@@ -14,7 +14,7 @@ FINE = '{ pass = "1 s" }'
 
 
 def findings(found: Ran) -> list[tuple[str, str, str | None]]:
-    """What is reported: code, message and help of each."""
+    """Return the code, message and help of each diagnostic."""
     assert "Traceback" not in found.err
     assert "internal error" not in found.err
     each = [json.loads(line) for line in found.out.splitlines()]

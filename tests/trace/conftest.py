@@ -38,7 +38,7 @@ def build(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Build:
 
 @pytest.fixture
 def trace() -> Trace:
-    """What becomes of a log; no complaints."""
+    """Trace a log without diagnostics; return the output."""
 
     def trace(log: str | bytes, *outs: Path) -> str:
         data = log if isinstance(log, bytes) else log.encode()

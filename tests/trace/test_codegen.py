@@ -1,4 +1,4 @@
-"""What is made of SCXML and ADF leads back to these, and not to the model on the way."""
+"""Code from SCXML and ADF traces to these, not to the intermediate model."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What Python and gcc really say about generated files, in places where these were not written."""
+"""Real messages of Python and gcc about generated files that were moved."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_a_traceback_of_python(build: Build, trace: Trace, tmp_path: Path) -> No
 
 @pytest.fixture
 def compiled(build: Build, tmp_path: Path) -> str:
-    """What gcc says of a C++ skeleton that was moved, while a message is not as it should be."""
+    """Return gcc's errors for a moved C++ skeleton with a wrong message type."""
     if shutil.which("g++") is None:
         pytest.skip("no g++: apt-get install g++")
     package = tmp_path / "moved" / "climb"

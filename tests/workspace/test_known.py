@@ -1,4 +1,4 @@
-"""What a workspace keeps of a declaration between edits holds when others have changed."""
+"""Cached facts of a declaration stay valid after edits to others."""
 
 from collections.abc import Callable
 from pathlib import Path

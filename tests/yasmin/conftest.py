@@ -34,7 +34,7 @@ STAND_IN = Path(__file__).parent / "stand_in"
 
 @pytest.fixture
 def emit() -> Emit:
-    """What the generator makes of a system, and what it reports."""
+    """Generate from a system; return the files and the diagnostics."""
 
     def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
         generator = load("yasmin")

@@ -49,7 +49,7 @@ statemachine Work {
 
 
 def described(state: Any) -> Any:
-    """What there is to be seen of a state of YASMIN, and of those inside."""
+    """Return the visible properties of a YASMIN state and its children."""
     found: dict[str, Any] = {"outcomes": sorted(state.get_outcomes())}
     if hasattr(state, "get_transitions"):
         found["start"] = state.get_start_state()
@@ -64,7 +64,7 @@ def described(state: Any) -> Any:
 
 
 def made(element: etree._Element, yasmin: ModuleType, module: ModuleType) -> Any:
-    """What `yasmin_factory` makes of an element."""
+    """Build an element as `yasmin_factory` does."""
     if element.tag == "State":
         assert element.get("module") == module.__name__
         return getattr(module, element.get("class"))()

@@ -24,7 +24,7 @@ ROS = {"ros": "2"}
 
 @pytest.fixture
 def emit() -> Emit:
-    """What the generator makes of a system for ROS 2, and what it reports."""
+    """Generate for ROS 2; return the files and the diagnostics."""
 
     def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
         return emit_for(system, **ROS, **options)

@@ -1,4 +1,4 @@
-"""What is reported about packages for ROS 2."""
+"""Diagnostics for ROS 2 packages."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def test_an_option_is_shown_where_it_stands(
 
 
 def test_skeletons_of_ros_1_beside_it_mean_nothing_for_it(tmp_path: Path) -> None:
-    """What is true of a package for ROS 1 where they are built is not asked for here."""
+    """Requirements of ROS 1 skeletons on the package do not apply here."""
     model = tmp_path / "lab.swarm"
     model.write_text(HEADER + MACHINE, encoding="utf-8")
     targets = ["--target", "smach", "--target", "skeleton", "--option", "smach.ros=2"]

@@ -1,4 +1,4 @@
-"""What preempts a machine of SMACH reaches it whenever it comes."""
+"""A preempt request reaches a SMACH machine at any time."""
 
 from __future__ import annotations
 
