@@ -1,4 +1,4 @@
-"""The layers of the code: no package imports one above it, and no file imports itself."""
+"""The layers of the code: no package imports one above it, and files have no import cycles."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def layer_of(module: str) -> int:
 
 
 def inside(module: str) -> bool:
-    """Return True for modules of a package; what is left are one-line faces and `__main__`."""
+    """Return True for modules of a package; the others are deprecated modules and `__main__`."""
     return any(module.split(".")[1:2] == [package] for layer in LAYERS for package in layer)
 
 

@@ -17,7 +17,6 @@ from swarmdsl.ir import (
     Array,
     Binary,
     Call,
-    EventData,
     Expression,
     FieldAccess,
     Literal,
@@ -69,11 +68,6 @@ def stored(expression: Expression, wanted: Type, imports: Imports, data: str = D
 def attribute(base: str, field: str) -> str:
     """Return the access to a field of a message, by `getattr` if its name is a keyword."""
     return f"getattr({base}, {field!r})" if keyword.iskeyword(field) else f"{base}.{field}"
-
-
-def uses_event(expression: Expression) -> bool:
-    """Return True if an expression needs the message of the triggering event."""
-    return any(isinstance(part, EventData) for part in subexpressions(expression))
 
 
 def default_value(type_: Type, imports: Imports) -> str:

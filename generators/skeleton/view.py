@@ -1,6 +1,6 @@
 """View of a node for the templates: names, types and values in one language.
 
-Names are `Placed`: their lines are traced to the declarations in the model.
+Names are `TracedStr`: their lines are traced to the declarations in the model.
 """
 
 from __future__ import annotations

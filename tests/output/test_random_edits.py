@@ -93,7 +93,7 @@ def build(out: Path, text: str, **how: object) -> pipeline.Result:
     source = out.parent / "lab.swarm"
     source.write_text(text, encoding="utf-8")
     request = Request("skeleton", {"language": "cpp"})
-    return pipeline.build([source], [request], out, how=WriteOptions(**how))  # type: ignore[arg-type]
+    return pipeline.build([source], [request], out, options=WriteOptions(**how))  # type: ignore[arg-type]
 
 
 def renames(before: Elements, now: Elements) -> tuple[tuple[str, str], ...]:

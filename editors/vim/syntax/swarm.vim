@@ -27,21 +27,21 @@ syn match swarmDeclaration #\<abstraction\>\ze[ \t]*[{]#
 syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<count\>\ze[ \t]*\%(of\)\>#
 syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#
-syn match swarmStatement #\<evaluations\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<evaluations\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<feedback\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<goal\>\ze[ \t]*[{]#
 syn match swarmStatement #\<internal\>\ze[ \t]*\%(\%(after\|monitor\|on\)\>\|[\[]\)#
-syn match swarmStatement #\<maximize\>\ze[ \t]*[(A-Za-z_0-9"-]#
-syn match swarmStatement #\<minimize\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<maximize\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmStatement #\<minimize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<request\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<response\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<result\>\ze[ \t]*[{]#
 syn match swarmInclude #\<ros\>\ze[ \t]*[0-9"]#
-syn match swarmStatement #\<seed\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<seed\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<size\>\ze[ \t]*[0-9"]#
-syn match swarmStatement #\<step\>\ze[ \t]*[(A-Za-z_0-9"-]#
-syn match swarmStatement #\<steps\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<step\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<world\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<x\>\ze[ \t]*[0-9"]#
 syn match swarmName #\%(\<\%(actuator\|choice\|communication\|const\|controller\|enum\|environment\|event\|final\|fitness\|history\|member\|operation\|region\|sensor\|state\|statemachine\|struct\|type\|virtual\)\)\@<=\s\+\h\w*#

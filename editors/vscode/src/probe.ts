@@ -10,13 +10,15 @@ const WINDOWS = process.platform === "win32";
 const TIMEOUT = 15_000;
 const SCRIPT = `
 import sys
-from importlib.util import find_spec
 try:
-    # Older versions have the server in swarmdsl.server.
-    found = any(find_spec(f"swarmdsl.{name}") for name in ("ide", "server"))
+    try:
+        import swarmdsl.ide.server
+    except ModuleNotFoundError:
+        import swarmdsl.server  # versions before 0.2
+    found = 1
 except ImportError:
-    found = False
-print(*sys.version_info[:2], int(found))
+    found = 0
+print(*sys.version_info[:2], found)
 `;
 
 export const probe: Probe = {

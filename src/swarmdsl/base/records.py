@@ -28,7 +28,7 @@ else:
         return _define(cls, eq, frozen, slots)
 
     def field(**about):
-        """Say more of a field than its default, as with `dataclasses.field`."""
+        """Return a field with options, like `dataclasses.field`."""
         return _Field(about)
 
     def replace(of, /, **changes):

@@ -160,7 +160,8 @@ class Keywords:
         """Pattern of the tokens that can follow a keyword, for editors to tell it from a name."""
         after = self.after[word]
         words = frozenset(filter(str.isalpha, after.tokens))
-        symbols = "".join(sorted(after.tokens - words - set("[-")))
+        # A word before `(` is mostly the name of an argument or a call.
+        symbols = "".join(sorted(after.tokens - words - set("[-(")))
         if after.but is not None:
             symbols, words = f"{symbols}A-Za-z_", frozenset()
         if "" in after.tokens:
