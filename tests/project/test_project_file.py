@@ -91,7 +91,7 @@ package = 'Bad Name'
 profile = true
 """,
             [
-                "2:11: error[SW0013] `license` takes a string, not a whole number",
+                "2:11: error[SW0013] `license` takes text, not a whole number",
                 "3:1: error[SW0904] target `smach`: `1.x` is not a version: expected t",
                 "4:1: error[SW0904] target `smach`: `nope` is not an e-mail address",
                 "5:1: error[SW0904] target `smach`: `Bad Name` cannot be the name of the package",

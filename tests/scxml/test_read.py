@@ -410,13 +410,13 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         STATE.format("<onentry><script>1</script></onentry>"),
         "not-understood",
-        "`script` is not supported: scripts are not supported",
+        "`script` is not supported: scripts are never executed",
         "script",
     ),
     (
         STATE.format('<invoke type="x"/>'),
         "not-understood",
-        "`invoke` is not supported: activities outside of the machine are not supported in SCXML",
+        "`invoke` is not supported: activities outside of the machine are not started from SCXML",
         "invoke",
     ),
     (

@@ -180,7 +180,7 @@ async def test_rename_to_invalid_names(client, editor, folder):
         ("Idle {", "Home", "declared twice"),
         ("Idle {", "2nd", "not a valid name"),
         ("Idle {", "state", "is a keyword"),
-        ("initial", "first", "not the name of an element"),
+        ("initial", "first", "no name declared"),
     ):
         with pytest.raises(JsonRpcException, match=why):
             await renamed(client, document, word, name)

@@ -132,7 +132,7 @@ def _merge(
         base = line_ends.like(found.content, base)
         base = _base_as_edited(base, found, filled, of_user)
     place = plan.disk.out / path
-    told = _report_marks(plan, path, found.content, filled)
+    has_invalid_marks = _report_marks(plan, path, found.content, filled)
     merged = merge(base, found.content, filled) if base is not None else None
     if base is None or merged is None or merged.text is None:
         # Without a known base, the whole file counts as edited: its base is empty.
@@ -144,7 +144,7 @@ def _merge(
         else:
             plan.bring(path, found, found.content)
         return
-    if not told:
+    if not has_invalid_marks:
         warnings.report_edited(place, found.content, base, merged.taken, plan.remarks)
     if found.source is not None:
         plan.bring(path, found, merged.text)

@@ -59,9 +59,9 @@ _NEEDED = {
 }
 _WITH_TEXT = ("data", "assign", "content")
 _NOT_RUN = {
-    "invoke": "activities outside of the machine are not supported in SCXML",
-    "script": "scripts are not supported",
-    "foreach": "loops over lists are not supported",
+    "invoke": "activities outside of the machine are not started from SCXML",
+    "script": "scripts are never executed",
+    "foreach": "loops are never executed",
 }
 
 
