@@ -47,7 +47,7 @@ def tree() -> dict[Path, int]:
 
 def fill_in() -> None:
     text = implementation().read_text(encoding="utf-8")
-    text = text.replace("# Work on it here", "self.takeoff()  # Work on it here")
+    text = text.replace("# Process it here", "self.takeoff()  # Process it here")
     implementation().write_text(text, encoding="utf-8")
 
 
@@ -173,7 +173,7 @@ def test_a_new_name_takes_the_code_along(build, model):
     text = implementation("rise").read_text(encoding="utf-8")
     assert "class Rise(RiseBase):" in text
     assert "from rise.base import RiseBase" in text
-    assert "self.takeoff()  # Work on it here" in text
+    assert "self.takeoff()  # Process it here" in text
     assert "warning[SW0924]" in ran.out
     ran = build()
     assert (ran.code, ran.out) == (0, "")

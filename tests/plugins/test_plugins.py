@@ -124,7 +124,7 @@ def test_the_page_of_a_target(roster):
         "  style: How a role is written.\n"
         '    takes `plain` or `markdown`; default: "plain"\n'
         "  title: A first line.\n"
-        '    takes text; default: ""\n'
+        '    takes a string; default: ""\n'
         "  indent: Spaces before each role.\n"
         "    takes a whole number; default: 0\n"
         "  count: Whether to say how many.\n"

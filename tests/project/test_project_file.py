@@ -78,7 +78,7 @@ package = 1.5
                 "2:7: error[SW0013] `adf` takes a table of options, not a boolean",
                 "3:10: error[SW0901] no target called `scmxl`",
                 "5:1: error[SW0904] target `scxml`: there is no option `profil`",
-                "7:11: error[SW0013] `package` takes text, not a number",
+                "7:11: error[SW0013] `package` takes a string, not a number",
             ],
         ),
         (
@@ -91,7 +91,7 @@ package = 'Bad Name'
 profile = true
 """,
             [
-                "2:11: error[SW0013] `license` takes text, not a whole number",
+                "2:11: error[SW0013] `license` takes a string, not a whole number",
                 "3:1: error[SW0904] target `smach`: `1.x` is not a version: expected t",
                 "4:1: error[SW0904] target `smach`: `nope` is not an e-mail address",
                 "5:1: error[SW0904] target `smach`: `Bad Name` cannot be the name of the package",

@@ -15,7 +15,7 @@ from swarmdsl.codegen.api import Generator
 from swarmdsl.codegen.registry import BUILT_IN
 
 _BOOLEANS = {"true": True, "false": False}
-_TAKES = {str: "text", int: "a whole number", bool: "`true` or `false`"}
+_TAKES = {str: "a string", int: "a whole number", bool: "`true` or `false`"}
 
 
 @dataclass(frozen=True)
