@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 
 from swarmdsl.syntax.parser.keywords import FIRST, MODIFIERS, STATEMENTS, TOP_LEVEL
 from swarmdsl.syntax.pegen import __main__ as command
-from swarmdsl.syntax.pegen import metamodel
+from swarmdsl.syntax.pegen import editors, metamodel
 from swarmdsl.syntax.pegen import outputs as module_of_outputs
 from swarmdsl.syntax.pegen.outputs import outputs
 
@@ -57,7 +57,7 @@ def changed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     [
         (
             "behaviour.tx", "Activity | Entry", "Battery | Activity | Entry",
-            "behaviour.tx:17: rule Battery is used, but not defined",
+            ": rule Battery is used, but not defined",
         ),
         (
             "behaviour.tx", "\nEntry:", "\nBattery: 'battery' level=Expression;\nEntry:",
@@ -94,3 +94,23 @@ def test_a_statement_without_a_snippet_is_named(changed: Any) -> None:
     files, missing = outputs()
     assert missing == ["src/swarmdsl/ide/server/snippets.json: no snippet for `behaves`"]
     assert all("behaves" in text for text in files.values())
+
+
+def test_a_keyword_before_a_string_is_coloured_and_written_once() -> None:
+    """A word that can also be a name, with only a string after it: `note "text"`."""
+
+    class Changed:
+        reserved = frozenset({"after", "on", "state"})
+        first: ClassVar = {
+            f"{block}Item": frozenset({"after", "note", "on", "state"})
+            for block in ("Machine", "State", "Parallel", "Region")
+        } | {"ComponentItem": frozenset({"behavior", "in", "out"})}
+        modifiers: ClassVar[dict[str, set[str]]] = {}
+
+        def context(self, word: str, dialect: object) -> str:
+            return '["]'
+
+    text = (ROOT / editors.TEXTMATE).read_text(encoding="utf-8")
+    once = editors._textmate(text, Changed())  # type: ignore[arg-type]
+    assert r"\\bnote(?=[ \\t]*[\"])" in once
+    assert editors._textmate(once, Changed()) == once  # type: ignore[arg-type]

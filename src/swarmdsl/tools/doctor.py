@@ -112,7 +112,7 @@ def find() -> dict[Purpose, list[Finding]]:
 
 def environment() -> Iterator[tuple[str, str]]:
     """Yield versions and paths for a bug report, by name."""
-    yield "swarmdsl", f"{__version__} in {Path(__file__).parent}"
+    yield "swarmdsl", f"{__version__} in {Path(__file__).parents[1]}"
     yield "Python", f"{platform.python_version()} in {sys.executable}"
     yield "system", platform.platform()
     if os.environ.get("ROS_DISTRO"):

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from swarmdsl.syntax.pegen.keywords import EMACS_REGEX, VIM_REGEX, Keywords
+from swarmdsl.syntax.pegen.keywords import EMACS_REGEX, PYTHON_REGEX, VIM_REGEX, Keywords
 from swarmdsl.syntax.types import PRIMITIVES
 
 VIM = Path("editors/vim/syntax/swarm.vim")
@@ -25,7 +25,10 @@ _MARKED = re.compile(r"(?<=made by `make parser`\n).*?(?=^[\";]+ end$)", re.DOTA
 _DECLARATION = "declaration"
 # In the TextMate grammar: the words that begin an item of a state machine, and what ends the
 # parameters of an operation.
-_ITEMS = re.compile(r"\\b\(\?:after\|[a-z|]+\)\\b(?:\|\\b[a-z]+\\s\+(?:[a-z]+|\(\?:[a-z|]+\))\\b)*")
+_ITEMS = re.compile(
+    r"\\b\(\?:after\|[a-z|]+\)\\b"
+    r"(?:\|\\b[a-z]+(?:\\s\+(?:[a-z]+|\(\?:[a-z|]+\))\\b|\(\?=\[ \\t\]\*\[[^\]]*\]\)))*"
+)
 _OPERATION_END = re.compile(r"(?<=\(\?=\[\{\}\]\|)\\b\(\?:behavior\|[a-z|]+\)\\b")
 
 
@@ -140,9 +143,12 @@ def _textmate(text: str, keywords: Keywords) -> str:
     begins = _alternatives(items & keywords.reserved)
     for word in sorted(items - keywords.reserved):
         following = sorted(keywords.modifiers.get(word, ()))
-        begins += rf"|\b{word}\s+" + (
-            rf"{following[0]}\b" if len(following) == 1 else rf"(?:{'|'.join(following)})\b"
-        )
+        if not following:
+            begins += rf"|\b{word}(?=[ \t]*{keywords.context(word, PYTHON_REGEX)})"
+        elif len(following) == 1:
+            begins += rf"|\b{word}\s+{following[0]}\b"
+        else:
+            begins += rf"|\b{word}\s+(?:{'|'.join(following)})\b"
     ends = keywords.first["ComponentItem"] - {"in", "out"}
     grammar = json.loads(text)
     reserved = grammar["repository"]["reserved"]["match"]
