@@ -80,3 +80,16 @@ print(len(waiting), len(done), len(lazy_lsp_types.unfinished()))
     waiting, done, unfinished = map(int, found.split())
     assert waiting > 500
     assert (done, unfinished) == (4 * waiting, 0)
+
+
+def test_the_protocol_types_are_still_defined_when_they_are_imported() -> None:
+    """Once `lsprotocol` defines its types lazily, `lazy_lsp_types` can be removed."""
+    program = """
+import attrs
+calls = []
+define = attrs.define
+attrs.define = lambda cls=None, **options: (calls.append(cls), define(cls, **options))[1]
+import lsprotocol.types
+print(len(calls))
+"""
+    assert int(run(program)) > 400, "remove swarmdsl.ide.server.lazy_lsp_types"
