@@ -357,7 +357,7 @@ def test_active_states_before_the_diagrams(tmp_path: Path) -> None:
         page.goto(f"http://127.0.0.1:{browser.port}/")
         expect = playwright.expect
         expect.set_options(timeout=PATIENCE * 1000)
-        expect(page.locator("#state")).to_contain_text("mistake")
+        expect(page.locator("#state")).to_contain_text("error")
         model.write_text(NESTED, encoding="utf-8")
         expect(page.locator("#which")).to_have_value("Job.statechart")
         expect(page.locator("#picture .node.lit")).to_have_attribute("data-id", "Out.Dig")

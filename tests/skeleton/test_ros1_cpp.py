@@ -131,7 +131,7 @@ def test_a_log_of_roscpp_leads_to_the_model(
     assert swarmc(["trace", "node.log"]) == 0
     said = capfdbinary.readouterr().out.decode()
     assert "  --> model.swarm:28:10\n" in said
-    assert "`climb_base.cpp` as a whole is made for this" in said
+    assert "the whole of `climb_base.cpp` is generated from this" in said
 
 
 def test_cpp_tests_of_users_pass(graph: Any, catkin: Path) -> None:

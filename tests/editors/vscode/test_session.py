@@ -223,7 +223,9 @@ def test_invalid_server_path_is_reported(window: Window) -> None:
         expect(told.get_by_role("button", name="Select Interpreter")).to_be_visible()
         expect(window.status("swarmdsl.swarm.swarmdsl").locator(".codicon-warning")).to_be_visible()
         told.get_by_role("button", name="Open Settings").click()
-        expect(window.page.locator(".settings-editor")).to_contain_text("The program swarmc to use")
+        expect(window.page.locator(".settings-editor")).to_contain_text(
+            "If empty, the extension searches"
+        )
         window.press("Escape")
     window.server(__version__)
 
