@@ -121,18 +121,21 @@ def _run_in_a_group(
     command: list[str], folder: Path, environment: dict[str, str]
 ) -> tuple[int, str]:
     """Run a command; kill what it leaves behind, such as a node whose middleware does not end."""
-    process = subprocess.Popen(
-        command,
-        cwd=folder,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    )
-    try:
-        printed, _ = process.communicate(timeout=600)
-    finally:
-        with suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-    return process.returncode, printed
+    # Not a pipe, which what is left behind would hold open.
+    log = folder / "terminal.txt"
+    with log.open("wb") as terminal:
+        process = subprocess.Popen(
+            command,
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=terminal,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+        try:
+            code = process.wait(timeout=600)
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+    return code, log.read_text(encoding="utf-8")
