@@ -38,6 +38,9 @@ from swarmdsl.syntax.types import FLOAT, INT, STRING
 from ..swarm_printer.expressions import literals
 from ..swarm_printer.systems import systems
 
+pytestmark = pytest.mark.long
+
+
 T = TypeVar("T")
 PLAIN = [FLOAT, INT, STRING]
 TYPES = [*PLAIN, Named("new_msgs", "Thing")]

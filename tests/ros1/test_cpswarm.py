@@ -5,6 +5,9 @@ from typing import Any
 
 import pytest
 
+pytestmark = pytest.mark.long
+
+
 World = Callable[..., Any]
 EXAMPLE = "cpswarm"
 

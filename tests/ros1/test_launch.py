@@ -11,6 +11,9 @@ from typing import Any
 import pytest
 import yaml
 
+pytestmark = pytest.mark.long
+
+
 World = Callable[..., Any]
 
 MODEL = """

@@ -7,7 +7,12 @@ import re
 from io import StringIO
 from pathlib import Path
 
+import pytest
+
 from swarmdsl.execution.testing.command import Request, run
+
+pytestmark = pytest.mark.long
+
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 # Keys, texts, numbers, inner tables: mistakes between these are those of TOML.
