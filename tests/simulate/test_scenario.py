@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from itertools import pairwise
+from itertools import pairwise, product
 from pathlib import Path
 
 import pytest
@@ -191,6 +191,84 @@ def test_latency_and_loss(simulate: Simulate) -> None:
 
     assert 20 <= min(delays) < max(delays) <= 40
     assert len(delays) / 8000 == pytest.approx(0.75, abs=0.02)
+
+
+def test_events_on_a_topic_keep_their_order(simulate: Simulate) -> None:
+    """A random latency lets events on different topics overtake each other, as on robots."""
+    text = """
+      message swarmros/EventHeader { name : string node : string }
+      message Numbered { swarmio : swarmros/EventHeader number : int32 }
+      swarm event First : Numbered
+      swarm event Second : Numbered
+      statemachine Talk {
+        var n : int32 = 0
+        initial A
+        state A {
+          [n < 40] / send First(number = n), send Second(number = n), n = n + 1 -> A
+          [n >= 40] -> End
+        }
+        final End
+      }
+      endless statemachine Listen { initial A state A { on First -> A on Second -> A } }
+      member T { behavior Talk }
+      member L { behavior Listen }
+      swarm S { t : T[2] l : L[2] }
+    """
+    scenario = '[network]\nlatency = { uniform = ["0 ms", "10 s"] }\nloss = 0.1\n'
+    ran = simulate(text, "--until", "30s", scenario=scenario)
+    heard = [line for line in ran.trace if line["event"] in ("First", "Second")]
+
+    def numbers(listener: str, sender: str, *events: str) -> list[int]:
+        return [
+            line["data"]["number"]
+            for line in heard
+            if (line["member"], line["data"]["swarmio"]["node"]) == (listener, sender)
+            and line["event"] in events
+        ]
+
+    for channel in product(("l[0]", "l[1]"), ("t[0]", "t[1]")):
+        for event in ("First", "Second"):
+            ordered = numbers(*channel, event)
+            assert 25 < len(ordered) <= 40
+            assert ordered == sorted(ordered)
+        both = numbers(*channel, "First", "Second")
+        assert both != sorted(both)
+
+
+def test_robots_fill_in_empty_headers(simulate: Simulate) -> None:
+    text = """
+      message swarmros/EventHeader { name : string node : string }
+      message Seen { header : std_msgs/Header swarmio : swarmros/EventHeader }
+      swarm event Plain : Seen
+      swarm event Signed : Seen on "signed/by"
+      statemachine Talk {
+        var own : Seen
+        initial A
+        state A {
+          after 2 s / own.swarmio.node = "me", send Plain, send Signed(swarmio = own.swarmio) -> B
+        }
+        final B
+      }
+      statemachine Listen {
+        initial A
+        state A { on Plain [event.swarmio.node == "t[1]"] -> B }
+        state B { on Signed -> C }
+        final C
+      }
+      member T { behavior Talk }
+      member L { behavior Listen }
+      swarm S { t : T[2] l : L }
+    """
+    ran = simulate(text)
+    data = {line["event"]: line["data"] for line in ran.of("l[0]")[1:]}
+
+    stamp = 2 * 10**9
+    assert data["Plain"] == {
+        "header": {"seq": 0, "stamp": stamp, "frame_id": ""},
+        "swarmio": {"name": "plain", "node": "t[1]"},
+    }
+    assert data["Signed"]["swarmio"] == {"name": "signed/by", "node": "me"}
+    assert ran.of("l[0]")[-1]["configuration"] == ["C"]
 
 
 def test_faults(simulate: Simulate) -> None:

@@ -11,6 +11,7 @@ from swarmdsl.codegen.shared.default_values import default_result
 from swarmdsl.execution.engine import Event, Instance, InstanceLike, Run, Servers
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
+from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import (
     EVERY_FUNCTION,
@@ -70,6 +71,8 @@ class World:
         self._chance = RandomSource(seed)
         self._calls: Counter[tuple[str | None, str]] = Counter()
         self._transmissions: Counter[tuple[str | None, str | None]] = Counter()
+        self._last_arrival: dict[tuple[Robot, Robot, str], int] = {}
+        """Time at which the last event on a topic arrives, by sender, receiver and topic."""
         self._ends: dict[Run, Alarm | None] = {}
         self._listeners: dict[tuple[str, Robot], list[Actor]] = {}
         self._silent: Counter[tuple[Robot, str]] = Counter()
@@ -196,9 +199,10 @@ class World:
             return
         robot = self._actors[instance].robot
         sent = self._system.event(event.name)
+        data = signed(sent, event.data, self._system, robot.name or "", self.clock.now)
         here = [each.name for each in self._system.events if each.incoming_topic == sent.topic]
         for name in here:
-            self._later(0, name, event.data, robot)
+            self._later(0, name, data, robot)
         if not sent.swarm:
             return
         for other in self.robots:
@@ -208,21 +212,28 @@ class World:
             count = self._transmissions[robot.name, other.name]
             chance = self._chance.stream(robot.name, "to", other.name, count)
             arrives = chance.random() >= self._scenario.loss and other not in self._gone
-            delay = self._scenario.latency.draw(chance)
+            now = self.clock.now
+            due = now + self._scenario.latency.draw(chance)
+            if arrives:
+                due = self._in_order(due, (robot, other, sent.topic))
             if self.transmitted is not None:
-                now = self.clock.now
-                self.transmitted(Transmission(event.name, robot, other, now, now + delay, arrives))
+                self.transmitted(Transmission(event.name, robot, other, now, due, arrives))
             if not arrives:
                 self.lost[event.name] += 1
                 continue
             self.delivered[event.name] += 1
-            self._later(delay, event.name, event.data, other)
+            self._later(due - now, event.name, data, other)
 
     def failed(self, instance: InstanceLike, error: Exception) -> None:
         """Count the failure."""
         self.failures[instance.machine.name, str(error)] += 1
 
     # ---- internal
+
+    def _in_order(self, due: int, channel: tuple[Robot, Robot, str]) -> int:
+        """Return the time of arrival of an event that does not overtake others on its topic."""
+        self._last_arrival[channel] = due = max(due, self._last_arrival.get(channel, 0))
+        return due
 
     def _is_silent(self, robot: Robot, function: str) -> bool:
         return any(self._silent[robot, name] for name in (function, EVERY_FUNCTION))
