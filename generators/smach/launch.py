@@ -24,6 +24,7 @@ def robot_launch(robot: Robot, package: str) -> str:
     root = Element("launch")
     root.comment(robot.member.doc)
     _arg(root, "name", f"{robot.name}_0", "the namespace of the robot")
+    _arg(root, "member", "$(arg name)", "the name of the robot in the events that it sends")
     _arg(root, "params", "", "a YAML file with params of this robot")
     _switches(root, [robot])
     if robot.components is not None:
@@ -37,6 +38,7 @@ def robot_launch(robot: Robot, package: str) -> str:
     for node in robot.nodes:
         element = _node(group, package, snake_case(node.machine.name), node.name)
         _param(element, "introspection", "$(arg introspection)")
+        _param(element, "member", "$(arg member)")
         for name, topic in node.remaps:
             element.add("remap", {"from": name, "to": topic})
     if robot.bridge is not None:
@@ -61,6 +63,7 @@ def fleet_launch(fleet: Fleet, package: str) -> str:
                 include.attributes["if"] = f"$(eval arg('{_count(team)}') > {number})"
             name = f"{team.role.name}_{number}"
             _pass(include, "name", name)
+            _pass(include, "member", f"{team.role.name}[{number}]")
             _pass(include, "params", f"$(find {package})/param/{fleet.name}/{name}.yaml")
             _pass_switches(include, [team.robot])
     return document(root)

@@ -340,6 +340,7 @@ class World:
             ROSException=ROSException,
             wait_for_service=nothing,
             get_param=get_param,
+            get_namespace=lambda: "/robot_7/",
             has_param=world.params.__contains__,
             get_rostime=Time.now,
             init_node=lambda name, disable_signals: None,
@@ -417,7 +418,12 @@ class World:
         known = {} if fields is not None else default_value(Named(package, name), self.system)
         slots = tuple(types) if fields is not None else ("__dict__",)
         # Slots as genpy makes them: smach wraps what has a `__dict__` to keep it constant.
-        members = {"__init__": __init__, "__slots__": slots, "result_class": None}
+        members = {
+            "__init__": __init__,
+            "__slots__": slots,
+            "_slot_types": tuple(str(type_) for type_ in types.values()),
+            "result_class": None,
+        }
         class_ = type(name, (), members)
         self._module(f"{package}.{kind}", **{name: class_})
         return class_

@@ -62,6 +62,7 @@ def test_launch_file_of_a_robot(generate: Generate) -> None:
     root = _launch(generate(MODEL), "uav")
     assert _args(root) == {
         "name": "uav_0",
+        "member": "$(arg name)",
         "params": "",
         "introspection": "false",
         "bridge": "false",

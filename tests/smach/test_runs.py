@@ -12,8 +12,12 @@ HEADER = """
 package lab
 
 message m/Pose { x : float64  y : float64 }
-message m/Note { header : std_msgs/Header  id : string  level : int32  pose : m/Pose }
+message m/Note {
+  header : std_msgs/Header  swarmio : swarmros/EventHeader
+  id : string  level : int32  pose : m/Pose
+}
 message std_msgs/Header { stamp : time }
+message swarmros/EventHeader { name : string  node : string }
 action m/Move {
   goal { to : m/Pose  speed : float64 }
   result { id : string  at : m/Pose }
@@ -591,6 +595,7 @@ def test_send(robot: Run) -> None:
     ((topic, message),) = work.world.sent
     assert (topic, message.id, message.pose.x) == ("found", "here", 3.0)
     assert message.header.stamp
+    assert (message.swarmio.name, message.swarmio.node) == ("found", "robot_7")
 
 
 def test_results(robot: Run) -> None:

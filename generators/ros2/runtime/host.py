@@ -126,7 +126,8 @@ class Host:
             node,
             behavior.topics,
             swarm,
-            settings['member'],
+            # A part sends in the name of its robot.
+            (self._member or node.get_namespace().strip('/')).partition('.')[0],
             self._group,
             lambda: self.now,
             self._receive,

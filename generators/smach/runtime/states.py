@@ -25,6 +25,7 @@ class Event:
         self.heard_on = heard_on
         self.sent_on = sent_on
         self._publisher = None
+        self._sender = ''
 
     def listen(self, receive):
         """Call `receive(name, message)` with each message from now on."""
@@ -33,15 +34,18 @@ class Event:
     def advertise(self):
         """Create the publisher, once."""
         if self._publisher is None:
+            self._sender = rospy.get_param('~member', '') or rospy.get_namespace().strip('/')
             self._publisher = rospy.Publisher(self.sent_on, self.message_type, queue_size=10)
 
     def send(self, message):
-        """Publish a message, with the time in its header and the name in its swarmros header."""
-        fields = message.__slots__
-        if 'header' in fields and hasattr(message.header, 'stamp') and not message.header.stamp:
-            message.header.stamp = rospy.Time.now()
-        if 'swarmio' in fields and not message.swarmio.name:
-            message.swarmio.name = self.sent_on
+        """Publish a message, with its time and sender in empty headers."""
+        for field, kind in zip(message.__slots__, message._slot_types):
+            header = getattr(message, field)
+            if kind == 'std_msgs/Header':
+                header.stamp = header.stamp or rospy.Time.now()
+            elif kind == 'swarmros/EventHeader':
+                header.name = header.name or self.sent_on
+                header.node = header.node or self._sender
         try:
             self._publisher.publish(message)
         except rospy.ROSException:

@@ -44,6 +44,7 @@ class Topics:
         self._clock = clock
         self._hear = hear
         self._publishers = {}
+        self._names = {topic.event: topic.name for topic in topics}
         self._headers = {}
         self._subscriptions = []
         self._echoes = {}
@@ -81,7 +82,7 @@ class Topics:
         for field, kind in self._headers[name]:
             header = getattr(message, field)
             if kind == _OF_BRIDGE:
-                header.name = header.name or name
+                header.name = header.name or self._names[name]
                 header.node = header.node or self._member
             elif header.stamp == Time():
                 header.stamp = self._node.get_clock().now().to_msg()
