@@ -23,7 +23,7 @@ def signed(event: Event, data: Any, system: System, sender: str, now: int) -> An
     filled = dict(data)
     for field in message.fields:
         if field.type == _OF_ROS:
-            given = {"stamp": now}
+            given: dict[str, Any] = {"stamp": now}
         elif field.type == _OF_BRIDGE:
             given = {"name": event.topic, "node": sender}
         else:
