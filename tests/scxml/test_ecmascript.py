@@ -42,6 +42,14 @@ l[1]  l[2][0]  l.length  s.length  s[1]  o.a.b  o["a"]["b"]  o.list[1]  o.nothin
 {a: 1, "b": [2]}.b[0]  [1, 2, 3].length  [].length  typeof n  typeof "a"  typeof t  typeof o
 typeof undefined  typeof unknown  nothing  Math.max(1, n)  Math.min()  Math.max(n, "7")  Math.abs(x)
 Math.ceil(x)  Math.floor(x)  Math.round(x)  Math.round(2.5)  Math.trunc(x)  Math.sqrt(16)
+5 & 3  5 | 3  5 ^ 3  ~5  1 << 3  1 << 31  -8 >> 1  -8 >>> 28  1 | 2 == 2  6 & 3 ^ 1 | 8  1 + 1 << 2
+-1 >>> 0  1e10 | 0  "7" & 3  NaN | 0  l & 1  1 << 33  2.9 | 0  -2.9 | 0  1 < 2 << 1
+"a" in o  "b" in o  0 in l  3 in l  "length" in l  "x" in {x: undefined}  !("a" in o)
+[].concat(l, [4], 5)  l.concat()  "a".concat(1, true)  l.indexOf("two")  l.indexOf(2)
+s.indexOf("b")  s.indexOf("x")  l.join()  l.join("-")  [[1, 2], [3]].join(";")
+[1, 2].concat([3]).length  1 /* one */ + 2  1 + 2 // three
+[1] == 1  [1, 2] == "1,2"  [2] > 1  [1] + 1  o + ""  [1, [2]] * 1
+[7] * 2  "10" < [9]  -[3]  "" + [1, [2, "x"], []]  o == "[object Object]"  [1] == [1]
 Math.sqrt(-1)  Math.pow(2, 10)  Math.pow(2, 0.5)  Math.max(n, NaN)
 JSON.parse(JSON.stringify(o)).a.b  (function (a, b) { return a - b; })(n, 1)
 (function (a) { return (function (b) { return a + b; })(2); })(1)  "\\u0041\\x42\\n\\t\\\\'"
@@ -81,7 +89,7 @@ def test_values_are_those_of_node() -> None:
         Object.assign(globalThis, data);
         const told = (v) => typeof v === "number" && !isFinite(v) ? String(v)
                           : JSON.stringify(v === undefined ? null : v);
-        console.log(JSON.stringify(texts.map((text) => told((0, eval)("(" + text + ")")))));
+        console.log(JSON.stringify(texts.map((text) => told((0, eval)("(" + text + "\\n)")))));
     """
     run = subprocess.run(
         [node, "-e", script],
@@ -109,9 +117,10 @@ def test_what_is_written_for_a_model_has_the_value_of_the_language(expression: A
     "text",
     [
         *("", "1 +", "a b", "a = 1", "f(1)", "new Date()", "Math.random()", "JSON.stringify(1)"),
-        *("_event.origin", "function (a) { return a; }", "(function (a) { return a; })()"),
-        *("1 ? 2", "a.constructor()", "`a`", "a++", "-" * 200 + "1", "'a", "import('x')"),
-        "o.__proto__.x()",
+        *("_event.raw", "function (a) { return a; }", "(function (a) { return a; })()"),
+        *("1 ? 2", "a.constructor()", "`a`", "1++", "-" * 200 + "1", "'a", "import('x')"),
+        *("o.__proto__.x()", "a = b", "a, b", "l.push(1)", "Math.PI", "this", "Date", "2--1"),
+        *("a /* b", "1 in", "++1", "a instanceof Array"),
     ],
 )
 def test_what_is_not_understood(text: str) -> None:
@@ -125,6 +134,11 @@ def test_what_is_not_understood(text: str) -> None:
         ("unknown", "`unknown` is not defined"),
         ("nothing.x", "undefined has no `x`"),
         ("o.x.y", "undefined has no `y`"),
+        ("'a' in s", "`in` needs an object or list, not `ab`"),
+        ("n.concat(1)", "`3` has no function `concat`"),
+        ("o.join()", "`.object Object.` has no function `join`"),
+        ("s.join()", "`ab` has no function `join`"),
+        ("++unknown", "`unknown` is not defined"),
     ],
 )
 def test_what_throws(text: str, message: str) -> None:
@@ -144,6 +158,30 @@ def test_members_are_those_of_the_data_alone() -> None:
 def test_texts_do_not_grow_beyond_all_bounds() -> None:
     with pytest.raises(ExecutionError, match="too long"):
         value("s + s", {"s": "x" * 600_000})
+
+
+def test_lists_do_not_grow_beyond_all_bounds() -> None:
+    deep: Any = []
+    for _ in range(60):
+        deep = [deep, deep]
+    endless: list[Any] = []
+    endless.append(endless)
+    data = {"many": [0] * 600_000, "deep": deep, "endless": endless}
+    for text in ("many.concat(many)", "'' + deep", "'' + endless", "deep.join('')"):
+        with pytest.raises(ExecutionError, match=r"too long|too deeply"):
+            value(text, data)
+    with pytest.raises(ExecutionError, match="too large"):
+        value("JSON.parse(JSON.stringify(endless))", data)
+
+
+@pytest.mark.parametrize(
+    ("text", "result", "left"),
+    [("++n", 4, 4), ("n++", 3, 4), ("--n", 2, 2), ("n--", 3, 2), ("++o.x + n", 5, 3)],
+)
+def test_steps(text: str, result: int, left: int) -> None:
+    data = {"n": 3, "o": {"x": 1}}
+
+    assert (value(text, data), data["n"]) == (result, left)
 
 
 def test_a_copy_is_a_copy() -> None:

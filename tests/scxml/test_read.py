@@ -144,14 +144,14 @@ def test_done_data_goes_without_what_has_no_value() -> None:
 def test_data_and_assignments() -> None:
     instance = running("""
       <datamodel>
-        <data id="n" expr="2"/><data id="twice" expr="n * 2"/><data id="word">'a'</data>
+        <data id="n" expr="2"/><data id="twice" expr="n * 2"/><data id="word">"a"</data>
         <data id="o" expr="{list: [1, 2], inner: {x: 0}}"/><data id="none"/>
       </datamodel>
       <state id="a"><onentry>
         <assign location="n" expr="n + twice"/>
         <assign location="o.inner.x" expr="word + n"/>
         <assign location="o.list[1]" expr="true"/>
-        <assign location="none">[n]</assign>
+        <assign location="none">[6]</assign>
       </onentry></state>""")
 
     assert instance.data == {
@@ -232,8 +232,8 @@ def test_sends() -> None:
       <state id="a"><transition event="e">
         <send event="inside" target="#_internal"/>
         <send event="own"><param name="x" expr="n"/></send>
-        <send eventexpr="'for' + '.others'" target="them" namelist="n"/>
-        <send event="value" type="x"><content expr="n + 1"/></send>
+        <send eventexpr="'for' + '.others'" type="urn:swarmdsl:swarm" namelist="n"/>
+        <send event="value" type="urn:swarmdsl:swarm"><content expr="n + 1"/></send>
       </transition>
       <transition event="own" cond="_event.data.x == 3"/></state>""")
     after(instance, "e")
@@ -254,9 +254,31 @@ DELAYED = "`x` has a target of its own: it cannot be delayed"
         ('<assign location="n.x" expr="1"/>', "`n.x` cannot be assigned to"),
         ('<log expr="n.x.y"/>', "undefined has no `y`"),
         ("<send event='x' delayexpr='3'/>", "`3` is no delay"),
-        ("<send event='x' delay='1s' target='y'/>", DELAYED),
+        ("<send event='x' delay='1s' type='urn:swarmdsl:swarm'/>", DELAYED),
         ("<send event='x' delay='1s' target='#_internal'/>", DELAYED),
         ("<send eventexpr='&quot;&quot;'/>", "an event without a name cannot be sent"),
+        ("<send eventexpr='_event'/>", "`_event` is not defined"),
+        ("<send eventexpr='undefined'/>", "`eventexpr` has no value"),
+        ("<send event='x' target='y'/>", "no event can be sent to `y`"),
+        ("<send event='x' type='y'/>", "no event can be sent with the type `y`"),
+        ("<if cond='true'><send event='x' target='y'/></if>", "no event can be sent to `y`"),
+        ("<send event='x' idlocation='y'/>", "there is no variable `y`"),
+        ("<assign location='_name' expr='1'/>", "`_name` cannot be assigned to"),
+        ("<assign location='_event.data' expr='1'/>", "`_event` cannot be assigned to"),
+        ("<script>n.x = 1</script>", "`=` cannot be assigned to"),
+        ("<script>x += 1</script>", "`x` is not defined"),
+        ("<script>_sessionid = 1</script>", "`_sessionid` cannot be assigned to"),
+        ("<foreach array='n' item='x'/>", "`0` is not a list"),
+        ("<foreach array='x' item='y'/>", "`x` is not defined"),
+        ("<foreach array='[1]' item='if'/>", "`if` is not the name of a variable"),
+        (
+            "<foreach array='[1]' item='x' index='_event'/>",
+            "`_event` is not the name of a variable",
+        ),
+        (
+            "<foreach array='[1]' item='x'><send event='x' target='y'/></foreach>",
+            "no event can be sent to `y`",
+        ),
     ],
 )
 def test_content_that_fails(content: str, error: str) -> None:
@@ -354,10 +376,10 @@ WRONG: list[tuple[str, str, str, str]] = [
         "eval(1)",
     ),
     (
-        STATE.format('<transition event="e" cond="_event.origin"/>'),
+        STATE.format('<transition event="e" cond="_event.raw"/>'),
         "bad-expression",
-        "invalid expression: `_event.origin` is not known, only its `name` and `data`",
-        "_event.origin",
+        "invalid expression: `_event.raw` is not supported",
+        "_event.raw",
     ),
     (
         STATE.format('<transition event="e" cond="x = 3"/>'),
@@ -408,10 +430,78 @@ WRONG: list[tuple[str, str, str, str]] = [
         "1+",
     ),
     (
-        STATE.format("<onentry><script>1</script></onentry>"),
+        STATE.format("<onentry><script>f(1)</script></onentry>"),
         "not-understood",
-        "`script` is not supported: scripts are never executed",
+        "`script` is not supported: only assignments are run; it ends early",
         "script",
+    ),
+    (
+        '<script>x = 1; while (x) { x = 0 }</script><state id="a"/>',
+        "not-understood",
+        "`script` is not supported: only assignments are run; `{` cannot stand here",
+        "script",
+    ),
+    (
+        '<script src="file:///etc/passwd"/><state id="a"/>',
+        "not-understood",
+        "`src` is not supported: other files are not read",
+        "file:///etc/passwd",
+    ),
+    (
+        '<datamodel><data id="d"><books xmlns=""/></data></datamodel><state id="a"/>',
+        "not-understood",
+        "`books` is not supported: XML cannot be a value",
+        "books",
+    ),
+    (
+        STATE.format(
+            '<onentry><send event="e" type="http://www.w3.org/TR/scxml/#BasicHTTPEventProcessor"/></onentry>'
+        ),
+        "not-understood",
+        "`type` is not supported: no event is sent over a network",
+        "http://www.w3.org/TR/scxml/#BasicHTTPEventProcessor",
+    ),
+    (
+        STATE.format('<onentry><send event="e" eventexpr="1"/></onentry>'),
+        "illegal-structure",
+        "`<send>` gives the same thing twice",
+        "send",
+    ),
+    (
+        STATE.format('<onentry><send event="e" delay="1s" delayexpr="1"/></onentry>'),
+        "illegal-structure",
+        "`<send>` gives the same thing twice",
+        "send",
+    ),
+    (
+        STATE.format('<onentry><send event="e" namelist="x"><content>1</content></send></onentry>'),
+        "illegal-structure",
+        "`<send>` gives the same thing twice",
+        "send",
+    ),
+    (
+        STATE.format('<onentry><assign location="x" expr="1">2</assign></onentry>'),
+        "illegal-structure",
+        "`<assign>` gives the same thing twice",
+        "assign",
+    ),
+    (
+        STATE.format('<onentry><if cond="1"><else/><elseif cond="2"/></if></onentry>'),
+        "illegal-structure",
+        "`<elseif>` must not come after `<else>`",
+        "elseif",
+    ),
+    (
+        STATE.format('<onentry><foreach array="x"/></onentry>'),
+        "missing-attribute",
+        "`<foreach>` needs attribute `item`",
+        "foreach",
+    ),
+    (
+        STATE.format('<transition event="e" cond="Math.PI"/>'),
+        "bad-expression",
+        "invalid expression: `Math` is not supported",
+        "Math.PI",
     ),
     (
         STATE.format('<invoke type="x"/>'),
@@ -506,6 +596,13 @@ def test_what_is_wrong_is_said_once_at_its_place(
     body: str, name: str, message: str, place: str
 ) -> None:
     assert said_of(body) == [(name, message, place)]
+
+
+@pytest.mark.parametrize(("name", "value"), [("datamodel", "python"), ("binding", "sometimes")])
+def test_attributes_of_the_root(name: str, value: str) -> None:
+    text = f'<scxml xmlns="http://www.w3.org/2005/07/scxml" {name}="{value}"><state/></scxml>'
+
+    assert [(found, place) for found, _, place in said(text)] == [("bad-value", value)]
 
 
 @pytest.mark.parametrize(

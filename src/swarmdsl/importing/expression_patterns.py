@@ -9,7 +9,7 @@ from typing import Any
 from lark import Tree
 
 from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
-from swarmdsl.execution.scxml.ecmascript import parse
+from swarmdsl.execution.scxml.grammar import parse
 from swarmdsl.ir import Literal, Primitive, Type
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, FLOATS, INT, STRING
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from swarmdsl.execution.scxml.ecmascript import Unreadable, parse, unquoted
+from swarmdsl.execution.scxml.grammar import Unreadable, parse, unquoted
 from swarmdsl.importing.expression_patterns import (
     COMPARISONS,
     OPERATORS,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
-from swarmdsl.execution.scxml.content import delay_of
+from swarmdsl.execution.scxml.attributes import delay_of
 from swarmdsl.execution.scxml.document import Node
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.data import MachineData

@@ -14,7 +14,7 @@ from lark import Token, Tree
 
 from swarmdsl.base.records import replace
 from swarmdsl.execution.scxml.document import Node
-from swarmdsl.execution.scxml.ecmascript import Unreadable, parse
+from swarmdsl.execution.scxml.grammar import Unreadable, parse
 from swarmdsl.importing.partial_states import Edge, PartialState
 from swarmdsl.ir import StateKind
 

@@ -177,7 +177,8 @@ class _Builder:
         self.comment = f"{self.comment}\n{plain}" if self.comment else plain
 
     def add_text(self, text: str) -> None:
-        if not text.isspace():
+        # White space matters inside of text only: after a comment, say.
+        if self.inside[-1].text or not text.isspace():
             self.inside[-1].text += text
 
     def refuse(self, *declared: object) -> None:

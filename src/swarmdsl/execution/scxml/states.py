@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
@@ -18,13 +18,17 @@ from swarmdsl.execution.engine import (
     TableError,
     Transition,
 )
-from swarmdsl.execution.scxml.content import Content, nothing
+from swarmdsl.execution.scxml.attributes import nothing
+from swarmdsl.execution.scxml.content import Content
 from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.execution.scxml.ecmascript import Value
+from swarmdsl.execution.scxml.session import session_of
 
 _KINDS = {"parallel": Kind.PARALLEL, "final": Kind.FINAL}
 _VERTICES = ("state", "parallel", "final", "history")
 _OUTCOMES = ("succeeded", "aborted", "preempted")
+# Values of attributes of <scxml>; the null data model is a part of that of ECMAScript.
+_VALUES = {"binding": ("early", "late"), "datamodel": ("ecmascript", "null")}
 
 
 def machine(document: Document, report: Diagnostics) -> Machine | None:
@@ -35,7 +39,9 @@ def machine(document: Document, report: Diagnostics) -> Machine | None:
         fault = "the document has no state"
         report.report("illegal-structure", document.at(root), fault=fault)
         return None
+    reader.check_root()
     variables = reader.variables()
+    setup = [*reader.first, *reader.scripts()]
     states = [reader.state(each) for each in root.children if each.name in _VERTICES]
     initial = reader.initial(root)
     if report.has_errors:
@@ -46,7 +52,7 @@ def machine(document: Document, report: Diagnostics) -> Machine | None:
             states,
             initial,
             data=lambda: dict.fromkeys(variables),
-            setup=tuple(_first_value(name, v) for name, v in variables.items() if v is not nothing),
+            setup=tuple(setup),
         )
     except TableError as error:
         place = reader.ids.get(error.id, root)
@@ -64,6 +70,8 @@ class _Reader:
         self.content = Content(document, report)
         self.ids: dict[str, Node] = {}
         self.names: dict[Node, str] = {}
+        self.first: list[Effect] = []
+        self.bound: dict[Node, list[Effect]] = {}
         unnamed: list[Node] = []
         for node in self.nodes:
             if node.name not in _VERTICES:
@@ -92,13 +100,10 @@ class _Reader:
             if each.name == "function"
         }
 
-    def variables(self) -> dict[str, Value]:
-        """Return all data ids with their initial values."""
+    def variables(self) -> list[str]:
+        """Return all data ids; `first` and `bound` get the effects that initialize them."""
         found: dict[str, Node] = {}
-        values: dict[str, Value] = {}
-        if self.document.root.get("binding") == "late":
-            place = self.document.at(self.document.root, "binding")
-            self.report.report("bad-value", place, name="binding", values="`early`")
+        late = self.document.root.get("binding") == "late"
         for node in self.nodes:
             if node.name != "data":
                 continue
@@ -110,13 +115,35 @@ class _Reader:
                     name=name,
                     related=(Label(self.document.at(found[name], "id"), "the first one"),),
                 )
-            elif node.get("src") is not None:
-                place = self.document.at(node, "src")
-                reason = "other files are not read"
-                self.report.report("not-understood", place, name="src", reason=reason)
             found.setdefault(name, node)
-            values[name] = self.content.value(node)
-        return values
+            value = self.content.value(node)
+            assert node.parent is not None
+            owner = node.parent.parent
+            if value is nothing:
+                continue
+            if late and owner is not None and owner is not self.document.root:
+                self.bound.setdefault(owner, []).append(_late_value(name, value))
+            else:
+                self.first.append(_first_value(name, value))
+        return list(found)
+
+    def scripts(self) -> Iterator[Effect]:
+        """Yield the scripts of the document itself, which run before it enters a state."""
+        for node in self.document.root.children:
+            if node.name == "script":
+                effect = self.content.script(node)
+                if effect is not None:
+                    yield effect
+
+    def check_root(self) -> None:
+        """Report values of attributes of the root that no document can have."""
+        root = self.document.root
+        for name, values in _VALUES.items():
+            if root.get(name, values[0]) not in values:
+                words = " or ".join(f"`{each}`" for each in values)
+                self.report.report(
+                    "bad-value", self.document.at(root, name), name=name, values=words
+                )
 
     def state(self, node: Node) -> State:
         """Convert a state and its content."""
@@ -131,7 +158,7 @@ class _Reader:
             return State(id_, kind, transitions=(default,) if default is not None else ())
         states: list[State] = []
         transitions: list[Transition] = []
-        entry: list[Effect] = []
+        entry = list(self.bound.get(node, ()))
         leave: list[Effect] = []
         donedata = None
         leads_inside = "initial" in node.attributes
@@ -278,6 +305,19 @@ def _pattern(word: str) -> str:
     """Convert an event descriptor, which matches by prefix, to that of the engine."""
     word = word.removesuffix("*").removesuffix(".")
     return f"{word}.*" if word else "*"
+
+
+def _late_value(name: str, value: Value) -> Effect:
+    """Return the effect that initializes a variable when its state is first entered (5.3.3)."""
+    store = _first_value(name, value)
+
+    def store_once(instance: InstanceLike, event: Event) -> None:
+        session = session_of(instance)
+        if name not in session.bound:
+            session.bound.add(name)
+            store(instance, event)
+
+    return store_once
 
 
 def _first_value(name: str, value: Value) -> Effect:

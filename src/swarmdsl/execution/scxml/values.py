@@ -17,8 +17,9 @@ from swarmdsl.execution.engine import ExecutionError
 _EXACT = 2**53
 _DECIMAL = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|Infinity)")
 _HEXADECIMAL = re.compile("0[xX][0-9a-fA-F]+")
-# A document could double a string over and over.
+# A document could double a string or a list over and over.
 _LONGEST = 1_000_000
+_DEEPEST = 100
 
 
 def truth(value: Any) -> bool:
@@ -41,7 +42,7 @@ def number(value: Any) -> float | int:
         if _DECIMAL.fullmatch(written):
             return whole(float(written))
         return math.nan if written else 0
-    return math.nan
+    return math.nan if value is None else number(text(value))
 
 
 def whole(value: float | int) -> float | int:
@@ -51,7 +52,7 @@ def whole(value: float | int) -> float | int:
     return int(value) if value.is_integer() and -_EXACT <= value <= _EXACT else value
 
 
-def text(value: Any) -> str:
+def text(value: Any, depth: int = 0) -> str:
     """Convert a value to a string."""
     if isinstance(value, bool):
         return "true" if value else "false"
@@ -60,8 +61,47 @@ def text(value: Any) -> str:
     if isinstance(value, float):
         return _written(value)
     if isinstance(value, list):
-        return ",".join(map(text, value))
+        return _joined(value, ",", depth + 1)
     return str(value) if not isinstance(value, dict) else "[object Object]"
+
+
+def _joined(values: list[Any], separator: str, depth: int) -> str:
+    """Convert a list to a string; elements without a value are empty."""
+    if depth > _DEEPEST:
+        raise ExecutionError("the list is nested too deeply")
+    parts, size = [], 0
+    for each in values:
+        parts.append("" if each is None else text(each, depth))
+        size += len(parts[-1]) + 1
+        if size > _LONGEST:
+            raise ExecutionError("the string is too long")
+    return separator.join(parts)
+
+
+def copied(value: Any) -> Any:
+    """Return a copy of a value, like `JSON.parse(JSON.stringify(value))`."""
+    left = [_LONGEST]
+
+    def copy(each: Any, depth: int) -> Any:
+        left[0] -= 1
+        if depth > _DEEPEST or left[0] < 0:
+            raise ExecutionError("the value is too large to be copied")
+        if isinstance(each, list):
+            return [copy(inner, depth + 1) for inner in each]
+        if isinstance(each, dict):
+            return {key: copy(inner, depth + 1) for key, inner in each.items()}
+        return each
+
+    return copy(value, 0)
+
+
+def contains(held: Any, name: Any) -> bool:
+    """Return True if an object has a member: the operator `in`."""
+    if isinstance(held, list):
+        return name == "length" or text(name) in map(str, range(len(held)))
+    if isinstance(held, dict):
+        return text(name) in held
+    raise ExecutionError(f"`in` needs an object or list, not `{text(held)}`")
 
 
 def _written(value: float) -> str:
@@ -73,6 +113,11 @@ def _written(value: float) -> str:
     if 1e-6 <= abs(value) < 1e-4:
         return format(Decimal(repr(value)), "f")
     return re.sub("e([+-])0+", r"e\1", repr(value))
+
+
+def _primitive(value: Any) -> Any:
+    """Convert a list or object to a string, as operators do."""
+    return text(value) if isinstance(value, (list, dict)) else value
 
 
 def _add(left: Any, right: Any) -> Any:
@@ -107,6 +152,9 @@ def _same(left: Any, right: Any) -> bool:
 def _alike(left: Any, right: Any) -> bool:
     if _kind(left) == _kind(right) or left is None or right is None:
         return _same(left, right)
+    left, right = _primitive(left), _primitive(right)
+    if _kind(left) == _kind(right):
+        return bool(left == right)
     return number(left) == number(right)
 
 
@@ -122,6 +170,7 @@ def _kind(value: Any) -> str:
 
 def _compared(test: Callable[[Any, Any], bool]) -> Callable[[Any, Any], bool]:
     def compare(left: Any, right: Any) -> bool:
+        left, right = _primitive(left), _primitive(right)
         if isinstance(left, str) and isinstance(right, str):
             return test(left, right)
         return test(number(left), number(right))
@@ -147,6 +196,48 @@ def _extreme(choose: Callable[[list[float]], float]) -> Callable[..., float]:
     return call
 
 
+def _bits(value: Any) -> int:
+    """Convert a value to a whole number of 32 bits with a sign."""
+    found = number(value)
+    if not math.isfinite(found):
+        return 0
+    return (math.trunc(found) + 2**31) % 2**32 - 2**31
+
+
+def _bitwise(function: Callable[[int, int], int]) -> Callable[[Any, Any], int]:
+    return lambda left, right: _bits(function(_bits(left), _bits(right)))
+
+
+def _concat(held: Any, *given: Any) -> Any:
+    """Append values, and the elements of lists, to a copy of a list; or join strings."""
+    if isinstance(held, str):
+        made: Any = held + "".join(map(text, given))
+    elif isinstance(held, list):
+        made = list(held)
+        for each in given:
+            made += each if isinstance(each, list) else [each]
+    else:
+        raise ExecutionError(f"`{text(held)}` has no function `concat`")
+    if len(made) > _LONGEST:
+        raise ExecutionError("the string or list is too long")
+    return made
+
+
+def _index_of(held: Any, value: Any = None) -> int:
+    """Return the first index of an element or part of a string, -1 without."""
+    if isinstance(held, str):
+        return held.find(text(value))
+    if isinstance(held, list):
+        return next((index for index, each in enumerate(held) if _same(each, value)), -1)
+    raise ExecutionError(f"`{text(held)}` has no function `indexOf`")
+
+
+def _join(held: Any, separator: Any = None) -> str:
+    if not isinstance(held, list):
+        raise ExecutionError(f"`{text(held)}` has no function `join`")
+    return _joined(held, "," if separator is None else text(separator), 1)
+
+
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": _add,
     "-": lambda left, right: whole(number(left) - number(right)),
@@ -161,11 +252,18 @@ OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "<=": _compared(lambda left, right: left <= right),
     ">": _compared(lambda left, right: left > right),
     ">=": _compared(lambda left, right: left >= right),
+    "&": _bitwise(lambda left, right: left & right),
+    "|": _bitwise(lambda left, right: left | right),
+    "^": _bitwise(lambda left, right: left ^ right),
+    "<<": _bitwise(lambda left, right: left << (right & 31)),
+    ">>": _bitwise(lambda left, right: left >> (right & 31)),
+    ">>>": lambda left, right: (_bits(left) % 2**32) >> (_bits(right) & 31),
 }
 SIGNS: Mapping[str, Callable[[Any], Any]] = {
     "!": lambda value: not truth(value),
     "-": lambda value: whole(-number(value)),
     "+": number,
+    "~": lambda value: ~_bits(value),
     "typeof": _kind,
 }
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
@@ -179,3 +277,9 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "Math.min": _extreme(lambda values: min(values, default=math.inf)),
     "Math.max": _extreme(lambda values: max(values, default=-math.inf)),
 }
+METHODS: Mapping[str, Callable[..., Any]] = {
+    "concat": _concat,
+    "indexOf": _index_of,
+    "join": _join,
+}
+"""Functions of lists and strings; they change neither."""

@@ -9,6 +9,9 @@ from swarmdsl.execution.scxml.document import SCXML, Document, Node
 OURS = "urn:swarmdsl:scxml"
 """Namespace of swarmdsl's additions to SCXML, for people and for import."""
 
+SWARM_EVENT = "urn:swarmdsl:swarm"
+"""Type of the events that portable documents send to the environment."""
+
 _CONTENT = {"raise", "if", "log", "assign", "send", "cancel", "foreach", "script"}
 _STATES = {"state", "parallel", "final", "history"}
 _INSIDE = {"onentry", "onexit", "transition", "datamodel", "invoke"}
@@ -37,7 +40,9 @@ _ELEMENTS: dict[str, tuple[set[str], set[str]]] = {
     "elseif": ({"cond"}, set()),
     "else": (set(), set()),
     "log": ({"label", "expr"}, set()),
-    "assign": ({"location", "expr", "attr"}, set()),
+    "assign": ({"location", "expr"}, set()),
+    "foreach": ({"array", "item", "index"}, _CONTENT),
+    "script": ({"src"}, set()),
     "send": (
         {"event", "eventexpr", "target", "targetexpr", "type", "typeexpr"}
         | {"id", "idlocation", "delay", "delayexpr", "namelist"},
@@ -51,18 +56,16 @@ _NEEDED = {
     "if": ("cond",),
     "elseif": ("cond",),
     "assign": ("location",),
+    "foreach": ("array", "item"),
     "data": ("id",),
     "param": ("name",),
     "history": ("id",),
     "send": ("event|eventexpr",),
     "cancel": ("sendid|sendidexpr",),
 }
-_WITH_TEXT = ("data", "assign", "content")
-_NOT_RUN = {
-    "invoke": "activities outside of the machine are not started from SCXML",
-    "script": "scripts are never executed",
-    "foreach": "loops are never executed",
-}
+_VALUES = ("data", "assign", "content")
+_WITH_TEXT = (*_VALUES, "script")
+_NOT_RUN = {"invoke": "activities outside of the machine are not started from SCXML"}
 
 
 def check(document: Document, report: Diagnostics) -> None:
@@ -82,6 +85,9 @@ def check(document: Document, report: Diagnostics) -> None:
         if not node.get("event", "-").strip():
             place = document.at(node, "event")
             report.report("bad-value", place, name="event", values="the name of an event")
+        if "src" in node.attributes and "src" in attributes:
+            place = document.at(node, "src")
+            report.report("not-understood", place, name="src", reason="other files are not read")
         if node.text and node.name not in _WITH_TEXT:
             fault = f"`<{node.name}>` must not contain text"
             report.report("illegal-structure", document.at(node), fault=fault)
@@ -109,6 +115,9 @@ def _leave_out(
     name = child.name
     if child.namespace == OURS:
         node.ours += (child,)
+    elif node.name in _VALUES:
+        reason = "XML cannot be a value"
+        report.report("not-understood", document.at(child), name=name, reason=reason)
     elif child.namespace != SCXML:
         if child.namespace not in foreign:
             foreign.add(child.namespace)
