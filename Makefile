@@ -21,7 +21,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement w3c check fmt docs bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o out
@@ -67,6 +67,9 @@ check: $(READY) ## Check format, style and types.
 
 agreement: $(VENV)/.agreement ## Run state machines in engines of others too, and show how far they agree.
 	$(BIN)/pytest tests/agreement --agreement $(ARGS)
+
+w3c: $(READY) ## Run the SCXML tests of the W3C in a folder: W3C=folder.
+	$(BIN)/python -m tests.scxml.suite $(W3C)
 
 fmt: $(READY) ## Format the code and repair its style.
 	$(BIN)/ruff format
