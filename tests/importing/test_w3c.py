@@ -91,6 +91,10 @@ SAME = {
       <state id='a'><transition event='e1' cond="Math.abs(n) >= 2 &amp;&amp; s != 'b'" target='b'><assign location='n' expr='Math.max(n, x) * 2'/></transition></state>
       <state id='b'><transition event='e2' cond='n / 2 == x' target='c'><assign location='s' expr="s + 'c'"/></transition></state>
       <state id='c'><transition event='e3' cond='s.length == 2' target='a'/></state>""",
+    "text": """<datamodel><data id='s'>some
+        words</data><data id='n'>2</data></datamodel>
+      <state id='a'><transition event='e1' cond="s == 'some words'" target='b'><assign location='s'>n</assign></transition></state>
+      <state id='b'><transition event='e2' cond="s == 'n'" target='a'><assign location='s'>"some words"</assign></transition></state>""",
 }  # fmt: skip
 
 
@@ -215,6 +219,12 @@ WAY = "<state id='a'>{}<transition event='e' target='b'>{}</transition></state><
         ("<send eventexpr='f'/>", "`<send>` is left out: its event is computed at run time"),
         ("<assign location='x[1]' expr='1'/>", "`<assign>` is left out: `x[1]` is not a variable or field"),
         ("<assign location='x' expr='[1]'/>", "`<assign>` is left out: `[1]` is not supported: it has no equivalent in a model"),
+        ("<assign location='x' expr='x | 2'/>", "`<assign>` is left out: `x | 2` is not supported: it has no equivalent in a model"),
+        ("<assign location='x' expr='++x'/>", "`<assign>` is left out: `++x` is not supported: it has no equivalent in a model"),
+        ("<assign location='x' expr='&quot;a&quot; in x'/>", "`<assign>` is left out: `\"a\" in x` is not supported: it has no equivalent in a model"),
+        ("<assign location='x' expr='_event.type'/>", "`<assign>` is left out: `_event.type` is not supported: `_event.type` is not a value"),
+        ("<assign location='x' expr='x.concat(1)'/>", "`<assign>` is left out: `x.concat(1)` is not supported: only some functions of `Math` are supported"),
+        ("<send event='f' target='#_scxml_1'/>", "`<send>` is left out: its target is outside of the machine"),
         ("<assign location='x' expr='Math.pow(x, 2)'/>", "`<assign>` is left out: `Math.pow(x, 2)` is not supported: a model has no `Math.pow`"),
         ("<assign location='x' expr='1'/><if cond='x == 1'><assign location='y' expr='1'/></if>", "`<if>` is left out: its condition reads a variable that was just changed"),
         ("<if cond='x'><if cond='y'/></if>", "`<if>` is left out: nested `<if>` is not supported"),

@@ -8,7 +8,8 @@ from functools import reduce
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.exchange.scxml.portable import SEND_TYPE
 from swarmdsl.execution.scxml.document import SCXML, Document, Node
-from swarmdsl.importing.data import MachineData
+from swarmdsl.execution.scxml.session import PROCESSOR
+from swarmdsl.importing.data import MachineData, written_value
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.expressions import UnsupportedError, path
 from swarmdsl.ir import Assignment, Binary, Effect, Event, Expression, Send, Type, Unary
@@ -23,8 +24,9 @@ _UNSUPPORTED = {
     "cancel": "a model cancels delays only when their state is left",
 }
 _SENT = {"event", "id", "type", "target"}
-# Targets and types of a <send> to the machine itself (SCXML 6.2.4, C.1).
-_SELF = ("", "#_scxml", "#_internal", "scxml", "http://www.w3.org/TR/scxml/#SCXMLEventProcessor")
+# Types and targets of a <send> to the machine itself (SCXML 6.2.4, C.1).
+_OWN_TYPES = ("", "scxml", PROCESSOR)
+_OWN_TARGETS = ("", "#_internal")
 _MAX_PATHS = 16
 
 
@@ -121,8 +123,9 @@ class ExecutableContent:
             raise UnsupportedError("it is not SCXML")
         if node.name == "assign":
             location = path(node.get("location", ""))
-            written = node.get("expr", node.text.strip())
-            value = self.data.read(node, "expr", written, self.data.type_at(location), event)
+            value = self.data.read(
+                node, "expr", written_value(node), self.data.type_at(location), event
+            )
             return Assignment(self.data.variable(location, value), location[1:], value)
         if node.name in ("send", "raise"):
             return self._send(node, event)
@@ -136,9 +139,8 @@ class ExecutableContent:
         if more:
             raise UnsupportedError(f"`{min(more)}` has no equivalent in a model")
         away = node.get("type", "") == SEND_TYPE
-        if not away and (node.get("type", ""), node.get("target", "")) not in [
-            (type_, target) for type_ in _SELF for target in _SELF
-        ]:
+        is_own = node.get("type", "") in _OWN_TYPES and node.get("target", "") in _OWN_TARGETS
+        if not away and not is_own:
             raise UnsupportedError("its target is outside of the machine")
         internal = node.name == "raise" or node.get("target") == "#_internal"
         if not away and node.children:

@@ -6,6 +6,7 @@ import re
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.scxml.document import Document, Node
+from swarmdsl.execution.scxml.grammar import inline_expression
 from swarmdsl.importing.expressions import Expressions, UnsupportedError, constant
 from swarmdsl.importing.library import Library
 from swarmdsl.importing.names import is_plain, value_names
@@ -27,6 +28,13 @@ from swarmdsl.syntax.types import BOOL, FLOAT, INT
 
 _INSIDE = re.compile(r"\bIn\(\s*['\"]?([^'\"()\s]+)['\"]?\s*\)")
 _STAYED_IN = (StateKind.SIMPLE, StateKind.COMPOSITE, StateKind.PARALLEL)
+
+
+def written_value(node: Node) -> str:
+    """Return the value of an element as an expression; empty without one."""
+    if "expr" in node.attributes or not node.text.strip():
+        return node.get("expr") or ""
+    return inline_expression(node.text)
 
 
 class MachineData:
@@ -72,7 +80,7 @@ class MachineData:
     def _read_first(self, root: Node) -> None:
         for model in root.children:
             for data in model.children if model.name == "datamodel" else ():
-                name, text = data.get("id", ""), data.get("expr", data.text.strip())
+                name, text = data.get("id", ""), written_value(data)
                 known = self.described.data.get(name)
                 if known is not None and not known.initial:
                     continue
@@ -97,7 +105,7 @@ class MachineData:
     def _widen(self, nodes: list[Node]) -> None:
         """Make integer variables float if a float is assigned to them."""
         assigned = [
-            (node.get("location", ""), node.get("expr", node.text.strip()))
+            (node.get("location", ""), written_value(node))
             for node in nodes
             if node.name == "assign"
         ]
