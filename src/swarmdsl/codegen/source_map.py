@@ -43,6 +43,11 @@ class TracedStr(str):
         made.holds = holds
         return made
 
+    # A string needs one argument.
+    def __getnewargs__(self) -> tuple[str, Span | None]:  # type: ignore[override]
+        """Return the arguments for a copy; `holds` follows."""
+        return str(self), self.origin
+
 
 def at(origin: Span | None = None) -> TracedStr:
     """Return an empty string with an origin, with which a template marks its line."""

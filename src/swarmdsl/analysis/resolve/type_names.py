@@ -21,7 +21,8 @@ _MAX_DIGITS = 9
 
 def interface_name(file: File, name: str) -> Named:
     """Full name of an interface that a file declares."""
-    package, _, last = name.rpartition("/")
+    # Without a slash, the last part is `name` itself: a word, with its place.
+    package, _, last = str(name).rpartition("/")
     return Named(package or file.package.replace(".", "_"), last)
 
 

@@ -22,6 +22,11 @@ class Word(str):
         word.span = span
         return word
 
+    # A string needs one argument.
+    def __getnewargs__(self) -> tuple[str, Span]:  # type: ignore[override]
+        """Return the arguments for a copy."""
+        return str(self), self.span
+
 
 @dataclass(slots=True, eq=False)
 class Node:
