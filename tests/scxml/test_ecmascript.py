@@ -50,6 +50,10 @@ s.indexOf("b")  s.indexOf("x")  l.join()  l.join("-")  [[1, 2], [3]].join(";")
 [1, 2].concat([3]).length  1 /* one */ + 2  1 + 2 // three
 [1] == 1  [1, 2] == "1,2"  [2] > 1  [1] + 1  o + ""  [1, [2]] * 1
 [7] * 2  "10" < [9]  -[3]  "" + [1, [2, "x"], []]  o == "[object Object]"  [1] == [1]
+Math.floor(Infinity)  Math.ceil(-Infinity)  Math.sqrt(-Infinity)  Math.abs(-Infinity)
+Math.round("x")  Math.pow(1, NaN)  Math.pow(NaN, 0)  Math.pow(0, -2.5)  Math.pow(-8, 1 / 3)
+Math.pow(-1, Infinity)  Math.pow(4294967295, 4294967295)  Math.pow(-10, 401)  Math.pow(-10, 402)
+Math.pow(0, -1)
 Math.sqrt(-1)  Math.pow(2, 10)  Math.pow(2, 0.5)  Math.max(n, NaN)
 JSON.parse(JSON.stringify(o)).a.b  (function (a, b) { return a - b; })(n, 1)
 (function (a) { return (function (b) { return a + b; })(2); })(1)  "\\u0041\\x42\\n\\t\\\\'"
@@ -120,7 +124,8 @@ def test_what_is_written_for_a_model_has_the_value_of_the_language(expression: A
         *("_event.raw", "function (a) { return a; }", "(function (a) { return a; })()"),
         *("1 ? 2", "a.constructor()", "`a`", "1++", "-" * 200 + "1", "'a", "import('x')"),
         *("o.__proto__.x()", "a = b", "a, b", "l.push(1)", "Math.PI", "this", "Date", "2--1"),
-        *("a /* b", "1 in", "++1", "a instanceof Array"),
+        *("a /* b", "1 in", "++1", "a instanceof Array", "Math.abs(1, 2)", "Math.pow(1)"),
+        *("l.join(1, 2)", "l.indexOf(1, 2)"),
     ],
 )
 def test_what_is_not_understood(text: str) -> None:
@@ -182,6 +187,13 @@ def test_steps(text: str, result: int, left: int) -> None:
     data = {"n": 3, "o": {"x": 1}}
 
     assert (value(text, data), data["n"]) == (result, left)
+
+
+def test_what_no_state_or_number_is() -> None:
+    assert value("In([1])") is False
+    assert value("In({})") is False
+    assert value("0x" + "f" * 50_000) == math.inf
+    assert value("-'0x" + "f" * 50_000 + "'") == -math.inf
 
 
 def test_a_copy_is_a_copy() -> None:

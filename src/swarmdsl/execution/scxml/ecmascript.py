@@ -23,6 +23,7 @@ from swarmdsl.execution.scxml.values import (
     contains,
     copied,
     number,
+    takes,
     text,
     truth,
     whole,
@@ -274,18 +275,19 @@ def _call(tree: Any) -> Value:
     arguments = [compiled(each) for each in given]
     if callee.data == "function":
         return _call_function(callee, arguments)
-    if callee.data == "member" and callee.children[0].data == "name":
-        function = FUNCTIONS.get(f"{callee.children[0].children[0]}.{callee.children[1]}")
+    if callee.data == "member":
+        owner, name = callee.children[0], str(callee.children[1])
+        known = f"{owner.children[0]}.{name}" if owner.data == "name" else ""
+        function = FUNCTIONS.get(known)
+        if function is None and name in METHODS:
+            known, function = name, METHODS[name]
+            arguments.insert(0, compiled(owner))
+        if function is not None and not takes(known, len(given)):
+            raise Unreadable(f"`{known}` is called with another number of values")
         if function is not None:
             return lambda instance, event, names: function(
                 *[argument(instance, event, names) for argument in arguments]
             )
-    if callee.data == "member" and callee.children[1] in METHODS:
-        method, base = METHODS[str(callee.children[1])], compiled(callee.children[0])
-        return lambda instance, event, names: method(
-            base(instance, event, names),
-            *[argument(instance, event, names) for argument in arguments],
-        )
     raise Unreadable("only functions of `Math`, and `In`, can be called")
 
 
@@ -304,7 +306,7 @@ def _call_function(function: Any, arguments: list[Value]) -> Value:
 
 
 def _is_active(instance: InstanceLike, state: Any) -> bool:
-    return state in instance.machine.numbers and instance.active(state)
+    return isinstance(state, str) and state in instance.machine.numbers and instance.active(state)
 
 
 def _is_name(tree: Any, name: str) -> bool:

@@ -48,7 +48,12 @@ def number(value: Any) -> float | int:
 def whole(value: float | int) -> float | int:
     """Convert an integral number to `int`, in the range of exact integers."""
     if isinstance(value, int):
-        return value if -_EXACT <= value <= _EXACT else float(value)
+        if -_EXACT <= value <= _EXACT:
+            return value
+        try:
+            return float(value)
+        except OverflowError:
+            return math.inf if value > 0 else -math.inf
     return int(value) if value.is_integer() and -_EXACT <= value <= _EXACT else value
 
 
@@ -178,14 +183,33 @@ def _compared(test: Callable[[Any, Any], bool]) -> Callable[[Any, Any], bool]:
     return compare
 
 
-def _numeric(function: Callable[..., Any]) -> Callable[..., Any]:
-    def call(*values: Any) -> Any:
+def _numeric(function: Callable[[float], float]) -> Callable[[Any], float]:
+    def call(given: Any) -> float:
+        value = number(given)
+        if not math.isfinite(value) and function is not abs:
+            return math.nan if function is math.sqrt and value < 0 else value
         try:
-            return whole(function(*map(number, values)))
-        except (ArithmeticError, ValueError):
+            return whole(function(value))
+        except ValueError:
             return math.nan
 
     return call
+
+
+def _power(base: Any, exponent: Any) -> float:
+    """Return `Math.pow`: as numbers without a limit, powers could take for ever."""
+    of, by = float(number(base)), float(number(exponent))
+    if math.isnan(by) or (abs(of) == 1 and math.isinf(by)):
+        return math.nan
+    try:
+        return whole(math.pow(of, by))
+    except OverflowError:
+        return -math.inf if of < 0 and by % 2 else math.inf
+    except ValueError:
+        # A root of a negative number, or a division by zero.
+        if of:
+            return math.nan
+        return math.copysign(math.inf, of) if by % 2 == 1 else math.inf
 
 
 def _extreme(choose: Callable[[list[float]], float]) -> Callable[..., float]:
@@ -273,7 +297,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "Math.round": _numeric(lambda value: math.floor(value + 0.5)),
     "Math.trunc": _numeric(math.trunc),
     "Math.sqrt": _numeric(math.sqrt),
-    "Math.pow": _numeric(pow),
+    "Math.pow": _power,
     "Math.min": _extreme(lambda values: min(values, default=math.inf)),
     "Math.max": _extreme(lambda values: max(values, default=-math.inf)),
 }
@@ -283,3 +307,12 @@ METHODS: Mapping[str, Callable[..., Any]] = {
     "join": _join,
 }
 """Functions of lists and strings; they change neither."""
+
+_ARGUMENTS = {"Math.pow": (2, 2), "indexOf": (1, 1), "join": (0, 1)}
+_ANY_NUMBER = ("Math.min", "Math.max", "concat")
+
+
+def takes(function: str, arguments: int) -> bool:
+    """Return True if a function can be called with so many arguments."""
+    fewest, most = _ARGUMENTS.get(function, (1, 1))
+    return function in _ANY_NUMBER or fewest <= arguments <= most
