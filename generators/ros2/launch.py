@@ -11,6 +11,7 @@ from swarmdsl.codegen.shared import (
     Value,
     behavior_nodes,
     bringup_package,
+    check_part_values,
     check_wiring,
     has_node,
     member_wiring,
@@ -36,7 +37,8 @@ class LaunchedNode:
 class LaunchedRole:
     """A role of the swarm, of which `least` members are launched by default.
 
-    `components` is the launch file of the nodes of its components, in another package.
+    `components` is the launch file of the nodes of its components, in another package. `robots`
+    are the nodes of members with values of their own, by index.
     """
 
     name: str
@@ -46,6 +48,7 @@ class LaunchedRole:
     upper: int | None
     nodes: tuple[LaunchedNode, ...]
     components: str | None
+    robots: Mapping[int, tuple[LaunchedNode, ...]]
 
 
 @dataclass(frozen=True)
@@ -93,14 +96,21 @@ def _roles(
     for role in swarm.roles:
         member = next(each for each in system.members if each.name == role.member)
         parts = any(has_node(components[part.component]) for part in member.parts)
+        check_part_values(role, member, system, TARGET, report)
         yield LaunchedRole(
             role.name,
             member.name,
             max(role.multiplicity.lower, 1),
             role.multiplicity.lower,
             role.multiplicity.upper,
-            tuple(_nodes(member, system, modules, report)),
+            tuple(_nodes(role.configured(member), system, modules, report)),
             f"{snake_case(member.name)}.launch.py" if parts else None,
+            {
+                robot.index: tuple(
+                    _nodes(role.configured(member, robot.index), system, modules, report)
+                )
+                for robot in role.robots
+            },
         )
 
 
@@ -113,10 +123,10 @@ def _nodes(
         yield LaunchedNode(module, name, node.part, given(node, report), node.remaps)
 
 
-def configuration(role: LaunchedRole, head: Iterable[str]) -> str:
-    """Return the parameters of the nodes of a role, as YAML."""
+def configuration(nodes: Iterable[LaunchedNode], head: Iterable[str]) -> str:
+    """Return the parameters of the nodes of a role or of a robot, as YAML."""
     lines = [f"# {line}".rstrip() for line in head]
-    for node in role.nodes:
+    for node in nodes:
         lines += [f"/**/{node.name}:", "  ros__parameters:"]
         lines += [f"    {name}: {json.dumps(value)}" for name, value in node.values.items()]
         if not node.values:

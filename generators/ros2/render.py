@@ -103,7 +103,12 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
         for role in launch.roles:
             about = (package.header, f"Params of {role.member} in role {role.name}.")
             path = f"{root}/config/{launch.name}/{role.name}"
-            yield OutputFile(f"{path}.yaml", configuration(role, about), origin=launch.origin)
+            text = configuration(role.nodes, about)
+            yield OutputFile(f"{path}.yaml", text, origin=launch.origin)
+            for number, nodes in role.robots.items():
+                about = (package.header, f"Params of {role.name}[{number}], from the model.")
+                text = configuration(nodes, about)
+                yield OutputFile(f"{path}_{number}.model.yaml", text, origin=launch.origin)
             for number in range(min(role.least, _MOST_FILES)):
                 text = _fill("package/config/instance.yaml", role=role, number=number)
                 own = f"{path}_{number}.yaml"

@@ -19,12 +19,17 @@ _SWITCHES = {
 }
 
 
-def robot_launch(robot: Robot, package: str) -> str:
-    """Return the launch file that starts the nodes of one robot in its namespace."""
+def robot_launch(robot: Robot, package: str, has_values: bool) -> str:
+    """Return the launch file that starts the nodes of one robot in its namespace.
+
+    With `has_values`, it takes a file with the params that a swarm sets.
+    """
     root = Element("launch")
     root.comment(robot.member.doc)
     _arg(root, "name", f"{robot.name}_0", "the namespace of the robot")
     _arg(root, "member", "$(arg name)", "the name of the robot in the events that it sends")
+    if has_values:
+        _arg(root, "values", "", "a YAML file with params that the swarm sets")
     _arg(root, "params", "", "a YAML file with params of this robot")
     _switches(root, [robot])
     if robot.components is not None:
@@ -34,7 +39,8 @@ def robot_launch(robot: Robot, package: str) -> str:
         _pass(include, "name", "$(arg name)")
     group = root.add("group", {"ns": "$(arg name)"})
     _load(group, f"$(find {package})/param/{robot.name}.yaml")
-    _load(group, "$(arg params)").attributes["if"] = "$(eval arg('params') != '')"
+    for name in ("values", "params") if has_values else ("params",):
+        _load(group, f"$(arg {name})").attributes["if"] = f"$(eval arg('{name}') != '')"
     for node in robot.nodes:
         element = _node(group, package, snake_case(node.machine.name), node.name)
         _param(element, "introspection", "$(arg introspection)")
@@ -64,7 +70,11 @@ def fleet_launch(fleet: Fleet, package: str) -> str:
             name = f"{team.role.name}_{number}"
             _pass(include, "name", name)
             _pass(include, "member", f"{team.role.name}[{number}]")
-            _pass(include, "params", f"$(find {package})/param/{fleet.name}/{name}.yaml")
+            folder = f"$(find {package})/param/{fleet.name}"
+            values = team.values_of(number)
+            if values is not None:
+                _pass(include, "values", f"{folder}/{values}.model.yaml")
+            _pass(include, "params", f"{folder}/{name}.yaml")
             _pass_switches(include, [team.robot])
     return document(root)
 

@@ -8,7 +8,7 @@ from swarmdsl.codegen import OutputFile
 from swarmdsl.codegen.xml import Element, document
 
 from .launch import fleet_launch, robot_launch, simulation_launch, test_launch, world_file
-from .parameters import own_params, robot_params
+from .parameters import node_params, own_params
 from .robots import Fleet, Robot
 from .view import PackageView
 
@@ -24,6 +24,11 @@ def launch_files(package: PackageView) -> Iterator[OutputFile]:
         text = fleet_launch(fleet, name)
         yield OutputFile(f"{root}/launch/{fleet.name}.launch", text, origin=fleet.swarm.origin)
         for team in fleet.teams:
+            for file, nodes in team.values.items():
+                about = f"Params of {file} in swarm {fleet.swarm.name}, by node."
+                text = node_params(nodes, package.header, about)
+                path = f"{root}/param/{fleet.name}/{file}.model.yaml"
+                yield OutputFile(path, text, origin=team.role.origin)
             for number in range(team.most):
                 one = f"{team.role.name}_{number}"
                 text = own_params(team.robot, fleet, one)
@@ -42,9 +47,13 @@ def launch_files(package: PackageView) -> Iterator[OutputFile]:
 def _robot(robot: Robot, package: PackageView) -> Iterator[OutputFile]:
     at = robot.member.origin
     root = package.name
-    text = robot_launch(robot, package.name)
+    teams = (team for fleet in package.fleets for team in fleet.teams)
+    has_values = any(team.values for team in teams if team.robot is robot)
+    text = robot_launch(robot, package.name, has_values)
     yield OutputFile(f"{root}/launch/{robot.name}.launch", text, origin=at)
-    text = robot_params(robot, package.header)
+    text = node_params(
+        robot.nodes, package.header, f"Params of every {robot.member.name}, by node."
+    )
     yield OutputFile(f"{root}/param/{robot.name}.yaml", text, origin=at)
     if robot.bridge is not None:
         path = f"{root}/param/{robot.name}.swarmros.cfg"

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 
 from swarmdsl.codegen.python import comment_lines
-from swarmdsl.codegen.shared import ParamValue, Value
+from swarmdsl.codegen.shared import BehaviorNode, ParamValue, Value
 
 from .robots import Fleet, Robot
 
 
-def robot_params(robot: Robot, header: str) -> str:
-    """Return the parameter file of a robot type, with the values of the model."""
-    lines = [f"# {header}", f"# Params of every {robot.member.name}, by node."]
-    for node in robot.nodes:
+def node_params(nodes: Iterable[BehaviorNode], header: str, about: str) -> str:
+    """Return the parameter file of a robot type, a role or a robot, with the model's values."""
+    lines = [f"# {header}", f"# {about}"]
+    for node in nodes:
         lines += ["", f"{node.name}:" if node.params else f"# {node.name} has no params."]
         for given in node.params:
             lines += [f"  # {line}".rstrip() for line in comment_lines(given.param.doc)]

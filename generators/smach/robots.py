@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Mapping
 
 from swarmdsl.codegen import Diagnostics, dataclass, snake_case
 from swarmdsl.codegen.ros import with_parameters
@@ -11,6 +11,7 @@ from swarmdsl.codegen.shared import (
     behavior_nodes,
     bridge_files,
     bringup_package,
+    check_part_values,
     check_wiring,
     has_node,
     member_wiring,
@@ -47,12 +48,22 @@ class Robot:
 
 @dataclass(frozen=True)
 class Team:
-    """Robots of one type in a swarm, of which `fewest` are started by default."""
+    """Robots of one type in a swarm, of which `fewest` are started by default.
+
+    `values` are the nodes with the params that the role sets, by the names of files: `uav` for all
+    of them, `uav_1` for a robot with values of its own.
+    """
 
     role: Role
     robot: Robot
     fewest: int
     most: int
+    values: Mapping[str, tuple[BehaviorNode, ...]]
+
+    def values_of(self, number: int) -> str | None:
+        """Return the name of the file with the values of a robot; None if there are none."""
+        names = (f"{self.role.name}_{number}", self.role.name)
+        return next((name for name in names if name in self.values), None)
 
 
 @dataclass(frozen=True)
@@ -74,11 +85,7 @@ def robots(
     components = Components(bringup_package(system), unasked)
     found = []
     for member in system.members:
-        nodes = tuple(
-            with_parameters(node, 1, TARGET, report)
-            for node in behavior_nodes(member, system)
-            if node.machine.name in machines
-        )
+        nodes = _nodes(member, system, machines, report)
         name = snake_case(member.name)
         if nodes:
             check_wiring(member_wiring(member, system), TARGET, report)
@@ -88,23 +95,50 @@ def robots(
     return found
 
 
-def fleets(system: System, made: Collection[Robot]) -> list[Fleet]:
+def fleets(system: System, made: Collection[Robot], report: Diagnostics) -> list[Fleet]:
     """Return the swarms that have robots with nodes."""
     by_member = {robot.member.name: robot for robot in made}
     environments = {environment.name: environment for environment in system.environments}
     found = []
     for swarm in system.swarms:
-        teams = tuple(_team(r, by_member[r.member]) for r in swarm.roles if r.member in by_member)
+        teams = tuple(
+            _team(role, by_member[role.member], system, report)
+            for role in swarm.roles
+            if role.member in by_member
+        )
         if teams:
             environment = environments.get(swarm.environment or "")
             found.append(Fleet(snake_case(swarm.name), swarm, teams, environment))
     return found
 
 
-def _team(role: Role, robot: Robot) -> Team:
+def _team(role: Role, robot: Robot, system: System, report: Diagnostics) -> Team:
     fewest = min(max(role.multiplicity.lower, 1), MOST_ROBOTS)
     upper = role.multiplicity.upper
-    return Team(role, robot, fewest, fewest if upper is None else min(upper, MOST_ROBOTS))
+    most = fewest if upper is None else min(upper, MOST_ROBOTS)
+    check_part_values(role, robot.member, system, TARGET, report)
+    return Team(role, robot, fewest, most, dict(_values(role, robot, system, report)))
+
+
+def _values(
+    role: Role, robot: Robot, system: System, report: Diagnostics
+) -> Iterator[tuple[str, tuple[BehaviorNode, ...]]]:
+    machines = {node.machine.name for node in robot.nodes}
+    indexes = [each.index for each in role.robots]
+    for index in [*([None] if role.values else []), *indexes]:
+        member = role.configured(robot.member, index)
+        name = role.name if index is None else f"{role.name}_{index}"
+        yield name, _nodes(member, system, machines, report)
+
+
+def _nodes(
+    member: Member, system: System, machines: Collection[str], report: Diagnostics
+) -> tuple[BehaviorNode, ...]:
+    return tuple(
+        with_parameters(node, 1, TARGET, report)
+        for node in behavior_nodes(member, system)
+        if node.machine.name in machines
+    )
 
 
 def _bridges(system: System) -> dict[str, str]:

@@ -198,7 +198,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         described=tuple(each for each in needs if is_fully_described(system, each)),
         timeouts=options.timeouts,
         robots=tuple(made),
-        fleets=tuple(fleets(system, made)),
+        fleets=tuple(fleets(system, made, report)),
         simulation=options.simulation,
     )
 

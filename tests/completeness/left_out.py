@@ -5,7 +5,7 @@ from __future__ import annotations
 _REASONS: dict[str, dict[str, str]] = {
     "dump": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type FieldAccess.type Literal.type ParamRef.type "
+            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type "
             "Unary.type VariableRef.type"
         ),
     },
@@ -28,7 +28,8 @@ _REASONS: dict[str, dict[str, str]] = {
             "Constant.doc CountRange.doc Environment.doc Environment.docs Event.doc Field.doc "
             "Fitness.doc Fitness.docs Function.doc FunctionPort.doc Member.doc Member.docs "
             "Message.doc Optimization.doc Optimization.docs Param.doc ParamRange.doc Part.doc "
-            "Part.docs Port.doc Role.doc Service.doc State.docs StateMachine.doc "
+            "Part.docs Port.doc RobotValues.doc RobotValues.docs Role.doc Role.docs Service.doc "
+            "State.docs StateMachine.doc "
             "StateMachine.docs Swarm.doc Swarm.docs System.doc"
         ),
         "interfaces are not drawn; types are drawn without package and bounds": (
@@ -57,7 +58,7 @@ _REASONS: dict[str, dict[str, str]] = {
     },
     "portable SCXML": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type Literal.type ParamRef.type Unary.type"
+            "Binary.type Call.type EventData.type ParamRef.type Unary.type"
         ),
         "comments of calls are not written": ("Communication.doc"),
         "a document is about one state machine": (
@@ -76,7 +77,9 @@ _REASONS: dict[str, dict[str, str]] = {
             "ParamRange.doc ParamRange.lower ParamRange.param ParamRange.role ParamRange.step "
             "ParamRange.upper Part.component Part.doc Part.docs Part.name Part.operations "
             "Part.values Port.direction Port.doc Port.name Port.topic Port.type PortRef.part "
-            "PortRef.port Role.doc Role.member Role.multiplicity Role.name Swarm.doc "
+            "PortRef.port RobotValues.doc RobotValues.docs RobotValues.index RobotValues.values "
+            "Role.doc Role.docs Role.member Role.multiplicity Role.name Role.robots Role.values "
+            "Swarm.doc "
             "Swarm.docs Swarm.environment Swarm.fitness Swarm.name Swarm.roles "
             "System.components System.doc System.environments System.fitness System.members "
             "System.optimizations System.swarms"

@@ -127,6 +127,20 @@ def test_what_cannot_be_renamed(old, new, code, said, swarmc, yard) -> None:
     assert (yard / "yard.swarm").read_text() == MODEL
 
 
+def test_roles_and_their_params(swarmc, yard) -> None:
+    model = """member Cart { param speed : float64 = 1.0 }
+swarm Yard {
+  cart : Cart[2] { speed = 2.0 }
+  cart[1] { speed = 3.0 }
+}
+"""
+    (yard / "yard.swarm").write_text(model)
+    assert swarmc("rename", "Yard.cart", "van").code == 0
+    assert swarmc("rename", "Cart.speed", "pace").code == 0
+    model = model.replace("cart :", "van :").replace("cart[1]", "van[1]").replace("speed", "pace")
+    assert (yard / "yard.swarm").read_text() == model
+
+
 def test_a_file_that_is_not_there(swarmc, yard) -> None:
     for command in (["rename", "Camera", "Eye", "yrd.swarm"], ["add", "member", "X"]):
         more = ["--model", "yrd.swarm"] if command[0] == "add" else []

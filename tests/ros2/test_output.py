@@ -228,6 +228,19 @@ def test_roles_and_parts_have_their_values(generate: Generate) -> None:
     assert own == {"/**": {"ros__parameters": {}}}
 
 
+def test_a_robot_of_a_role_has_its_own_values(generate: Generate) -> None:
+    role = "left : Eye[2..4]"
+    model = MODEL.replace(role, role + " { limit = 2 s } left[1] { limit = 4 s }")
+    files = generate(model)
+
+    role = yaml.safe_load(files["lab_behavior/config/eyes/left.yaml"].text)
+    robot = yaml.safe_load(files["lab_behavior/config/eyes/left_1.model.yaml"].text)
+    assert role["/**/watch"]["ros__parameters"]["limit"] == 2.0
+    assert robot["/**/watch"]["ros__parameters"]["limit"] == 4.0
+    assert not files["lab_behavior/config/eyes/left_1.model.yaml"].keep
+    assert "lab_behavior/config/eyes/left_0.model.yaml" not in files
+
+
 def test_the_copyright_stands_in_each_file(generate: Generate) -> None:
     files = generate(MODEL, copyright="2026 Example Robotics")
 

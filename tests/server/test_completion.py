@@ -92,6 +92,16 @@ def work(line, instead="HERE"):
 
 DO = "do sweep(speed = 1.0, area = nothing)"
 PLACES = {
+    "param of a role": (
+        HEAD + WORK + "member Car { param length : int32 } swarm S { car : Car { | } }",
+        {"length"},
+        {"force", "car"},
+    ),
+    "param of a robot": (
+        HEAD + WORK + "member Car { param length : int32 } swarm S { car : Car  car[0] { | } }",
+        {"length"},
+        {"force", "car"},
+    ),
     "field of a goal": (work("do sweep(|)", DO), {"speed", "area", "by"}, {"found", "spot"}),
     "field that is left": (work("do sweep(speed = 1.0, |", DO), {"area"}, {"speed", "found"}),
     "field before another": (work("do sweep(| area = nothing)", DO), {"speed"}, {"area", "found"}),

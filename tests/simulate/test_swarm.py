@@ -113,6 +113,39 @@ def test_machines_of_a_robot_share_its_servers(simulate: Simulate) -> None:
     assert ran.of("uav[0].camera")[-1]["t"] == 14_000
 
 
+def test_params_come_from_the_role_and_the_robot(simulate: Simulate) -> None:
+    """The values of a robot reach its parts, and those of a scenario go before them."""
+    text = """
+      statemachine Wait {
+        param delay : duration
+        initial A
+        state A { after delay -> B }
+        final B
+      }
+      controller Clock { behavior Wait param delay : duration }
+      member Uav { behavior Wait param delay : duration clock : Clock { delay = delay * 2 } }
+      swarm S {
+        uav   : Uav[3] { delay = 2 s }
+        other : Uav    { delay = 5 s }
+        uav[1] { delay = 3 s }
+      }
+    """
+    ends = {line["member"]: line["t"] for line in simulate(text).trace}
+    assert ends == {
+        "uav[0]": 2000,
+        "uav[1]": 3000,
+        "uav[2]": 2000,
+        "other[0]": 5000,
+        "uav[0].clock": 4000,
+        "uav[1].clock": 6000,
+        "uav[2].clock": 4000,
+        "other[0].clock": 10_000,
+    }
+    scenario = '[params."uav[1]"]\ndelay = "7 s"\n'
+    ends = {line["member"]: line["t"] for line in simulate(text, scenario=scenario).trace}
+    assert (ends["uav[0]"], ends["uav[1]"], ends["uav[1].clock"]) == (2000, 7000, 14_000)
+
+
 def test_params_come_from_the_member(simulate: Simulate) -> None:
     text = """
       statemachine Wait {

@@ -79,6 +79,25 @@ def test_launch_file_of_a_robot(generate: Generate) -> None:
     assert files == ["$(find lab_behavior)/param/uav.yaml", "$(arg params)"]
 
 
+def test_roles_and_robots_have_their_values(generate: Generate) -> None:
+    head = "uav   : Uav[2..3]"
+    files = generate(MODEL.replace(head, head + ' { wait = 4 s } uav[1] { name = "two" }'))
+    role = yaml.safe_load(files["param/search/uav.model.yaml"].text)
+    robot = yaml.safe_load(files["param/search/uav_1.model.yaml"].text)
+    assert (role["look"]["wait"], role["look"]["name"]) == (4.0, "it's $(x)")
+    assert (robot["look"]["wait"], robot["look"]["name"]) == (4.0, "two")
+    assert "param/search/uav_0.model.yaml" not in files
+
+    passed = [
+        {arg.get("name"): arg.get("value") for arg in include.findall("arg")}["values"]
+        for include in _launch(files, "search").findall("include")
+    ]
+    folder = "$(find lab_behavior)/param/search"
+    assert passed == [f"{folder}/{name}.model.yaml" for name in ("uav", "uav_1", "uav")]
+    loaded = [load.get("file") for load in _launch(files, "uav").find("group").findall("rosparam")]
+    assert loaded == ["$(find lab_behavior)/param/uav.yaml", "$(arg values)", "$(arg params)"]
+
+
 def test_launch_file_of_a_swarm(generate: Generate) -> None:
     files = generate(MODEL)
     root = _launch(files, "search")

@@ -18,6 +18,7 @@ from swarmdsl.ir import (
     CountRange,
     Environment,
     Event,
+    Expression,
     Field,
     Fitness,
     Function,
@@ -35,6 +36,7 @@ from swarmdsl.ir import (
     Part,
     Port,
     PortRef,
+    RobotValues,
     Role,
     Service,
     StateMachine,
@@ -416,12 +418,7 @@ def _swarm(
     multiplicities = [Multiplicity(1, 1), Multiplicity(3, 3), Multiplicity(0, None)]
     multiplicities += [Multiplicity(2, None), Multiplicity(0, 4), Multiplicity(1, 5)]
     roles = [
-        Role(
-            role,
-            draw(st.sampled_from(members)).name,
-            draw(st.sampled_from(multiplicities)),
-            draw(docs),
-        )
+        _role(draw, role, draw(st.sampled_from(members)), draw(st.sampled_from(multiplicities)))
         for role in draw(
             st.lists(
                 st.sampled_from(["count", "steps", "seed", "s", "world", "uav"]),
@@ -435,6 +432,26 @@ def _swarm(
     goal = draw(st.sampled_from([None, *(each.name for each in fitness)]))
     given = [word for word, name in (("environment", place), ("fitness", goal)) if name is not None]
     return Swarm(name, tuple(roles), place, goal, draw(docs), docs_of(draw, docs, *given))
+
+
+def _role(draw: st.DrawFn, name: str, member: Member, multiplicity: Multiplicity) -> Role:
+    """Return a role that sets each param without a default, and others of some robots."""
+    params = [each for each in member.params if isinstance(each.type, Primitive)]
+    given = [each for each in params if each.default is None or draw(st.booleans())]
+    most = multiplicity.upper or 9
+    indexes = draw(st.lists(st.integers(0, most - 1), max_size=2, unique=True))
+    robots = []
+    for index in sorted(indexes):
+        own = draw(st.lists(st.sampled_from(params), max_size=2, unique=True)) if params else []
+        said = docs_of(draw, docs, *(each.name for each in own))
+        robots.append(RobotValues(index, _set(draw, own), draw(docs), said))
+    said = docs_of(draw, docs, *(each.name for each in given))
+    values = _set(draw, given)
+    return Role(name, member.name, multiplicity, values, tuple(robots), draw(docs), said)
+
+
+def _set(draw: st.DrawFn, params: Sequence[Param]) -> tuple[tuple[str, Expression], ...]:
+    return tuple((each.name, draw(literals(each.type))) for each in params)
 
 
 def _optimization(draw: st.DrawFn, swarm: Swarm, members: list[Member]) -> Optimization:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
         Port,
         PortGroup,
         PortRef,
+        RobotValues,
         Role,
         Swarm,
     )
@@ -107,7 +108,7 @@ else:
         {
             "swarmdsl.ir.architecture": (
                 "CommunicationSettings Component Connector Direction Environment Member "
-                "Multiplicity Part Port PortGroup PortRef Role Swarm"
+                "Multiplicity Part Port PortGroup PortRef RobotValues Role Swarm"
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
             "swarmdsl.ir.expressions": (
@@ -188,6 +189,7 @@ __all__ = [
     "PortRef",
     "Primitive",
     "ResultMapping",
+    "RobotValues",
     "Role",
     "Send",
     "Service",

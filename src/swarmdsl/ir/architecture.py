@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
 from swarmdsl.ir.derived import DERIVED
 from swarmdsl.ir.docs import Docs
@@ -139,14 +139,41 @@ class Multiplicity:
 
 
 @dataclass(frozen=True, slots=True)
+class RobotValues:
+    """Params of the member with this index in a role."""
+
+    index: int
+    values: tuple[tuple[str, Expression], ...]
+    doc: str = ""
+    docs: Docs = ()
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Role:
-    """Members of one type in a swarm."""
+    """Members of one type in a swarm, with params of all of them and of single `robots`."""
 
     name: str
     member: str
     multiplicity: Multiplicity
+    values: tuple[tuple[str, Expression], ...] = ()
+    robots: tuple[RobotValues, ...] = ()
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+
+    def configured(self, member: Member, index: int | None = None) -> Member:
+        """Return the member with the values of the role, and of one of its robots, as defaults."""
+        given = dict(self.values)
+        for robot in self.robots:
+            if robot.index == index:
+                given.update(robot.values)
+        if not given:
+            return member
+        params = (
+            replace(param, default=given.get(param.name, param.default)) for param in member.params
+        )
+        return replace(member, params=tuple(params))
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,8 +24,10 @@ from swarmdsl.syntax.ast import (
     Multiplicity,
     Param,
     Part,
+    PartValue,
     Port,
     PortRef,
+    RobotValues,
     Role,
     Size,
     Swarm,
@@ -77,16 +79,14 @@ def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
     """Lower a swarm with its roles."""
     place = next((item for item in swarm.items if isinstance(item, EnvironmentUse)), None)
     fitness = next((item for item in swarm.items if isinstance(item, FitnessUse)), None)
+    robots: dict[str, list[RobotValues]] = {}
+    for item in swarm.items:
+        if isinstance(item, RobotValues):
+            robots.setdefault(item.role.name, []).append(item)
     return ir.Swarm(
         name=context.names[swarm],
         roles=tuple(
-            ir.Role(
-                str(item.name),
-                context.name(item.member),
-                _multiplicity(item.multiplicity),
-                item.doc,
-                item.name.span,
-            )
+            _role(item, robots.get(str(item.name), ()), context)
             for item in swarm.items
             if isinstance(item, Role)
         ),
@@ -96,6 +96,32 @@ def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
         docs=lower_docs(swarm.items),
         origin=swarm.name.span,
     )
+
+
+def _role(role: Role, robots: Iterable[RobotValues], context: Context) -> ir.Role:
+    return ir.Role(
+        str(role.name),
+        context.name(role.member),
+        _multiplicity(role.multiplicity),
+        _values(role.values, context),
+        tuple(
+            ir.RobotValues(
+                int(robot.index),
+                _values(robot.values, context),
+                robot.doc,
+                lower_docs(robot.values),
+                robot.span,
+            )
+            for robot in sorted(robots, key=lambda robot: int(robot.index))
+        ),
+        role.doc,
+        lower_docs(role.values),
+        role.name.span,
+    )
+
+
+def _values(values: Iterable[PartValue], context: Context) -> tuple[tuple[str, ir.Expression], ...]:
+    return tuple((str(each.name), lower_expression(each.value, context)) for each in values)
 
 
 def lower_environment(environment: Environment, context: Context) -> ir.Environment:
@@ -121,7 +147,7 @@ def _communication(member: Member, context: Context) -> ir.CommunicationSettings
     for settings in all_items(member, CommunicationSettings):
         return ir.CommunicationSettings(
             str(settings.technology),
-            tuple((str(v.name), lower_expression(v.value, context)) for v in settings.values),
+            _values(settings.values, context),
             settings.doc,
             lower_docs(settings.values),
             settings.span,
@@ -147,9 +173,7 @@ def _part(part: Part, context: Context) -> ir.Part:
     return ir.Part(
         name=str(part.name),
         component=context.name(part.component),
-        values=tuple(
-            (str(value.name), lower_expression(value.value, context)) for value in part.values
-        ),
+        values=_values(part.values, context),
         operations=context.offered(part),
         doc=part.doc,
         docs=lower_docs(part.values),

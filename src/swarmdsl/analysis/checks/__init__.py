@@ -39,6 +39,7 @@ from swarmdsl.analysis.checks.optimization import (
     check_optimizations,
 )
 from swarmdsl.analysis.checks.reachability import check_reachability
+from swarmdsl.analysis.checks.robot_values import check_robot_values
 from swarmdsl.analysis.checks.shadowed_transitions import check_shadowed_transitions
 from swarmdsl.analysis.checks.structure import check_structure
 from swarmdsl.analysis.checks.style import check_style
@@ -112,7 +113,7 @@ PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
     ServiceType: (check_standard,),
     ActionType: (check_standard,),
     Fitness: (check_fitness,),
-    Swarm: (check_swarm,),
+    Swarm: (check_swarm, check_robot_values),
     Environment: (check_environment,),
 }
 """Passes over declarations, by kind, in order."""

@@ -127,20 +127,23 @@ def check_message_constants(message: MessageType, context: Context) -> None:
 
 
 def _check_default_inside(item: ParamRange, context: Context) -> None:
-    """Check that the default of a param is in its range."""
-    param = item.param.target
-    if param is None or param.default is None:
+    """Check that the value of a param in the model is in its range."""
+    param, role = item.param.target, item.role.target
+    if param is None or role is None:
+        return
+    value = next((v.value for v in role.values if v.name == param.name), param.default)
+    if value is None:
         return
     low, high = _number(item.lower, context), _number(item.upper, context)
-    default = _number(param.default, context)
+    default = _number(value, context)
     if default is None or low is None or high is None or low > high or low <= default <= high:
         return
     context.report.report(
         "default-outside",
         Span(item.span.source, item.lower.span.start, item.upper.span.end),
         name=f"{item.role.name}.{item.param.name}",
-        related=(Label(param.default.span, "this is the default"),),
-        help=f"let the range include {param.default.span.text}, or change the default",
+        related=(Label(value.span, "this is the default"),),
+        help=f"let the range include {value.span.text}, or change the default",
     )
 
 

@@ -46,6 +46,8 @@ from swarmdsl.syntax.ast import (
     Part,
     Port,
     PortRef,
+    Ref,
+    RobotValues,
     Role,
     State,
     StateMachine,
@@ -131,6 +133,8 @@ class Linker:
                 values = {**_named(owner.items, FitnessInput), **_named(owner.items, Param)}
             case Optimization():
                 _link_optimization(owner, scope, report)
+            case Swarm():
+                _link_swarm(owner, scope, report)
         if nodes_of(owner, Expression):
             ValueLinker(scope, self._enums, report).link(owner, values)
 
@@ -235,7 +239,28 @@ def _common_operations(components: list[Component]) -> dict[str, Operation]:
     return {k: v for k, v in first.items() if all(other.get(k) is v for other in others)}
 
 
-# ---- optimization
+# ---- swarms and their optimization
+
+
+def _link_swarm(swarm: Swarm, scope: FileScope, report: Diagnostics) -> None:
+    """Resolve the roles of robots that have values of their own."""
+    roles = _named(swarm.items, Role)
+    for item in swarm.items:
+        if isinstance(item, RobotValues):
+            _link_role(item.role, swarm, roles, scope, report)
+
+
+def _link_role(
+    ref: Ref[Role],
+    swarm: Swarm,
+    roles: Mapping[str, Role],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    ref.target = roles.get(ref.name)
+    if ref.target is None:
+        kind = f"role in swarm `{swarm.name}`"
+        report_missing_inside(kind, ref.name, ref.span, roles, scope, report)
 
 
 def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostics) -> None:
@@ -248,10 +273,8 @@ def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostic
     for item in owner.items:
         if not isinstance(item, (CountRange, ParamRange)):
             continue
-        item.role.target = roles.get(item.role.name)
+        _link_role(item.role, swarm, roles, scope, report)
         if item.role.target is None:
-            kind = f"role in swarm `{swarm.name}`"
-            report_missing_inside(kind, item.role.name, item.role.span, roles, scope, report)
             continue
         member = item.role.target.member.target
         if isinstance(item, ParamRange) and member is not None:

@@ -75,6 +75,8 @@ CODES: dict[str, Code] = {
         "SW0308", "warning", "the optimization of swarm `{name}` varies nothing"
     ),
     "missing-fitness": Code("SW0309", "error", "swarm `{name}` is optimized but has no fitness"),
+    "missing-robot-value": Code("SW0310", "error", "param `{name}` of {robots} has no value"),
+    "unknown-robot": Code("SW0311", "error", "role `{role}` has no robot `{robot}`"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
     "port-type-mismatch": Code(

@@ -7,7 +7,7 @@ from typing import Literal
 
 from swarmdsl import ir
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
-from swarmdsl.codegen.diagram.labels import param_line, type_name
+from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
 from swarmdsl.codegen.swarm_printer.expressions import expression
 
 
@@ -83,7 +83,10 @@ class _Role:
         groups: list[tuple[str, ...]] = []
         if member.behavior is not None:
             groups.append((f"behavior {member.behavior}",))
-        groups.append(tuple(map(param_line, member.params)))
+        groups.append(tuple(map(param_line, self.role.configured(member).params)))
+        for robot in self.role.robots:
+            lines = value_lines(robot.values)
+            groups.append(tuple(f"{self.role.name}[{robot.index}] {line}" for line in lines))
         groups.append(tuple(f"{part.name} : {part.component}" for part in member.parts))
         groups.append(tuple(f"«{each.category}» {each.name}" for each in self.functions))
         return Node(

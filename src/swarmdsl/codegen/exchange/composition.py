@@ -6,7 +6,8 @@ file, which is started that many times.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 
 from lxml import etree
 
@@ -73,17 +74,29 @@ def _launch(
     add_comment(root, role.doc)
     etree.SubElement(root, "arg", name="id", default="0", doc="which one of the role it is")
     group = etree.SubElement(root, "group", ns=f"{role.name}_$(arg id)")
-    for node in behavior_nodes(member, system):
+    own = {
+        robot.index: list(behavior_nodes(role.configured(member, robot.index), system))
+        for robot in role.robots
+    }
+    for number, node in enumerate(behavior_nodes(role.configured(member), system)):
         type_ = snake_case(node.machine.name)
         attributes = {"pkg": package, "type": type_, "name": node.name, "output": "screen"}
         element = etree.SubElement(group, "node", attributes)
         _add_params(element, node.params, report)
+        for index, nodes in own.items():
+            others = (g for g in nodes[number].params if g not in node.params)
+            _add_params(element, others, report, {"if": f"$(eval arg('id') == {index})"})
         for name, topic in node.remaps:
             etree.SubElement(element, "remap", {"from": name, "to": topic})
     return root
 
 
-def _add_params(node: etree._Element, params: tuple[ParamValue, ...], report: Diagnostics) -> None:
+def _add_params(
+    node: etree._Element,
+    params: Iterable[ParamValue],
+    report: Diagnostics,
+    condition: Mapping[str, str] = MappingProxyType({}),
+) -> None:
     """Add the params with a value that is known at compile time."""
     for given in params:
         if isinstance(given.value, str) and "$(" in given.value:
@@ -96,7 +109,8 @@ def _add_params(node: etree._Element, params: tuple[ParamValue, ...], report: Di
             )
         elif given.value is not None:
             type_, text = _kind(given.param.type), _text(given.value)
-            etree.SubElement(node, "param", name=given.param.name, type=type_, value=text)
+            attributes = {"name": given.param.name, "type": type_, "value": text, **condition}
+            etree.SubElement(node, "param", attributes)
 
 
 def _kind(type_: Type) -> str:

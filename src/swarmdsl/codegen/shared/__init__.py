@@ -34,6 +34,9 @@ if TYPE_CHECKING:
         entered_region,
         region_transitions,
     )
+    from swarmdsl.codegen.shared.part_values import (
+        check_part_values,
+    )
     from swarmdsl.codegen.shared.swarmros import (
         bridge_files,
     )
@@ -60,6 +63,7 @@ else:
                 "BehaviorNode ParamValue behavior_nodes bringup_package has_node"
             ),
             "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
+            "swarmdsl.codegen.shared.part_values": "check_part_values",
             "swarmdsl.codegen.shared.swarmros": "bridge_files",
             "swarmdsl.codegen.shared.wiring": "Remaps Wiring check_wiring member_wiring",
         },
@@ -77,6 +81,7 @@ __all__ = [
     "behavior_nodes",
     "bridge_files",
     "bringup_package",
+    "check_part_values",
     "check_wiring",
     "constant",
     "default_fields",

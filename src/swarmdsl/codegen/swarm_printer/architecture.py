@@ -108,11 +108,14 @@ def _communication(member: Member, base: Member | None) -> list[str]:
         if base is not None:
             raise UnprintableError(f"`{member.name}` lacks the communication of `{base.name}`")
         return []
-    lines = block(f"communication {settings.technology}", _values(settings.values, settings.docs))
+    lines = block(
+        f"communication {settings.technology}", print_values(settings.values, settings.docs)
+    )
     return documented(settings.doc, lines)
 
 
-def _values(values: Iterable[tuple[str, Expression]], docs: Docs) -> list[str]:
+def print_values(values: Iterable[tuple[str, Expression]], docs: Docs) -> list[str]:
+    """Print the values of a block, one on each line."""
     return [
         line
         for name, value in values
@@ -154,7 +157,7 @@ def _operation(function: str, system: System, names: Names) -> list[str]:
 
 def _part(part: Part) -> list[str]:
     head = f"{part.name} : {part.component}"
-    values = _values(part.values, part.docs)
+    values = print_values(part.values, part.docs)
     return documented(part.doc, block(head, values) if values else [head])
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 
+from swarmdsl.codegen.swarm_printer.architecture import print_values
 from swarmdsl.codegen.swarm_printer.expressions import expression
 from swarmdsl.codegen.swarm_printer.interfaces import print_params
 from swarmdsl.codegen.swarm_printer.layout import block, documented, quoted
@@ -15,6 +16,8 @@ from swarmdsl.ir import (
     Multiplicity,
     Optimization,
     ParamRange,
+    RobotValues,
+    Role,
     Swarm,
     doc_of,
 )
@@ -24,17 +27,7 @@ _ONE = Multiplicity(1, 1)
 
 def print_swarm(swarm: Swarm) -> list[str]:
     """Print a swarm with its roles."""
-    roles = [
-        line
-        for role in swarm.roles
-        for line in documented(
-            role.doc,
-            [
-                f"{role.name} : {role.member}"
-                + ("" if role.multiplicity == _ONE else f"[{role.multiplicity}]")
-            ],
-        )
-    ]
+    roles = [line for role in swarm.roles for line in _role(role)]
     uses = {"environment": swarm.environment, "fitness": swarm.fitness}
     used = [
         line
@@ -43,6 +36,21 @@ def print_swarm(swarm: Swarm) -> list[str]:
         for line in documented(doc_of(swarm.docs, what), [f"{what} {name}"])
     ]
     return documented(swarm.doc, block(f"swarm {swarm.name}", [*roles, *used]))
+
+
+def _role(role: Role) -> list[str]:
+    """Print a role and the values of its robots."""
+    number = "" if role.multiplicity == _ONE else f"[{role.multiplicity}]"
+    lines = _configured(f"{role.name} : {role.member}{number}", role)
+    for robot in role.robots:
+        lines += _configured(f"{role.name}[{robot.index}]", robot)
+    return lines
+
+
+def _configured(head: str, owner: Role | RobotValues) -> list[str]:
+    values = print_values(owner.values, owner.docs)
+    is_block = values or isinstance(owner, RobotValues)
+    return documented(owner.doc, block(head, values) if is_block else [head])
 
 
 def print_environment(environment: Environment) -> list[str]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from swarmdsl.analysis.node_kinds import KINDS
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
+from swarmdsl.analysis.resolve.set_params import set_params
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
@@ -18,7 +19,6 @@ from swarmdsl.syntax.ast import (
     NameUse,
     Node,
     Param,
-    Part,
     Region,
     State,
     StateMachine,
@@ -115,7 +115,7 @@ def _imported(file: File) -> Iterator[Occurrence]:
 
 
 def _values(owner: TopLevel) -> Iterator[Occurrence]:
-    """Yield names of enum values, and of params of parts and reused machines."""
+    """Yield names of enum values, and of params that parts, roles and states set."""
     for use in nodes_of(owner, FieldUse):
         enum = use.base.target if isinstance(use.base, NameUse) else None
         if isinstance(enum, EnumType):
@@ -128,12 +128,11 @@ def _values(owner: TopLevel) -> Iterator[Occurrence]:
             for item in machine.items if machine is not None else ():
                 if isinstance(item, Param) and item.name == binding.name:
                     yield Occurrence(binding.name.span.absolute, item)
-    for part in nodes_of(owner, Part):
-        if part.component.target is not None:
-            params = {str(each.name): each for each in all_items(part.component.target, Param)}
-            for value_ in part.values:
-                if value_.name in params:
-                    yield Occurrence(value_.name.span.absolute, params[value_.name])
+    for of, values in set_params(owner):
+        params = {str(each.name): each for each in all_items(of, Param)} if values else {}
+        for each in values:
+            if each.name in params:
+                yield Occurrence(each.name.span.absolute, params[each.name])
 
 
 def _last_segment(span: Span, name: str, node: Node) -> Occurrence:

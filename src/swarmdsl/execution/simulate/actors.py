@@ -80,13 +80,18 @@ def params(
 def values(
     subject: Subject, robot: Robot, part: ir.Part | None, scenario: Scenario
 ) -> dict[str, Any]:
-    """Return the param values of a machine's owner, from the model and the scenario."""
+    """Return the param values of a machine's owner, from the model and the scenario.
+
+    Values of a part may refer to params of the robot.
+    """
     found: dict[str, Any] = {}
     for param in _owner_params(subject, robot, part):
         if param.default is not None:
             found[param.name] = stored(param.default, param.type)(found, None)
-    for name, value in part.values if part is not None else ():
-        found[name] = stored(value, None)(found, None)
+    if part is not None and part.values:
+        around = values(subject, robot, None, scenario)
+        for name, value in part.values:
+            found[name] = stored(value, None)(around, None)
     for word in words(robot, part):
         found.update(scenario.params.get(word, {}))
     return found
@@ -107,4 +112,4 @@ def _owner_params(subject: Subject, robot: Robot, part: ir.Part | None) -> tuple
         return ()
     if part is not None:
         return next(each for each in system.components if each.name == part.component).params
-    return next(each for each in system.members if each.name == robot.kind).params
+    return subject.member(robot).params

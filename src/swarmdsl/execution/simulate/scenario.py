@@ -19,6 +19,7 @@ class Robot:
     name: str | None = None
     role: str = ""
     kind: str = ""
+    index: int = 0
 
     @property
     def words(self) -> tuple[str, ...]:

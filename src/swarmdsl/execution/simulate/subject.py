@@ -58,7 +58,7 @@ class Subject:
         if self.swarm is None:
             return [Robot()]
         members = (
-            Robot(f"{role.name}[{number}]", role.name, role.member)
+            Robot(f"{role.name}[{number}]", role.name, role.member, number)
             for role in self.swarm.roles
             for number in range(self._number(role, counts))
         )
@@ -70,7 +70,7 @@ class Subject:
             yield None, self.machine
         if self.system is None or self.swarm is None:
             return
-        member = next(each for each in self.system.members if each.name == robot.kind)
+        member = self.member(robot)
         machines = {machine.name: machine for machine in self.system.machines}
         if member.behavior is not None:
             yield None, machines[member.behavior]
@@ -79,6 +79,14 @@ class Subject:
             behavior = components[part.component].behavior
             if behavior is not None:
                 yield part, machines[behavior]
+
+    def member(self, robot: Robot) -> ir.Member:
+        """Return the type of a robot of the swarm, with its own values as defaults of params."""
+        assert self.system is not None
+        assert self.swarm is not None
+        member = next(each for each in self.system.members if each.name == robot.kind)
+        role = next(each for each in self.swarm.roles if each.name == robot.role)
+        return role.configured(member, robot.index)
 
     def table(self, machine: StateMachine) -> Machine:
         """Return the engine table of a machine, shared by all its instances."""

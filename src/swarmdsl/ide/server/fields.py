@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.interfaces import Interfaces
+from swarmdsl.analysis.resolve.set_params import set_params
 from swarmdsl.analysis.types import Typing
 from swarmdsl.base.records import dataclass
 from swarmdsl.ide.server.speculative_parse import PLACEHOLDER
@@ -26,7 +27,6 @@ from swarmdsl.syntax.ast import (
     Operation,
     Param,
     Parameter,
-    Part,
     PartValue,
     ResultMapping,
     Send,
@@ -104,10 +104,9 @@ def slots(owner: TopLevel, project: Project) -> Slots | None:
         if _any_placeholder(state.bindings) and isinstance(machine, StateMachine):
             params = [each for each in machine.items if isinstance(each, Param)]
             return Slots(str(machine.name), params, _names(state.bindings))
-    for part in nodes_of(owner, Part):
-        if _any_placeholder(part.values) and part.component.target is not None:
-            of = part.component.target
-            return Slots(str(of.name), all_items(of, Param), _names(part.values))
+    for of, values in set_params(owner):
+        if _any_placeholder(values):
+            return Slots(str(of.name), all_items(of, Param), _names(values))
     return None
 
 

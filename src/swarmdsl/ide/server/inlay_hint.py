@@ -59,7 +59,7 @@ def _declaration_hints(owner: TopLevel) -> Iterator[InlayHint]:
             yield InlayHint(connector.span.end, f" : {text}", "type of the ports", "type")
     for role in nodes_of(owner, Role):
         if role.multiplicity is None:
-            yield InlayHint(role.span.end, "[1]", "default multiplicity: one member")
+            yield InlayHint(role.member.span.end, "[1]", "default multiplicity: one member")
     if isinstance(owner, EnumType):
         known = numbers(owner)
         for value in owner.values:

@@ -40,7 +40,7 @@ class BehaviorUse(Documented):
 
 @dataclass(slots=True, eq=False)
 class PartValue(Documented):
-    """`name = value` in a part."""
+    """`name = value` in a part, a role or a robot of a role."""
 
     name: Word
     value: Expression

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.ast.architecture import Member
+from swarmdsl.syntax.ast.architecture import Member, PartValue
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, Word
 from swarmdsl.syntax.ast.values import Expression, FitnessInput, Param
 
@@ -20,11 +20,21 @@ class Multiplicity(Node):
 
 @dataclass(slots=True, eq=False)
 class Role(Documented):
-    """`name : Member[multiplicity]`."""
+    """`name : Member[multiplicity] { ... }`; `values` set params of its members."""
 
     name: Word
     member: Ref[Member]
     multiplicity: Multiplicity | None
+    values: list[PartValue]
+
+
+@dataclass(slots=True, eq=False)
+class RobotValues(Documented):
+    """`role[index] { ... }`: params of one robot."""
+
+    role: Ref[Role]
+    index: str
+    values: list[PartValue]
 
 
 @dataclass(slots=True, eq=False)
@@ -39,7 +49,7 @@ class Swarm(TopLevel):
     """`swarm Name { ... }`."""
 
     name: Word
-    items: list[EnvironmentUse | FitnessUse | Role]
+    items: list[EnvironmentUse | FitnessUse | Role | RobotValues]
 
 
 @dataclass(slots=True, eq=False)

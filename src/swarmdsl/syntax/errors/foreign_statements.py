@@ -223,6 +223,7 @@ _HINTS = (
         r"write the name first: `\2 : \1`",
     ),
     (r": *[A-Z][\w.]*@\[", "`{`", "a part is one component: declare several parts"),
+    (r": *[A-Z][\w.]*@\( *(\d[\d.*]*) *\)", "`[`", r"write `[\1]`"),
     (r": *[A-Z][\w.]*@\(", "`{`", "write values of params in braces: `{ name = value }`"),
     (r"\bconnect +[\w.]+ +@(?:to|with|and)\b", "", "write `->`"),
     (

@@ -17,6 +17,7 @@ from swarmdsl.syntax.ast import (
     Operation,
     OperatorUse,
     Parameter,
+    RobotValues,
     Send,
     ServiceType,
     State,
@@ -59,6 +60,8 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                 upper = f"..{node.upper}" if node.upper else ""
                 _join(marks, tokens, opener.start, f"[{node.lower}{upper}]")
                 marks.tight.add(opener.start)
+            case RobotValues():
+                _join(marks, tokens, start, f"{node.role.name}[{node.index}]")
             case OperatorUse(operands=(_,)) if node.operator == "-":
                 marks.tight.add(tokens.code(start, 2)[1].start)
             case Call() | Operation():

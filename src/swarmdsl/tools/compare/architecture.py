@@ -19,6 +19,8 @@ from swarmdsl.ir import (
     Optimization,
     Part,
     Port,
+    RobotValues,
+    Role,
     Service,
     Swarm,
     System,
@@ -245,16 +247,27 @@ def _others(system: System) -> Iterator[Element]:
         yield with_doc(element, fitness.doc, fitness.docs)
 
 
+def _robot(role: Role, robot: RobotValues) -> Element:
+    name = (f"{role.name}[{robot.index}]",)
+    values = properties(values=argument_values(robot.values))
+    return with_doc(Element("robot", name, values, origin=robot.origin), robot.doc, robot.docs)
+
+
 def _swarm(swarm: Swarm) -> Element:
     roles = (
         with_doc(
             Element(
                 "role",
                 (role.name,),
-                properties(member=_named(role.member, "member"), number=str(role.multiplicity)),
+                properties(
+                    member=_named(role.member, "member"),
+                    number=str(role.multiplicity),
+                    values=argument_values(role.values),
+                ),
                 origin=role.origin,
             ),
             role.doc,
+            role.docs,
         )
         for role in swarm.roles
     )
@@ -263,7 +276,8 @@ def _swarm(swarm: Swarm) -> Element:
         fitness=_named(swarm.fitness, "fitness"),
     )
     ref = Ref("swarm", swarm.name)
-    element = Element("swarm", (swarm.name,), values, tuple(roles), ref, swarm.origin)
+    robots = (_robot(role, robot) for role in swarm.roles for robot in role.robots)
+    element = Element("swarm", (swarm.name,), values, (*roles, *robots), ref, swarm.origin)
     return with_doc(element, swarm.doc, swarm.docs)
 
 

@@ -26,6 +26,7 @@ from swarmdsl.syntax.ast import (
     ParamRange,
     Part,
     Port,
+    RobotValues,
     Role,
     Setting,
     Size,
@@ -43,18 +44,27 @@ def swarm(element: Element, builder: EntryBuilder) -> Entry:
     node = element.node
     assert isinstance(node, Swarm)
     roles = []
+    own: dict[str, list[RobotValues]] = {}
+    for item in node.items:
+        if isinstance(item, RobotValues):
+            own.setdefault(item.role.name, []).append(item)
     for role in node.items:
         inner = builder.elements.of(role)
         if isinstance(role, Role) and inner is not None:
             many = role.multiplicity
             count = _count(many.lower, many.upper) if many is not None else "one"
-            roles.append(builder.row(inner, (_target(builder, role.member.target), (count,))))
+            values = [builder.code(value, inner) for value in role.values]
+            values += [_robot(robot, element, builder) for robot in own.get(str(role.name), ())]
+            cells = (_target(builder, role.member.target), (count,), _joined(values))
+            roles.append(builder.row(inner, cells))
     facts = [
         *_uses(element, builder, EnvironmentUse, "environment"),
         *_uses(element, builder, FitnessUse, "fitness"),
         ("used by", builder.used_by(element)),
     ]
-    tables = (Table("Roles", ("role", "member", "multiplicity", "description"), tuple(roles)),)
+    tables = (
+        Table("Roles", ("role", "member", "multiplicity", "values", "description"), tuple(roles)),
+    )
     return builder.entry(element, facts, (builder.figures.get(element), *tables))
 
 
@@ -222,6 +232,12 @@ def _communication(
         owner = builder.elements.at(item.span) or element
         values = _joined([builder.code(value, owner) for value in item.values])
         yield "communication", (str(item.technology), *((": ", *values) if values else ()))
+
+
+def _robot(robot: RobotValues, element: Element, builder: EntryBuilder) -> Cell:
+    """Values of a robot, with its documentation."""
+    doc = doc_of(robot)
+    return (*builder.code(robot, element), *((" ", Prose(doc)) if doc else ()))
 
 
 def _uses(

@@ -112,7 +112,7 @@ def launch_node(context, role, number, executable, name, part):
     trace_dir = LaunchConfiguration('trace_dir').perform(context)
     if trace_dir:
         parameters[0]['trace.file'] = os.path.join(trace_dir, f'{member}.jsonl')
-    for file in (f'{role}.yaml', f'{role}_{number}.yaml'):
+    for file in (f'{role}.yaml', f'{role}_{number}.model.yaml', f'{role}_{number}.yaml'):
         path = os.path.join(CONFIG, file)
         if os.path.exists(path):
             parameters.append(path)

@@ -1,0 +1,113 @@
+"""Checks of the params that a swarm sets for its roles and robots."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.syntax.ast import Member, Param, PartValue, RobotValues, Role, Swarm
+from swarmdsl.syntax.types import Primitive
+
+_MOST_DIGITS = 9
+"""Number of digits of a multiplicity; with more, it is reported as wrong."""
+_MOST_NAMED = 5
+"""Number of robots without a value up to which a message names each."""
+
+
+def check_robot_values(swarm: Swarm, context: Context) -> None:
+    """Check the params of roles and robots, and report those without any value."""
+    robots = [item for item in swarm.items if isinstance(item, RobotValues)]
+    first: dict[tuple[str, int], RobotValues] = {}
+    for robot in robots:
+        key = (robot.role.name, int(robot.index))
+        earlier = first.setdefault(key, robot)
+        if earlier is not robot:
+            context.check_single([earlier.role.span, robot.role.span], f"`{_name(robot)}`")
+        if robot.role.target is not None:
+            _check_index(robot, robot.role.target, context)
+            _check_values(robot.values, robot.role.target.member.target, context)
+    for role in swarm.items:
+        if isinstance(role, Role):
+            _check_values(role.values, role.member.target, context)
+            own = [robot for robot in first.values() if robot.role.target is role]
+            _check_complete(role, own, context)
+
+
+def _check_index(robot: RobotValues, role: Role, context: Context) -> None:
+    most = _most(role)
+    if most is not None and int(robot.index) >= most:
+        context.report.report(
+            "unknown-robot",
+            robot.role.span,
+            role=role.name,
+            robot=_name(robot),
+            related=(Label(role.span, "the robots are counted from 0"),),
+            help=f"the last one is `{role.name}[{most - 1}]`" if most else None,
+        )
+
+
+def _check_values(values: list[PartValue], member: Member | None, context: Context) -> None:
+    context.check_repeated((value.name for value in values), "param")
+    if member is None or member in context.incomplete:
+        return
+    params = {str(param.name): param for param in all_items(member, Param)}
+    for value in values:
+        param = params.get(str(value.name))
+        if param is None:
+            context.report_unknown_param(value.name, f"member `{member.name}`", params)
+        else:
+            context.check_constant(value.value, param.type.type)
+
+
+def _check_complete(role: Role, robots: Iterable[RobotValues], context: Context) -> None:
+    """Report the params without a value: no default, and none in the role or in its robots."""
+    member = role.member.target
+    if member is None or member in context.incomplete:
+        return
+    given = {str(value.name) for value in role.values}
+    own = {int(robot.index): {str(v.name) for v in robot.values} for robot in robots}
+    most = _most(role)
+    for param in all_items(member, Param):
+        name = str(param.name)
+        # Messages and arrays have no constants: their values are given when a robot starts.
+        if param.default is not None or name in given or not isinstance(param.type.type, Primitive):
+            continue
+        having = {number for number, names in own.items() if name in names}
+        if most is not None and sum(number < most for number in having) == most:
+            continue
+        context.report.report(
+            "missing-robot-value",
+            role.name.span,
+            name=name,
+            robots=_without(role, most, having),
+            related=(Label(param.name.span, "declared here, without a default"),),
+            help=f"write `{role.name} : {_head(role)} {{ {name} = ... }}`, "
+            f"or give the param a default",
+        )
+
+
+def _head(role: Role) -> str:
+    multiplicity = f"[{role.multiplicity.span.text}]" if role.multiplicity is not None else ""
+    return f"{role.member.span.text}{multiplicity}"
+
+
+def _without(role: Role, most: int | None, having: set[int]) -> str:
+    """Name the robots that are not in `having`: the role, if these are all or too many."""
+    if most is None or not having or most - len(having) > _MOST_NAMED:
+        return f"`{role.name}`"
+    without = sorted(set(range(most)) - having)
+    return listed([f"{role.name}[{number}]" for number in without], "and")
+
+
+def _most(role: Role) -> int | None:
+    """Return the greatest number of robots in a role; None if it is unlimited or wrong."""
+    if role.multiplicity is None:
+        return 1
+    upper = role.multiplicity.upper or role.multiplicity.lower
+    return int(upper) if upper.isdecimal() and len(upper) <= _MOST_DIGITS else None
+
+
+def _name(robot: RobotValues) -> str:
+    return f"{robot.role.name}[{robot.index}]"
