@@ -66,6 +66,15 @@
   "Words that are keywords only before certain others.")
 ;; end
 
+(defun swarm--escape (limit)
+  "Find the next escape in a string, before LIMIT."
+  (let (found)
+    (while (and (setq found (re-search-forward
+                             "\\\\\\(?:[\"\\\\nrt]\\|u[0-9A-Fa-f]\\{4\\}\\|U[0-9A-Fa-f]\\{8\\}\\)"
+                             limit t))
+                (not (nth 3 (save-excursion (syntax-ppss (match-beginning 0)))))))
+    found))
+
 (defconst swarm--font-lock
   `(("\\.\\(done\\)\\_>" 1 font-lock-keyword-face)
     ;; A field may have the name of a keyword.
@@ -79,7 +88,8 @@
     ,@(mapcar (lambda (regexp) `(,regexp 1 font-lock-keyword-face)) swarm--contextual)
     (,(regexp-opt swarm--types 'symbols) . font-lock-type-face)
     (,(regexp-opt swarm--constants 'symbols) . font-lock-constant-face)
-    (,(regexp-opt swarm--keywords 'symbols) . font-lock-keyword-face)))
+    (,(regexp-opt swarm--keywords 'symbols) . font-lock-keyword-face)
+    (swarm--escape 0 font-lock-constant-face prepend)))
 
 (defvar swarm-mode-syntax-table
   (let ((table (make-syntax-table)))

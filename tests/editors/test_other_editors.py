@@ -8,13 +8,14 @@ import re
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Collection
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 from pygments.lexers import get_lexer_by_name, get_lexer_for_filename
-from pygments.token import Keyword, Name, Operator
+from pygments.token import Keyword, Name, Operator, String
 
 ROOT = Path(__file__).resolve().parents[2]
 MODE = ROOT / "editors" / "emacs" / "swarm-mode.el"
@@ -29,6 +30,11 @@ WORD = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/|([A
 Coloured = Callable[[str], set[int]]
 
 
+# Kinds of words that are keywords, and those of escapes, in Vim and Emacs.
+VIM = ("Declaration", "Statement", "Include", "Outcome", "Operator", "Boolean")
+EMACS = ("font-lock-keyword-face", "font-lock-constant-face")
+
+
 def of_pygments(text: str) -> set[int]:
     kinds = (Keyword, Operator.Word, Name.Constant)
     found = get_lexer_by_name("swarm").get_tokens_unprocessed(text)
@@ -40,7 +46,7 @@ def of_pygments(text: str) -> set[int]:
     }
 
 
-def of_vim(text: str, folder: Path) -> set[int]:
+def of_vim(text: str, folder: Path, kinds: Collection[str] = VIM) -> set[int]:
     vim = shutil.which("vim")
     if (
         vim is None
@@ -73,13 +79,12 @@ qall!
     )  # fmt: skip
     found, filetype, comment = (folder / "found.json").read_text().splitlines()
     assert (filetype, comment) == ("swarm", "// %s")
-    kinds = {"Declaration", "Statement", "Include", "Outcome", "Operator", "Boolean"}
     return places(
         text, [(line - 1, column, kind) for line, column, kind in json.loads(found)], kinds
     )
 
 
-def places(text: str, found: list[tuple[int, int, str]], kinds: set[str]) -> set[int]:
+def places(text: str, found: list[tuple[int, int, str]], kinds: Collection[str]) -> set[int]:
     """Return the offsets of words of some kinds; columns count bytes."""
     starts = [0]
     for line in text.splitlines(keepends=True):
@@ -92,7 +97,7 @@ def places(text: str, found: list[tuple[int, int, str]], kinds: set[str]) -> set
     }
 
 
-def of_emacs(text: str, folder: Path) -> set[int]:
+def of_emacs(text: str, folder: Path, kinds: Collection[str] = EMACS) -> set[int]:
     emacs = shutil.which("emacs")
     if emacs is None:
         pytest.skip("no Emacs: apt-get install emacs-nox")
@@ -116,7 +121,6 @@ def of_emacs(text: str, folder: Path) -> set[int]:
         env={**os.environ, "HOME": str(folder), "LC_ALL": "C.UTF-8"},
     )  # fmt: skip
     assert ran.returncode == 0, ran.stderr
-    kinds = {"font-lock-keyword-face", "font-lock-constant-face"}
     return {at for at, face in json.loads(ran.stdout) if face in kinds}
 
 
@@ -163,6 +167,35 @@ def test_pygments_lexer_covers_every_character() -> None:
         tokens = list(lexer.get_tokens_unprocessed(text))
         assert "".join(word for _, _, word in tokens) == text
         assert "Text" not in {str(kind).rpartition(".")[2] for _, kind, _ in tokens}
+
+
+ESCAPES = r"""const A : string = "\u00e9 \U0001f916 \n // \r" // \t
+const B : string = "\u12 \w \U0001f91"
+"""
+
+
+def escapes_of_pygments(text: str, folder: Path) -> set[int]:
+    lexed = get_lexer_by_name("swarm").get_tokens_unprocessed(text)
+    return {at + 1 for at, kind, _ in lexed if kind is String.Escape}
+
+
+@pytest.mark.parametrize(
+    "of",
+    [
+        escapes_of_pygments,
+        partial(of_vim, kinds=["Escape"]),
+        partial(of_emacs, kinds=["(font-lock-constant-face font-lock-string-face)"]),
+    ],
+    ids=["pygments", "vim", "emacs"],
+)
+def test_escapes_are_highlighted(of: Any, tmp_path: Path) -> None:
+    found = of(ESCAPES, tmp_path)
+    assert sorted(ESCAPES[at:].split()[0].strip('"') for at in found) == [
+        "U0001f916",
+        "n",
+        "r",
+        "u00e9",
+    ]
 
 
 def test_a_session_of_neovim(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from swarmdsl.codegen.shared.constants import (
     evaluate,
 )
 from swarmdsl.ir import Binary, Call, EventData, Expression, FieldAccess, Literal, Named, Unary
+from swarmdsl.syntax.parser.literals import is_text
 from swarmdsl.syntax.types import (
     BOOL,
     DURATION,
@@ -32,8 +33,11 @@ FLOAT_TYPES = tuple(Primitive(name) for name in FLOATS)
 # What is at hand: names of variables and params, fields of the event.
 Leaves = Sequence[Expression]
 
-texts = st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cs"]), max_size=6) | (
-    st.sampled_from(['"', "\\", "\n", "\t", "//", "/*", "\\n", "{", '\\"'])
+characters = st.characters(codec="utf-8").filter(lambda character: is_text(ord(character)))
+texts = st.text(characters, max_size=6) | (
+    st.sampled_from(
+        ['"', "\\", "\n", "\t", "\r\n", "//", "/*", "\\n", "{", '\\"', "\\u2028", "\u2028"]
+    )
 )
 wholes = st.integers(-100, 100) | st.integers(0, 2**63 - 1)
 floats = {

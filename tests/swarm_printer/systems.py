@@ -58,7 +58,19 @@ NAMES = [
 FIELDS = ["state", "type", "event", "on", "const", "or", "not", "true", "s", "min", "by", "x"]
 ENDS = ["i", "ii", "out_", "p", "q", "r", "t", "u", "v", "w"]
 
-docs = st.sampled_from(["", "", "", "What it is.", "Two\n\n  lines", "/ // x", 'a "b" {'])
+docs = st.sampled_from(
+    [
+        "",
+        "",
+        "",
+        "What it is.",
+        "Two\n\n  lines",
+        "/ // x",
+        'a "b" {',
+        "a*/ /* \u2028b\x85c\\",
+        "\\u0041",
+    ]
+)
 topics = st.sampled_from(["a/b", "/x", "~p", "state", "cmd/go_1"])
 
 

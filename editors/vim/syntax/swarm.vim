@@ -48,8 +48,9 @@ syn match swarmName #\%(\<\%(actuator\|choice\|communication\|const\|controller\
 " end
 
 syn match swarmNumber "\<\d\+\%(\.\d\+\)\=\%([eE][+-]\=\d\+\)\=\%(\s*\%(us\|ms\|s\|min\|h\|km\|cm\|mm\|m\)\>\)\="
-syn match swarmEscape "\\." contained
-syn region swarmString start=+"+ skip=+\\.+ end=+"+ oneline contains=swarmEscape,@Spell
+syn match swarmBadEscape "\\." contained
+syn match swarmEscape "\\\%(["\\nrt]\|u\x\{4}\|U\x\{8}\)" contained
+syn region swarmString start=+"+ skip=+\\.+ end=+"+ oneline contains=swarmEscape,swarmBadEscape,@Spell
 syn keyword swarmTodo TODO FIXME XXX contained
 syn match swarmComment "//.*$" contains=swarmTodo,@Spell
 syn match swarmDoc "^\s*\zs///\%([^/].*\)\=$" contains=@Spell
@@ -68,6 +69,7 @@ hi def link swarmName Identifier
 hi def link swarmNumber Number
 hi def link swarmString String
 hi def link swarmEscape SpecialChar
+hi def link swarmBadEscape Error
 hi def link swarmComment Comment
 hi def link swarmDoc SpecialComment
 hi def link swarmTodo Todo

@@ -44,7 +44,7 @@ class SwarmLexer(RegexLexer):  # type: ignore[misc]
             (r"///(?!/)[^\n]*", Comment.Special),
             (r"//[^\n]*", Comment.Single),
             (r"/\*(?:[^*]|\*(?!/))*\*/", Comment.Multiline),
-            (r'"(?:[^"\\\n]|\\[^\n])*"', String),
+            (r'"(?=(?:[^"\\\n]|\\[^\n])*")', String, "string"),
             (r"(\.)(done)\b", bygroups(Punctuation, Keyword)),
             # A field may have the name of a keyword.
             (rf"(\.)({_NAME})", bygroups(Punctuation, Name.Attribute)),
@@ -75,5 +75,11 @@ class SwarmLexer(RegexLexer):  # type: ignore[misc]
             (r"->|=>|==|!=|<=|>=|[-+*/%<>=]", Operator),
             (r"\.\.|[{}()\[\],:.]", Punctuation),
             (r".", Text),
-        ]
+        ],
+        "string": [
+            (r'"', String, "#pop"),
+            (r'\\(?:["\\nrt]|u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8})', String.Escape),
+            (r"\\.", String),
+            (r'[^"\\]+', String),
+        ],
     }

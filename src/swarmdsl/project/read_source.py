@@ -15,6 +15,8 @@ from swarmdsl.project.libraries import SUFFIX
 
 # Control characters except tab and line ends, which no XML can contain (XML 1.0, 2.2).
 _CONTROL = bytes([*range(0x01, 0x09), 0x0B, 0x0C, *range(0x0E, 0x20), 0x7F])
+# Neither can it contain these.
+_NO_CHARACTERS = "\ufffe\uffff"
 
 _MODEL = "a .swarm file"
 # A hint for a missing file names at most this many.
@@ -132,9 +134,11 @@ def without_control_characters(source: Source, report: Diagnostics) -> Source:
     """Replace control characters by spaces and report them."""
     # Ten times as fast as the pattern for a text without control characters.
     data = source.text.encode("utf-8", "surrogatepass")
-    if len(data.translate(None, _CONTROL)) == len(data):
+    if len(data.translate(None, _CONTROL)) == len(data) and not (
+        "\ufffe" in source.text or "\uffff" in source.text
+    ):
         return source
-    control = re.compile(f"[{_CONTROL.decode()}]")
+    control = re.compile(f"[{_CONTROL.decode()}{_NO_CHARACTERS}]")
     found = list(control.finditer(source.text))
     for each in found:
         place = Span(source, each.start(), each.end())

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from swarmdsl.syntax.parser import literals
+
 _INDENT = "  "
-_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t"}
 
 
 class UnprintableError(ValueError):
@@ -36,5 +37,8 @@ def indented(lines: Iterable[str]) -> list[str]:
 
 
 def quoted(text: str) -> str:
-    """Return a string in double quotes."""
-    return '"' + "".join(_ESCAPES.get(character, character) for character in text) + '"'
+    """Return a string in double quotes. Raises UnprintableError."""
+    try:
+        return literals.quoted(text)
+    except ValueError as fault:
+        raise UnprintableError(str(fault)) from None

@@ -7,13 +7,12 @@ import re
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
+from swarmdsl.syntax.parser.literals import escape_faults
 
 # An unclosed string ends with its line, an unclosed comment with the file.
 _TOKEN = r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*(?P<closed>")?|//[^\n]*|/\*(?s:.*?)(?:\*/|\Z)'
 _DOC_LINE = re.compile(r"///(?!/)")
 _BLANK = re.compile(r"(?:\s+|//(?!/(?!/))[^\n]*|/\*(?s:.*?)\*/)*")
-_ESCAPE = r"\\[^\n]"
-_ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,14 +47,9 @@ class DocCommentCollector:
 
     def quoted(self, start: int, end: int) -> None:
         """Check the escapes of a string."""
-        for escape in re.compile(_ESCAPE).finditer(self._source.text, start + 1, end - 1):
-            if escape[0] not in _ESCAPES:
-                self._report.report(
-                    "syntax-error",
-                    Span(self._source, *escape.span()),
-                    message=f"unknown escape `{escape[0]}` in a string",
-                    help="write `\\\\` for `\\`",
-                )
+        for at, to, reason, hint in escape_faults(self._source.text, start + 1, end - 1):
+            place = Span(self._source, at, to)
+            self._report.report("syntax-error", place, message=reason, help=hint)
 
     def documentation(self) -> tuple[DocComment, ...]:
         """Return the comments; consecutive lines are one comment."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from math import isinf
 
 from swarmdsl.syntax.parser.lexer import SYMBOLS, Lexer
@@ -12,10 +12,11 @@ from swarmdsl.syntax.parser.lexer import SYMBOLS, Lexer
 UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
 # Maximum of `uint64`, and of a duration in nanoseconds.
 _LARGEST, _LONGEST = 2**64 - 1, 2**63 - 1
-_ESCAPE = r"\\(.)"
+_ESCAPE = re.compile(r"\\(?:u([0-9A-Fa-f]{4})|U([0-9A-Fa-f]{8})|([^\n]))")
 # Python takes long to convert longer ones.
 _MOST_DIGITS = 400
-_ESCAPED = {"n": "\n", "t": "\t"}
+_ESCAPED = {'"': '"', "\\": "\\", "n": "\n", "r": "\r", "t": "\t"}
+_AS_ESCAPE = {character: f"\\{letter}" for letter, character in _ESCAPED.items()}
 
 
 class Language:
@@ -30,10 +31,61 @@ class Language:
 
 
 def unquoted(text: str) -> str:
-    r"""Return the content of a string literal, with `\"`, `\\`, `\n` and `\t` replaced."""
+    r"""Return the content of a string literal, with escapes such as `\n` and `\u2028` replaced."""
     if "\\" not in text:
         return text[1:-1]
-    return re.sub(_ESCAPE, lambda found: _ESCAPED.get(found[1], found[1]), text[1:-1])
+    return _ESCAPE.sub(_escaped, text[1:-1])
+
+
+def quoted(text: str) -> str:
+    """Return a string literal on one line, in which no character is invisible.
+
+    Raises ValueError for a character that no string can contain.
+    """
+    if text.isprintable() and '"' not in text and "\\" not in text:
+        return f'"{text}"'
+    return f'"{"".join(map(_as_escape, text))}"'
+
+
+def escape_faults(text: str, start: int, end: int) -> Iterator[tuple[int, int, str, str]]:
+    """Yield the start and end of wrong escapes in a piece of text, a message and a hint."""
+    for found in _ESCAPE.finditer(text, start, end):
+        code = found[1] or found[2]
+        if code and not is_text(int(code, 16)):
+            reason = f"a string cannot contain U+{int(code, 16):04X}"
+            yield *found.span(), reason, "remove it: XML cannot contain it"
+        elif found[3] in ("u", "U"):
+            digits = {"u": "four", "U": "eight"}[found[3]]
+            reason = f"`{found[0]}` without {digits} hexadecimal digits in a string"
+            yield *found.span(), reason, "write `\\u00e9`, or `\\U0001f916`"
+        elif found[3] and found[3] not in _ESCAPED:
+            reason = f"unknown escape `{found[0]}` in a string"
+            yield *found.span(), reason, "write `\\\\` for `\\`"
+
+
+def is_text(code: int) -> bool:
+    """Return True for a code point that every output can contain: a `Char` of XML 1.0."""
+    if code < 0x20:
+        return code in (0x09, 0x0A, 0x0D)
+    return code < 0xD800 or 0xE000 <= code < 0xFFFE or 0x10000 <= code <= 0x10FFFF
+
+
+def _escaped(found: re.Match[str]) -> str:
+    code = found[1] or found[2]
+    if code:
+        return chr(int(code, 16)) if is_text(int(code, 16)) else "\N{REPLACEMENT CHARACTER}"
+    return _ESCAPED.get(found[3], found[3])
+
+
+def _as_escape(character: str) -> str:
+    code = ord(character)
+    if not is_text(code):
+        raise ValueError(f"a string cannot contain U+{code:04X}")
+    if character in _AS_ESCAPE:
+        return _AS_ESCAPE[character]
+    if character.isprintable():
+        return character
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 
 def quantity_value(digits: str) -> int | float:
