@@ -13,7 +13,7 @@ from swarmdsl.codegen.shared.constants import (
     evaluate,
 )
 from swarmdsl.ir import Binary, Call, EventData, Expression, FieldAccess, Literal, Named, Unary
-from swarmdsl.syntax.parser.literals import is_text
+from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import (
     BOOL,
     DURATION,
@@ -33,7 +33,7 @@ FLOAT_TYPES = tuple(Primitive(name) for name in FLOATS)
 # What is at hand: names of variables and params, fields of the event.
 Leaves = Sequence[Expression]
 
-characters = st.characters(codec="utf-8").filter(lambda character: is_text(ord(character)))
+characters = st.characters(codec="utf-8").filter(lambda each: forbidden_character(each) is None)
 texts = st.text(characters, max_size=6) | (
     st.sampled_from(
         ['"', "\\", "\n", "\t", "\r\n", "//", "/*", "\\n", "{", '\\"', "\\u2028", "\u2028"]

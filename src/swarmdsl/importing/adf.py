@@ -37,6 +37,7 @@ from swarmdsl.ir import (
     Type,
 )
 from swarmdsl.ir import Literal as Value
+from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
 
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
@@ -242,18 +243,19 @@ class _Reader:
             value = param.get("value")
             type_ = _param_type(str(param.get("class", "")), value)
             default: Expression | None = None
-            if isinstance(value, (bool, int, float, str)):
+            if isinstance(value, (bool, int, float, str)) and not _forbidden(value):
                 default = Value(value, _TYPES[type(value)])
             elif value is not None:
                 what = f"the value of `{written}`"
-                reason = "it is not a number, string or boolean"
+                reason = _forbidden(value) or "it is not a number, string or boolean"
                 self.report.report("left-out", self.content.at(written), what=what, reason=reason)
             yield Param(name, type_, default, doc=_line(param.get("description")))
 
     def _constants(self, message: dict[str, Any]) -> Iterator[Constant]:
         for constant in self.content.objects(message, "constants"):
             name, value = str(constant.get("name", "")), constant.get("value")
-            if is_plain(name) and isinstance(value, (bool, int, float, str)):
+            fault = _forbidden(value)
+            if is_plain(name) and isinstance(value, (bool, int, float, str)) and not fault:
                 type_ = data_type(str(constant.get("class", "")))
                 doc = _line(constant.get("description"))
                 known = Value(value, _TYPES[type(value)])
@@ -261,7 +263,7 @@ class _Reader:
                     known = Value(round(value * 1_000_000_000), DURATION)
                 yield Constant(name, type_, known, doc)
             else:
-                reason = "it is not a name with a number, string or boolean"
+                reason = fault or "it is not a name with a number, string or boolean"
                 what = f"constant `{name}`"
                 self.report.report("left-out", self.content.at(name), what=what, reason=reason)
 
@@ -294,6 +296,12 @@ def _param_type(class_: str, value: object) -> Type:
     # If class and value contradict each other, trust the value.
     fits = isinstance(type_, Primitive) and (class_ != "number" or type(value) not in (bool, str))
     return type_ if fits or type(value) not in _TYPES else _TYPES[type(value)]
+
+
+def _forbidden(value: object) -> str:
+    """Return the reason why no model contains a string, or nothing."""
+    forbidden = forbidden_character(value) if isinstance(value, str) else None
+    return f"a string of a model cannot contain {forbidden}" if forbidden else ""
 
 
 def _line(text: object) -> str:

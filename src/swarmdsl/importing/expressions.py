@@ -34,6 +34,7 @@ from swarmdsl.ir import (
     Unary,
     VariableRef,
 )
+from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
 
 # Minimum number of arguments of each function.
@@ -127,7 +128,10 @@ class _ExpressionReader:
             case "number":
                 return number(str(children[0]), expected)
             case "text":
-                return Literal(unquoted(children[0]), STRING)
+                text = unquoted(children[0])
+                if forbidden := forbidden_character(text):
+                    raise UnsupportedError(f"a string of a model cannot contain {forbidden}")
+                return Literal(text, STRING)
             case "name":
                 return self._name(str(children[0]), expected)
             case "member":

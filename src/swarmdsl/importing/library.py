@@ -28,6 +28,7 @@ from swarmdsl.project.rosidl.interface_file import Kind
 from swarmdsl.project.rosidl.standard import lookup
 from swarmdsl.syntax.ast import ActionType, MessageType, ServiceType
 from swarmdsl.syntax.ast import Field as Described
+from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING
 
 
@@ -179,4 +180,6 @@ def literal(text: str) -> Literal | None:
     except (ValueError, SyntaxError, MemoryError, RecursionError):
         return None
     types = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
+    if isinstance(value, str) and forbidden_character(value):
+        return None
     return Literal(value, types[type(value)]) if type(value) in types else None

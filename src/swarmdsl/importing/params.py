@@ -16,6 +16,7 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
 from swarmdsl.importing.names import NamePool, is_plain, value_names
 from swarmdsl.ir import Array, Literal, Param, Primitive, Type
+from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING
 
 _ROS2_KEY = "ros__parameters"
@@ -25,7 +26,6 @@ _MAX_PARAMS = 10_000
 _MAX_DEPTH = 32
 _COMMENT = re.compile(r"(?P<indent>[ \t]*)#+(?:[ \t]+(?P<text>.*))?")
 _TRAILING = re.compile(r"(?:.*\s)?#+[ \t]*(?P<text>.*)")
-_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 _TAG = "tag:yaml.org,2002:"
 _PLAIN = {f"{_TAG}{name}" for name in ("bool", "int", "float", "str", "timestamp")}
 
@@ -181,7 +181,7 @@ class _Reader:
         owner.names.taken.add(name)
         if name != entry.name:
             self._report.report("renamed", self._at(entry.key), name=entry.name, new=name)
-        doc = _CONTROL.sub(" ", "\n".join(entry.doc))
+        doc = "\n".join(entry.doc)
         owner.params[entry.name] = Param(name, type_, default, doc, self._at(entry.key))
 
     def _value(self, entry: _Parameter) -> tuple[Type | None, Literal | None]:
@@ -252,5 +252,5 @@ def _scalar(node: yaml.Node) -> bool | int | float | str | None:
 
 def _can_be_written(value: float | str) -> bool:
     if isinstance(value, str):
-        return _CONTROL.search(value) is None
+        return forbidden_character(value) is None
     return math.isfinite(value) and (type(value) is float or -(2**63) <= value < 2**63)

@@ -40,6 +40,7 @@ from swarmdsl.project.rosidl.values import Values
 from swarmdsl.syntax.ast import ActionType, MessageType, ServiceType, Value
 from swarmdsl.syntax.ast import Constant as WrittenConstant
 from swarmdsl.syntax.ast import Field as WrittenField
+from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING
 
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
@@ -104,7 +105,11 @@ def _interface(read: InterfaceFile, report: Diagnostics) -> Interface:
             report.report("left-out", constant.name.span, what=what, reason=reason)
     match declared:
         case MessageType(fields=written):
-            constants = tuple(map(_constant, read.constants["fields"]))
+            constants = tuple(
+                made
+                for each in read.constants["fields"]
+                if (made := _constant(each, report)) is not None
+            )
             return Message(type_, fields(written), True, constants, declared.doc)
         case ServiceType(request=request, response=response):
             return Service(type_, fields(request), fields(response), True, declared.doc)
@@ -129,10 +134,16 @@ def _text(values: Values) -> str:
     return str(values.value).lower() if isinstance(values.value, bool) else str(values.value)
 
 
-def _constant(constant: WrittenConstant) -> Constant:
+def _constant(constant: WrittenConstant, report: Diagnostics) -> Constant | None:
     type_, value = written_type(constant.type), constant.value.tree
     assert isinstance(type_, Primitive)
     assert isinstance(value, Value)
+    forbidden = forbidden_character(value.value) if isinstance(value.value, str) else None
+    if forbidden is not None:
+        what = f"constant `{constant.name}`"
+        reason = f"a string of a model cannot contain {forbidden}"
+        report.report("left-out", constant.name.span, what=what, reason=reason)
+        return None
     literal = Literal(value.value, _TYPES[type(value.value)])
     return Constant(str(constant.name), type_, literal, constant.doc)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 from codecs import BOM_UTF8
 from pathlib import Path
 
@@ -12,11 +11,10 @@ from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import closest, did_you_mean, suggest
 from swarmdsl.project.libraries import SUFFIX
+from swarmdsl.syntax.parser.doc_comments import CONTROL
 
-# Control characters except tab and line ends, which no XML can contain (XML 1.0, 2.2).
+# Control characters of ASCII except tab and line ends.
 _CONTROL = bytes([*range(0x01, 0x09), 0x0B, 0x0C, *range(0x0E, 0x20), 0x7F])
-# Neither can it contain these.
-_NO_CHARACTERS = "\ufffe\uffff"
 
 _MODEL = "a .swarm file"
 # A hint for a missing file names at most this many.
@@ -134,13 +132,12 @@ def without_control_characters(source: Source, report: Diagnostics) -> Source:
     """Replace control characters by spaces and report them."""
     # Ten times as fast as the pattern for a text without control characters.
     data = source.text.encode("utf-8", "surrogatepass")
-    if len(data.translate(None, _CONTROL)) == len(data) and not (
-        "\ufffe" in source.text or "\uffff" in source.text
+    if len(data.translate(None, _CONTROL)) == len(data) and (
+        source.text.isascii() or not CONTROL.search(source.text)
     ):
         return source
-    control = re.compile(f"[{_CONTROL.decode()}{_NO_CHARACTERS}]")
-    found = list(control.finditer(source.text))
+    found = list(CONTROL.finditer(source.text))
     for each in found:
         place = Span(source, each.start(), each.end())
         report.report("control-character", place, code=f"U+{ord(each[0]):04X}", help="remove it")
-    return replace(source, text=control.sub(" ", source.text))
+    return replace(source, text=CONTROL.sub(" ", source.text))

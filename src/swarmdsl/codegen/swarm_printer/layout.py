@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.syntax.parser import literals
+from swarmdsl.syntax.parser.doc_comments import doc_comment
+from swarmdsl.syntax.parser.literals import quoted as string_literal
 
 _INDENT = "  "
 
@@ -15,8 +16,7 @@ class UnprintableError(ValueError):
 
 def documented(doc: str, lines: Iterable[str]) -> list[str]:
     """Return lines with their documentation before them."""
-    comment = [f"/// {line}".rstrip() for line in doc.split("\n")] if doc else []
-    return [*comment, *lines]
+    return [*doc_comment(doc), *lines]
 
 
 def block(head: str, *groups: Iterable[str]) -> list[str]:
@@ -39,6 +39,6 @@ def indented(lines: Iterable[str]) -> list[str]:
 def quoted(text: str) -> str:
     """Return a string in double quotes. Raises UnprintableError."""
     try:
-        return literals.quoted(text)
+        return string_literal(text)
     except ValueError as fault:
         raise UnprintableError(str(fault)) from None

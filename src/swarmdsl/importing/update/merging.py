@@ -19,6 +19,7 @@ from swarmdsl.importing.update.values import default_change
 from swarmdsl.ir import Type
 from swarmdsl.syntax.ast import Constant, Documented, Param, TypeRef
 from swarmdsl.syntax.formatter.tokens import Tokens
+from swarmdsl.syntax.parser.doc_comments import doc_comment as lines_of_doc
 
 Guess = tuple[str, str]
 """An assumed property: name of a declaration and of the property."""
@@ -153,4 +154,4 @@ def node_text(node: Documented) -> str:
 
 def doc_comment(doc: str) -> str:
     """Doc comment with the given text."""
-    return "\n".join(f"/// {line}".rstrip() for line in doc.split("\n"))
+    return "\n".join(lines_of_doc(doc))

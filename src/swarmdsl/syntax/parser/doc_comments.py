@@ -11,6 +11,8 @@ from swarmdsl.syntax.parser.literals import escape_faults
 
 # An unclosed string ends with its line, an unclosed comment with the file.
 _TOKEN = r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*(?P<closed>")?|//[^\n]*|/\*(?s:.*?)(?:\*/|\Z)'
+CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
+"""What a file cannot contain: control characters, and what XML cannot contain (XML 1.0, 2.2)."""
 _DOC_LINE = re.compile(r"///(?!/)")
 _BLANK = re.compile(r"(?:\s+|//(?!/(?!/))[^\n]*|/\*(?s:.*?)\*/)*")
 
@@ -100,6 +102,15 @@ def _scan_tokens(source: Source, comments: DocCommentCollector) -> None:
                 comments.quoted(*token.span())
         elif written.startswith("///"):
             comments.comment(*token.span())
+
+
+def doc_comment(text: str) -> list[str]:
+    """Return documentation as lines of a file, none if it is empty.
+
+    A carriage return ends a line of a file, and a control character is not allowed in one.
+    """
+    lines = re.split("\r\n|[\r\n]", CONTROL.sub(" ", text)) if text else []
+    return [f"/// {line}".rstrip() for line in lines]
 
 
 def is_first_on_line(text: str, offset: int) -> bool:

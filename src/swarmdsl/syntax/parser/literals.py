@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable, Iterator
 from math import isinf
 
@@ -15,6 +16,8 @@ _LARGEST, _LONGEST = 2**64 - 1, 2**63 - 1
 _ESCAPE = re.compile(r"\\(?:u([0-9A-Fa-f]{4})|U([0-9A-Fa-f]{8})|([^\n]))")
 # Python takes long to convert longer ones.
 _MOST_DIGITS = 400
+# What no output in XML can contain (XML 1.0, 2.2).
+_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _ESCAPED = {'"': '"', "\\": "\\", "n": "\n", "r": "\r", "t": "\t"}
 _AS_ESCAPE = {character: f"\\{letter}" for letter, character in _ESCAPED.items()}
 
@@ -44,6 +47,8 @@ def quoted(text: str) -> str:
     """
     if text.isprintable() and '"' not in text and "\\" not in text:
         return f'"{text}"'
+    if forbidden := forbidden_character(text):
+        raise ValueError(f"a string cannot contain {forbidden}")
     return f'"{"".join(map(_as_escape, text))}"'
 
 
@@ -51,7 +56,7 @@ def escape_faults(text: str, start: int, end: int) -> Iterator[tuple[int, int, s
     """Yield the start and end of wrong escapes in a piece of text, a message and a hint."""
     for found in _ESCAPE.finditer(text, start, end):
         code = found[1] or found[2]
-        if code and not is_text(int(code, 16)):
+        if code and _character(code) is None:
             reason = f"a string cannot contain U+{int(code, 16):04X}"
             yield *found.span(), reason, "remove it: XML cannot contain it"
         elif found[3] in ("u", "U"):
@@ -63,28 +68,31 @@ def escape_faults(text: str, start: int, end: int) -> Iterator[tuple[int, int, s
             yield *found.span(), reason, "write `\\\\` for `\\`"
 
 
-def is_text(code: int) -> bool:
-    """Return True for a code point that every output can contain: a `Char` of XML 1.0."""
-    if code < 0x20:
-        return code in (0x09, 0x0A, 0x0D)
-    return code < 0xD800 or 0xE000 <= code < 0xFFFE or 0x10000 <= code <= 0x10FFFF
+def forbidden_character(text: str) -> str | None:
+    """Return the first character that no string can contain, as `U+0007`; None without one."""
+    found = _FORBIDDEN.search(text)
+    return f"U+{ord(found[0]):04X}" if found else None
+
+
+def _character(digits: str) -> str | None:
+    """Return the character with a hexadecimal number; None if no string can contain it."""
+    code = int(digits, 16)
+    return chr(code) if code <= sys.maxunicode and not _FORBIDDEN.match(chr(code)) else None
 
 
 def _escaped(found: re.Match[str]) -> str:
     code = found[1] or found[2]
     if code:
-        return chr(int(code, 16)) if is_text(int(code, 16)) else "\N{REPLACEMENT CHARACTER}"
+        return _character(code) or "\N{REPLACEMENT CHARACTER}"
     return _ESCAPED.get(found[3], found[3])
 
 
 def _as_escape(character: str) -> str:
-    code = ord(character)
-    if not is_text(code):
-        raise ValueError(f"a string cannot contain U+{code:04X}")
     if character in _AS_ESCAPE:
         return _AS_ESCAPE[character]
     if character.isprintable():
         return character
+    code = ord(character)
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
 
 
