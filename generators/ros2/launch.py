@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.codegen import Diagnostics, Span, dataclass, fresh, snake_case
+from swarmdsl.codegen.ros import yaml_key, yaml_value
 from swarmdsl.codegen.shared import (
     Remaps,
     Value,
@@ -128,7 +128,9 @@ def configuration(nodes: Iterable[LaunchedNode], head: Iterable[str]) -> str:
     lines = [f"# {line}".rstrip() for line in head]
     for node in nodes:
         lines += [f"/**/{node.name}:", "  ros__parameters:"]
-        lines += [f"    {name}: {json.dumps(value)}" for name, value in node.values.items()]
+        lines += [
+            f"    {yaml_key(name)}: {yaml_value(value)}" for name, value in node.values.items()
+        ]
         if not node.values:
             lines[-1] += " {}"
     return "".join(f"{line}\n" for line in lines)

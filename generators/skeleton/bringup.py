@@ -14,6 +14,7 @@ from swarmdsl.codegen import (
     snake_case,
 )
 from swarmdsl.codegen.python import comment_lines, file_name
+from swarmdsl.codegen.ros import yaml_value
 from swarmdsl.codegen.shared import (
     Remaps,
     Wiring,
@@ -29,7 +30,6 @@ from .names import TARGET
 from .nodes import Node
 from .packages import Packages
 from .settings import value_of
-from .view import in_yaml
 
 
 @dataclass(frozen=True)
@@ -144,7 +144,7 @@ def _started(part: Part, node: Node, wired: Wiring, ros: int, report: Diagnostic
             continue
         value = value_of(expression, settings[name].type, known, ros, report)
         if value is not None:
-            values.append((name, in_yaml(value)))
+            values.append((name, yaml_value(value)))
     return Started(
         part.name,
         node.package,

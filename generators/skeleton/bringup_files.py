@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from lxml import etree
 
 from swarmdsl.codegen import OutputFile, member_pictures
-from swarmdsl.codegen.ros import manifest
+from swarmdsl.codegen.ros import manifest, yaml_key
 from swarmdsl.codegen.xml_tree import Places, add_comment, document
 from swarmdsl.ir import System
 
@@ -99,7 +99,9 @@ def _values(robot: Robot, made: Bringup, ros2: bool) -> str:
     lines = [f"# {made.header}", f"# Params of the parts of every {robot.member}."]
     for node in robot.nodes:
         if node.values:
-            lines += [f"/**/{node.name}:", "  ros__parameters:"] if ros2 else [f"{node.name}:"]
+            lines += (
+                [f"/**/{node.name}:", "  ros__parameters:"] if ros2 else [f"{yaml_key(node.name)}:"]
+            )
             indent = "    " if ros2 else "  "
-            lines += [f"{indent}{name}: {value}" for name, value in node.values]
+            lines += [f"{indent}{yaml_key(name)}: {value}" for name, value in node.values]
     return "".join(f"{line}\n" for line in lines)

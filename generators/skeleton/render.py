@@ -9,8 +9,15 @@ from functools import cache
 from pathlib import Path
 
 from swarmdsl.codegen import Diagnostics, OutputFile, Templates, dataclass, fits, listed
+from swarmdsl.codegen.cpp import comment_line
 from swarmdsl.codegen.python import docstring
-from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_path, manifest
+from swarmdsl.codegen.ros import (
+    InterfacePackage,
+    definition_files,
+    interface_path,
+    manifest,
+    yaml_key,
+)
 from swarmdsl.codegen.xml import legal
 from swarmdsl.ir import System
 
@@ -256,8 +263,10 @@ def _fill(template: str, **values: object) -> str:
 @cache
 def _templates() -> Templates:
     folder = Path(__file__).parent / "templates"
-    return Templates(folder, docstring=docstring, xml_comment=_xml_comment)
+    filters = (comment_line, docstring, xml_comment, yaml_key)
+    return Templates(folder, **{each.__name__: each for each in filters})
 
 
-def _xml_comment(text: str) -> str:
+def xml_comment(text: str) -> str:
+    """Return a text that a comment of XML can hold."""
     return re.sub("-(?=-)", "- ", legal(text))

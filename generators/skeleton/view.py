@@ -5,12 +5,11 @@ Names are `TracedStr`: their lines are traced to the declarations in the model.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 
 from swarmdsl.codegen import Span, TracedStr, dataclass
 from swarmdsl.codegen.python import comment_lines, comments, file_name
-from swarmdsl.codegen.ros import interface_parts
+from swarmdsl.codegen.ros import interface_parts, yaml_value
 from swarmdsl.ir import DURATION, Action, Field, Service, System
 
 from .languages import Language
@@ -271,7 +270,7 @@ def _setting(setting: Setting, language: Language) -> SettingView:
         type=language.setting_type(type_),
         default="" if value is None else language.value(value, type_),
         zero=language.zero(type_),
-        yaml="" if value is None else in_yaml(value),
+        yaml="" if value is None else yaml_value(value),
         said=f"{type_}{unit}",
         about=about,
         about_literal=language.literal(about),
@@ -279,11 +278,3 @@ def _setting(setting: Setting, language: Language) -> SettingView:
         example=language.example(type_),
         comments=(*comments(setting.origin, setting.doc), *(("In seconds.",) if unit else ())),
     )
-
-
-def in_yaml(value: object) -> str:
-    """Return a value in YAML 1.1, where a real number has a point."""
-    if isinstance(value, float):
-        text = repr(value)
-        return text.replace("e", ".0e") if "e" in text and "." not in text else text
-    return json.dumps(value, ensure_ascii=False)

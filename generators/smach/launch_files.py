@@ -39,8 +39,9 @@ def launch_files(package: PackageView) -> Iterator[OutputFile]:
         world = world_file(fleet) if package.simulation else None
         if world is not None:
             path = f"{root}/launch/{fleet.name}_simulation.launch"
-            yield OutputFile(path, simulation_launch(fleet, world, name))
-            yield OutputFile(f"{root}/world/{world}", _world(fleet), keep=True)
+            at = fleet.environment.origin if fleet.environment is not None else None
+            yield OutputFile(path, simulation_launch(fleet, world, name), origin=fleet.swarm.origin)
+            yield OutputFile(f"{root}/world/{world}", _world(fleet), keep=True, origin=at)
     yield OutputFile(f"{root}/test/machines.test", test_launch(package.robots, name))
 
 

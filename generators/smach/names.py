@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.codegen import Diagnostics, fresh, is_python_name, snake_case
+from swarmdsl.codegen import Diagnostics, fresh, is_python_name, snake_case, stays_inside
 from swarmdsl.codegen.ros import PackageNames
-from swarmdsl.ir import Action, Event, Param, StateMachine, Variable
+from swarmdsl.ir import Action, Environment, Event, Param, StateMachine, Variable
 
 from .module import TARGET
 
@@ -49,6 +49,13 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
                 param.origin,
             )
     NAMES.check_callbacks(machine, report)
+
+
+def check_world(environment: Environment, file: str, report: Diagnostics) -> None:
+    """Check the name of a file that launch files name, in which `$(` begins a substitution."""
+    if not file.isprintable() or not stays_inside(file) or "$(" in file:
+        hint = "use letters, digits, `_`, `-` and `.`"
+        NAMES.bad(report, file, "the name of a world file", environment.origin, help=hint)
 
 
 def check_keys(machine: StateMachine, report: Diagnostics) -> None:

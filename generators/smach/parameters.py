@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable
 
 from swarmdsl.codegen.python import comment_lines
+from swarmdsl.codegen.ros import yaml_key, yaml_value
 from swarmdsl.codegen.shared import BehaviorNode, ParamValue, Value
 
 from .robots import Fleet, Robot
@@ -15,7 +15,7 @@ def node_params(nodes: Iterable[BehaviorNode], header: str, about: str) -> str:
     """Return the parameter file of a robot type, a role or a robot, with the model's values."""
     lines = [f"# {header}", f"# {about}"]
     for node in nodes:
-        lines += ["", f"{node.name}:" if node.params else f"# {node.name} has no params."]
+        lines += ["", f"{yaml_key(node.name)}:" if node.params else f"# {node.name} has no params."]
         for given in node.params:
             lines += [f"  # {line}".rstrip() for line in comment_lines(given.param.doc)]
             lines.append(_line(given))
@@ -31,8 +31,10 @@ def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
         "# Once you have edited this file, it is yours.",
     ]
     for node in robot.nodes:
-        lines += ["#", f"# {node.name}:"]
-        lines += [f"#   {given.param.name}: {_text(given.value)}" for given in node.params]
+        lines += ["#", f"# {yaml_key(node.name)}:"]
+        lines += [
+            f"#   {yaml_key(given.param.name)}: {_text(given.value)}" for given in node.params
+        ]
         lines.append("#   introspection: true")
     return "\n".join(lines) + "\n"
 
@@ -40,13 +42,8 @@ def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
 def _line(given: ParamValue) -> str:
     if given.value is None:
         return f"  # {given.param.name}: requires a value of type {given.param.type}"
-    return f"  {given.param.name}: {_text(given.value)}"
+    return f"  {yaml_key(given.param.name)}: {_text(given.value)}"
 
 
 def _text(value: Value | None) -> str:
-    """Return a value in YAML 1.1, where a number with an exponent needs a point."""
-    text = json.dumps(value) if value is not None else "..."
-    number, exponent, power = text.partition("e")
-    if isinstance(value, float) and exponent and "." not in number:
-        return f"{number}.0e{power}"
-    return text
+    return yaml_value(value) if value is not None else "..."

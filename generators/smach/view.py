@@ -181,6 +181,12 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         *([("exec_depend", "gazebo_ros")] if made and options.simulation else []),
         *(("exec_depend", each) for each in bringup if options.components),
     ]
+    started = tuple(fleets(system, made, report))
+    for fleet in started if options.simulation else ():
+        if fleet.environment is not None and (file := world_file(fleet)):
+            names.check_world(fleet.environment, file, report)
+    if report.has_errors:
+        return None
     needs = third_party_packages((type_ for type_, _ in used), interfaces, system)
     return PackageView(
         name=name,
@@ -198,7 +204,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         described=tuple(each for each in needs if is_fully_described(system, each)),
         timeouts=options.timeouts,
         robots=tuple(made),
-        fleets=tuple(fleets(system, made, report)),
+        fleets=started,
         simulation=options.simulation,
     )
 

@@ -18,8 +18,11 @@ from .conftest import MODEL, drawn_of, system_of
 
 GOLDEN = Path(__file__).parent / "golden"
 # How each format writes characters that mean something to it.
-_ESCAPES: dict[str, Callable[[str], str]] = {
-    "dot": lambda text: html.unescape(re.sub(r"\\(.)", r"\1", text)),
+ESCAPES: dict[str, Callable[[str], str]] = {
+    # A backslash is one in a label of HTML.
+    "dot": lambda text: html.unescape(
+        re.sub(r'"(?:[^"\\]|\\.)*"', lambda found: re.sub(r"\\(.)", r"\1", found[0]), text)
+    ),
     "mermaid": lambda text: re.sub(
         r"#(\w+);",
         lambda found: chr(int(found[1])) if found[1].isdigit() else html.unescape(f"&{found[1]};"),
@@ -43,11 +46,11 @@ def told(diagram: Diagram) -> Iterator[str]:
         yield from edge.label
 
 
-@pytest.mark.parametrize("format_", sorted(_ESCAPES))
+@pytest.mark.parametrize("format_", sorted(ESCAPES))
 def test_every_format_says_everything(drawn: tuple[Diagram, ...], format_: str) -> None:
     assert drawn
     for diagram in drawn:
-        text = _ESCAPES[format_](FORMATS[format_](diagram))
+        text = ESCAPES[format_](FORMATS[format_](diagram))
         bare = "".join(text.split())
         assert [what for what in told(diagram) if "".join(what.split()) not in bare] == []
 

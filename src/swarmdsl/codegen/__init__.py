@@ -34,6 +34,9 @@ if TYPE_CHECKING:
         fields_of,
         replace,
     )
+    from swarmdsl.base.relative_paths import (
+        stays_inside,
+    )
     from swarmdsl.base.source import (
         Span,
     )
@@ -91,6 +94,7 @@ else:
                 "camel_case fresh incoming_topic is_python_name is_ros_package_name snake_case"
             ),
             "swarmdsl.base.records": "dataclass field fields_of replace",
+            "swarmdsl.base.relative_paths": "stays_inside",
             "swarmdsl.base.source": "Span",
             "swarmdsl.base.suggest": "suggest",
             "swarmdsl.codegen.api": (
@@ -146,6 +150,7 @@ __all__ = [
     "python_literal",
     "replace",
     "snake_case",
+    "stays_inside",
     "suggest",
     "translate",
 ]

@@ -39,6 +39,11 @@ def dialect(variable: Callable[[str], str], param: Callable[[str], str], event: 
     )
 
 
+def comment_line(text: str) -> str:
+    """Return a line that can end a comment: one that ends in a backslash would go on."""
+    return f"{text} ." if text.endswith(("\\", "??/")) else text
+
+
 def literal(value: Literal) -> str:
     """Return a C++ literal; durations in seconds, as in `ros::Duration`."""
     if value.type == DURATION:

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import NamedTuple
 
+from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.source_map import TracedStr
 
 WIDTH = 100
 _STEP = "    "
+# In a comment on the first two lines of a module, it names the encoding (PEP 263).
+_ENCODING = re.compile("(?<=coding)[:=]")
 
 
 @dataclass(frozen=True)
@@ -140,4 +144,5 @@ def file_name(origin: Span) -> str:
 
 @cache
 def _last_name(path: str) -> str:
-    return " ".join(path.replace("\\", "/").rsplit("/", 1)[-1].split())
+    name = " ".join(path.replace("\\", "/").rsplit("/", 1)[-1].split())
+    return _ENCODING.sub("_", printable(name))

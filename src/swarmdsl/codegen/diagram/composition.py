@@ -9,6 +9,7 @@ from swarmdsl import ir
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
 from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.codegen.swarm_printer.layout import quoted
 
 
 def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
@@ -131,7 +132,7 @@ def _flows(roles: list[_Role], system: ir.System) -> Iterator[Edge]:
 def _environment(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edge]]:
     for each in system.environments:
         if each.name == swarm.environment:
-            lines = [f'world "{each.world}"'] if each.world is not None else []
+            lines = [f"world {quoted(each.world)}"] if each.world is not None else []
             if each.size is not None:
                 lines.append("size " + " x ".join(f"{side:g} m" for side in each.size))
             yield _around(swarm, "environment", each, _groups(lines))

@@ -17,6 +17,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.xml_writer import legal
 from swarmdsl.codegen.api import Generator, OutputFile, option
 from swarmdsl.codegen.exchange.search_space import behaviour_package
+from swarmdsl.codegen.ros.package import package_fault
 from swarmdsl.codegen.shared.constants import Value
 from swarmdsl.codegen.shared.nodes import ParamValue, behavior_nodes
 from swarmdsl.codegen.xml_tree import add_comment, document
@@ -28,7 +29,11 @@ from swarmdsl.syntax.types import INTEGERS, Primitive
 class Options:
     """Options of target `composition`."""
 
-    package: str = option("", "ROS package with the behaviours; that of target smach if empty")
+    package: str = option(
+        "",
+        "ROS package with the behaviours; that of target smach if empty",
+        check=package_fault,
+    )
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
@@ -99,18 +104,26 @@ def _add_params(
 ) -> None:
     """Add the params with a value that is known at compile time."""
     for given in params:
-        if isinstance(given.value, str) and "$(" in given.value:
+        fault = _fault(given.value) if isinstance(given.value, str) else ""
+        if fault:
             report.report(
                 "no-place",
                 given.expression.origin if given.expression is not None else None,
                 target="composition",
                 what=f"the value of `{given.param.name}`",
-                notes=("`$(` begins a substitution in a launch file",),
+                notes=(fault,),
             )
         elif given.value is not None:
             type_, text = _kind(given.param.type), _text(given.value)
             attributes = {"name": given.param.name, "type": type_, "value": text, **condition}
             etree.SubElement(node, "param", attributes)
+
+
+def _fault(text: str) -> str:
+    """Return the reason why a launch file changes a string, or nothing."""
+    if "$(" in text:
+        return "`$(` begins a substitution in a launch file"
+    return "roslaunch removes the blanks around a value" if text != text.strip() else ""
 
 
 def _kind(type_: Type) -> str:
@@ -122,7 +135,7 @@ def _kind(type_: Type) -> str:
 
 
 def _text(value: Value) -> str:
-    return str(value).lower() if isinstance(value, bool) else legal(str(value))
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 generator = Generator(

@@ -25,6 +25,7 @@ from swarmdsl.codegen.exchange.search_space import (
     number,
     search_parameters,
 )
+from swarmdsl.codegen.ros.package import package_fault
 from swarmdsl.ir import Optimization, System
 
 _OPERATOR = {
@@ -64,7 +65,11 @@ def _fitness_fault(value: str) -> str | None:
 class Options:
     """Options of target `frevo`."""
 
-    package: str = option("", "ROS package with the behaviours; that of target smach if empty")
+    package: str = option(
+        "",
+        "ROS package with the behaviours; that of target smach if empty",
+        check=package_fault,
+    )
     candidates: int = option(10, "candidates of a generation", check=_count_fault)
     generations: int = option(
         10, "generations, if the model sets no evaluations", check=_count_fault

@@ -14,6 +14,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.api import Generator, OutputFile, option
 from swarmdsl.codegen.exchange.description import document
 from swarmdsl.codegen.exchange.search_space import search_parameters
+from swarmdsl.codegen.ros.package import package_fault
 from swarmdsl.ir import System
 
 
@@ -22,7 +23,9 @@ class Options:
     """Options of target `parameters`."""
 
     package: str = option(
-        "", "ROS package whose parameter file has the params; that of the behaviours if empty"
+        "",
+        "ROS package whose parameter file has the params; that of the behaviours if empty",
+        check=package_fault,
     )
 
 

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         parameter_value,
         with_parameters,
     )
+    from swarmdsl.codegen.ros.yaml_values import yaml_key, yaml_value
 else:
     from swarmdsl.base.lazy_exports import lazy_exports
 
@@ -53,6 +54,7 @@ else:
             ),
             "swarmdsl.codegen.ros.package_names": "PackageNames",
             "swarmdsl.codegen.ros.parameters": "parameter_value with_parameters",
+            "swarmdsl.codegen.ros.yaml_values": "yaml_key yaml_value",
         },
     )
 
@@ -78,4 +80,6 @@ __all__ = [
     "parameter_value",
     "third_party_packages",
     "with_parameters",
+    "yaml_key",
+    "yaml_value",
 ]

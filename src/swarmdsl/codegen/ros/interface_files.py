@@ -113,7 +113,9 @@ def definition(interface: Interface, ros: Generation, complain: Complain) -> str
 
 
 def _comments(text: str) -> list[str]:
-    return [f"# {line}".rstrip() for line in comment_lines(text)]
+    """Return comments without backslashes: generators of ROS put them unescaped into code."""
+    plain = text.replace("\\", "\N{SET MINUS}")
+    return [f"# {line}".rstrip() for line in comment_lines(plain)]
 
 
 def _constant(declared: Constant, ros: Generation, complain: Complain) -> str:
@@ -124,13 +126,25 @@ def _constant(declared: Constant, ros: Generation, complain: Complain) -> str:
         complain("a constant whose value is not known", declared.origin)
     text = value if isinstance(value, str) else repr(value)
     if isinstance(value, str) and ros == 2:
-        text = '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+        text = '"' + value.replace('"', '\\"') + '"'
     elif isinstance(value, bool) and ros == 2:
         text = str(value).lower()
-    if text != text.strip() or not text.isprintable():
-        # The value ends with the line, and ROS 1 strips blanks around it.
-        complain("a constant with blanks around it or line breaks", declared.origin)
+    if isinstance(value, str):
+        for fault in _text_faults(value, ros):
+            complain(f"a constant with {fault}", declared.origin)
     return f"{_type(declared.type, '', ros, declared.origin, complain)} {declared.name}={text}"
+
+
+def _text_faults(text: str, ros: Generation) -> Iterator[str]:
+    """Yield what a string constant contains that the tools of ROS change or fail at."""
+    if not text.isprintable():
+        yield "line breaks or invisible characters"  # the value ends with the line
+    elif ros == 1 and text != text.strip():
+        yield "blanks around it"
+    if "\\" in text:
+        yield "a backslash"  # which generators of code do not escape
+    if ros == 2 and "#" in text:
+        yield "a `#`"  # begins a comment, in quotes too
 
 
 def _field(field: Field, package: str, ros: Generation, complain: Complain) -> Iterator[str]:

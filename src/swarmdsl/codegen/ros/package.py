@@ -27,6 +27,13 @@ def _email_fault(value: str) -> str | None:
     return None if re.fullmatch(_EMAIL, value) else f"`{value}` is not an e-mail address"
 
 
+def package_fault(value: str) -> str | None:
+    """Return the error in the name of a package, which may be empty, or None."""
+    if not value or is_ros_package_name(value):
+        return None
+    return f"`{value}` is not a valid ROS package name"
+
+
 def packages_fault(value: str) -> str | None:
     """Return the error in comma-separated package names, or None."""
     wrong = [name for name in value.split(",") if value and not is_ros_package_name(name)]
@@ -36,6 +43,8 @@ def packages_fault(value: str) -> str | None:
 def copyright_fault(value: str) -> str | None:
     """Return the error in a copyright (year and holder, or empty), or None."""
     if not value or (re.fullmatch(_COPYRIGHT, value) and value.isprintable()):
+        if re.search("coding[:=]", value):  # PEP 263: Python would take it for the encoding
+            return f"`{value}` names an encoding for Python"
         return None
     return f"`{value}` is not a year and a name, such as `2026 Example Robotics`"
 

@@ -135,7 +135,9 @@ def _label(lines: Iterable[str]) -> str:
 
 
 def _quoted(text: str) -> str:
-    return '"' + " ".join(text.split()).replace("\\", "\\\\").replace('"', '\\"') + '"'
+    # Graphviz reads entities of HTML in every label.
+    escaped = " ".join(text.split()).replace("&", "&amp;")
+    return '"' + escaped.replace("\\", "\\\\").replace('"', '\\"') + '"'
 
 
 def _html(text: str) -> str:

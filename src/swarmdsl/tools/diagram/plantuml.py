@@ -18,8 +18,9 @@ _STEREOTYPES = {
     "deep history": " <<history*>>",
 }
 _ARROWS = {"connector": "-->", "composition": "*--", "association": "--", "flow": "..>"}
-# Markup: single characters, and some only when doubled.
-_MARKUP = re.compile(r'[<>"~\\]|([*_/\-.=\[\]])(?=\1)|(?<=([*_/\-.=\[\]]))\2')
+# Markup, entities, comments, modifiers of fields, and calls of the preprocessor, which can read
+# files and the environment: single characters, and some only when doubled.
+_MARKUP = re.compile(r'[<>"~\\&\'{}%$]|([*_/\-.=\[\]])(?=\1)|(?<=([*_/\-.=\[\]]))\2')
 
 
 def plantuml(diagram: Diagram) -> str:
