@@ -187,8 +187,11 @@ def _name(requirement: str) -> str:
     return requirement[:end]
 
 
+# Without the current folder, whose modules would be run.
 _FIND_MODULES = """
-import importlib.util, json, sys
+import sys
+sys.path = [place for place in sys.path if place]
+import importlib.util, json
 found = {}
 for name in sys.argv[1:]:
     try:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import re
-import subprocess
 from pathlib import Path, PurePosixPath
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.git import run_git
 from swarmdsl.base.records import dataclass
 
 # Sources of a model, and files that configure a project or name a package of interfaces.
@@ -50,7 +51,7 @@ def parse_model(text: str) -> Path | Revision:
 def is_revision(text: str, beside: Path) -> bool:
     """Return True if the git repository of a path has such a revision."""
     git = _Git(beside, Diagnostics())
-    return git.run_line("rev-parse", "--verify", "--quiet", f"{text}^{{commit}}") is not None
+    return git.commit(text) is not None
 
 
 def extract(revision: Revision, folder: Path, report: Diagnostics) -> Path | None:
@@ -63,7 +64,7 @@ def extract(revision: Revision, folder: Path, report: Diagnostics) -> Path | Non
     root = git.run_line("rev-parse", "--show-toplevel")
     if root is None:
         return None
-    commit = git.run_line("rev-parse", "--verify", "--quiet", f"{revision.revision}^{{commit}}")
+    commit = git.commit(revision.revision)
     if commit is None:
         git.fail(revision.revision, "no such revision in git")
         return None
@@ -81,11 +82,26 @@ def extract(revision: Revision, folder: Path, report: Diagnostics) -> Path | Non
     content = git.run("cat-file", "--batch", given="\n".join(files.values()).encode())
     if content is None:
         return None
-    for name, data in zip(files, split_batch(content), strict=True):
-        path = folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(data)
+    contents = split_batch(content)
+    if len(contents) < len(files):
+        git.fail(str(revision), "the repository lacks content of it: fetch it with git first")
+        return None
+    try:
+        for name, data in zip(files, contents, strict=True):
+            _write(folder, name, data)
+    except (OSError, ValueError) as error:
+        git.fail(str(revision), getattr(error, "strerror", None) or str(error))
+        return None
     return folder / inner
+
+
+def _write(folder: Path, name: PurePosixPath, data: bytes) -> None:
+    """Write a file below a folder. Raises OSError, or ValueError if its name leads elsewhere."""
+    path = folder / name
+    if not Path(os.path.normpath(path)).is_relative_to(folder) or ".." in name.parts:
+        raise ValueError(f"its file `{name}` leads out of the repository")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(data)
 
 
 class _Git:
@@ -99,21 +115,27 @@ class _Git:
 
     def run(self, *arguments: str, given: bytes = b"") -> bytes | None:
         """Output of a git command; None if it fails."""
-        command = ["git", "-C", str(self._folder), *arguments]
         try:
-            return subprocess.run(command, input=given, capture_output=True, check=True).stdout
+            done = run_git(self._folder, *arguments, given=given)
         except FileNotFoundError:
             self.fail(str(self._path), "git is not installed")
-        except subprocess.CalledProcessError as error:
-            if error.stderr:
-                message = error.stderr.decode(errors="replace").strip().splitlines()[-1]
-                self.fail(str(self._path), message.removeprefix("fatal: "))
+            return None
+        if done.returncode == 0:
+            return done.stdout
+        if done.stderr:
+            message = done.stderr.decode(errors="replace").strip().splitlines()[-1]
+            self.fail(str(self._path), message.removeprefix("fatal: "))
         return None
 
     def run_line(self, *arguments: str) -> str | None:
         """Output of a git command as one line."""
         found = self.run(*arguments)
         return None if found is None else found.decode(errors="surrogateescape").rstrip("\n")
+
+    def commit(self, revision: str) -> str | None:
+        """Name of the commit of a revision; None if there is none."""
+        words = ("--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}")
+        return self.run_line("rev-parse", *words)
 
     def fail(self, name: str, reason: str) -> None:
         """Report a revision that cannot be read."""
@@ -134,11 +156,14 @@ def list_files(entries: bytes) -> list[tuple[PurePosixPath, str]]:
 
 
 def split_batch(batch: bytes) -> list[bytes]:
-    """Contents of the objects that `git cat-file --batch` prints."""
+    """Contents of the objects that `git cat-file --batch` prints, up to a missing one."""
     found, at = [], 0
     while at < len(batch):
         end = batch.index(b"\n", at)
-        size = int(batch[at:end].split(b" ")[2])
+        about = batch[at:end].split(b" ")
+        if len(about) < 3:  # NAME missing
+            break
+        size = int(about[2])
         found.append(batch[end + 1 : end + 1 + size])
         at = end + size + 2
     return found

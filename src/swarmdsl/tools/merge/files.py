@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-import subprocess
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.git import run_git
 from swarmdsl.base.records import dataclass
 from swarmdsl.project.read_source import decoded, read_bytes
 from swarmdsl.syntax.parse import parse
@@ -69,9 +69,9 @@ def _with_line_ends(content: bytes, text: str) -> bytes:
 
 def _merge_lines(base: Path, ours: Path, theirs: Path) -> Result | None:
     names = ("-L", "ours", "-L", "base", "-L", "theirs")
-    command = ["git", "merge-file", "--stdout", "--quiet", *names, str(ours), str(base)]
+    files = (str(path.absolute()) for path in (ours, base, theirs))
     try:
-        done = subprocess.run([*command, str(theirs)], capture_output=True, check=False)
+        done = run_git(Path(), "merge-file", "--stdout", "--quiet", *names, "--", *files)
     except FileNotFoundError:
         return None
     # The exit code is the number of conflicts, at most 127; larger codes are errors.
