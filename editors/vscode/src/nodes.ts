@@ -2,7 +2,7 @@
 
 import { type ChildProcess, spawn } from "node:child_process";
 import { get } from "node:http";
-import { dirname } from "node:path";
+import { homedir } from "node:os";
 
 import type { Launch } from "./launch.ts";
 import type { Active, Highlights, Moved } from "./highlights.ts";
@@ -33,7 +33,8 @@ export class Nodes implements Highlights {
     this.child = spawn(
       launch.command,
       [...launch.args, "preview", model, "--follow", `ros2:${name}`],
-      { cwd: dirname(model), stdio: ["ignore", "pipe", "pipe"] },
+      // Python would import modules from the folder of the model.
+      { cwd: homedir(), stdio: ["ignore", "pipe", "pipe"] },
     );
     let address: string | undefined;
     const collect = (chunk: string): void => {

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
-import { tmpdir } from "node:os";
+import { homedir, tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 
@@ -14,7 +14,7 @@ const SERVES = `
 const { createServer } = require("node:http");
 const news = [
   { titles: {} },
-  { active: { "uav[0]": ["Höhe"], [process.argv.slice(2).join(" ")]: ["Idle"] } },
+  { active: { "uav[0]": ["Höhe"], [process.argv.slice(2).join(" ") + " in " + process.cwd()]: ["Idle"] } },
   { active: { "uav[0]": null } },
   { taken: { "uav[1]": ["Höhe->0"] }, entered: { "uav[1]": ["Tal"] } },
 ];
@@ -66,7 +66,7 @@ async function followed(script: string, run: (told: Told) => Promise<void>): Pro
 
 test("nodes are followed until disposal", () =>
   followed(SERVES, async ({ nodes, model, next }) => {
-    const line = `preview ${model} --follow ros2:/sar`;
+    const line = `preview ${model} --follow ros2:/sar in ${homedir()}`;
     const nothing = { taken: undefined, entered: undefined };
     assert.deepEqual(await next(), [{ "uav[0]": ["Höhe"], [line]: ["Idle"] }, nothing]);
     assert.deepEqual(await next(), [{ "uav[0]": null }, nothing]);
