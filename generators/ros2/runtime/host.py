@@ -9,8 +9,6 @@ from typing import Any, NamedTuple
 
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType
-from rclpy.logging import LoggingSeverity
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
 from . import engine, parameters
@@ -19,7 +17,7 @@ from .diagnostics import Diagnostics
 from .engine import Event, ExecutionError, Instance, LoopError, Machine, Servers
 from .parameters import Parameter, StartError
 from .topics import Topics
-from .tracing import as_json, Trace
+from .tracing import Output, Trace
 from .values import from_json
 
 # Interfaces on a robot may differ from their descriptions in the model.
@@ -34,9 +32,7 @@ _SETTINGS = (
     Parameter('trace.file', 'string', '', 'Where the trace is written to, as lines of JSON.'),
     Parameter('debug.inject', 'bool', False, 'Whether events are taken from `~/events`.'),
 )
-_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _DEPTH = 100
-_HISTORY = QoSProfile(depth=_DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Behavior(NamedTuple):
@@ -93,7 +89,6 @@ class Host:
         self._calls = {}
         self._instance = None
         self._waiting = []
-        self._file = None
         self._is_configured = False
         self.cancel_timeout = self.server_timeout = 0
         parameters.declare(node, (*_SETTINGS, *behavior.parameters))
@@ -115,8 +110,6 @@ class Host:
         # Timeouts of servers do not depend on a simulated clock.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._alarms = Alarms(node, steady, self._group, self.post)
-        self._state = node.create_publisher(String, '~/state', _LATCHED)
-        self._transitions = node.create_publisher(String, '~/transitions', _HISTORY)
         self._clients = {
             name: function.client(node, self._group)
             for name, function in behavior.functions.items()
@@ -141,11 +134,7 @@ class Host:
         self._servers = Servers()
         self._period = settings['diagnostics.period']
         self._diagnostics = Diagnostics(node, behavior.machine.name, self._member)
-        if settings['trace.file']:
-            try:
-                self._file = open(settings['trace.file'], 'w', encoding='utf-8')
-            except OSError as error:
-                raise StartError(f'the trace cannot be written: {error}') from None
+        self._output = Output(node, behavior.machine.name, self._member, settings['trace.file'])
         self._is_configured = True
         if self._period > 0:
             self.later(self._period, self._tell_in_intervals)
@@ -174,11 +163,7 @@ class Host:
         if self._injected is not None:
             self._node.destroy_subscription(self._injected)
         self._diagnostics.release()
-        self._node.destroy_publisher(self._state)
-        self._node.destroy_publisher(self._transitions)
-        if self._file is not None:
-            self._file.close()
-            self._file = None
+        self._output.release()
 
     # ---- used by calls of functions
 
@@ -249,7 +234,7 @@ class Host:
     def _begin(self):
         data = self._behavior.data(self._values)
         zero = self._delays.now
-        self._trace = Trace(self._member, lambda: self._delays.now - zero, self._tell)
+        self._trace = Trace(self._member, lambda: self._delays.now - zero, self._output.tell)
         self._instance = Instance(
             self._behavior.machine,
             self,
@@ -330,25 +315,3 @@ class Host:
             self.logger.warning(f'no event: {message.data} ({error!r})')
             return
         self._receive(event)
-
-    def _tell(self, line, taken):
-        """Write the effects of an event to the topics, the log and the trace file."""
-        text = as_json(line)
-        self._transitions.publish(String(data=text))
-        if self._file is not None:
-            self._file.write(text + '\n')
-            self._file.flush()
-        if line['entered'] or line['exited'] or line['event'] is None:
-            state = {
-                'machine': self._behavior.machine.name,
-                'member': self._member,
-                'configuration': line['configuration'],
-                'final': self._instance.final,
-            }
-            self._state.publish(String(data=as_json(state)))
-        places = ', '.join(each.origin for each in taken if each.origin)
-        where = ', '.join(line['configuration'])
-        what = line['event'] or 'start'
-        # Not `info`: rclpy inspects the frames of its callers, which takes longer than the rest.
-        said = f'{what} -> {where} ({places})' if places else f'{what} -> {where}'
-        self.logger.log(said, LoggingSeverity.INFO)

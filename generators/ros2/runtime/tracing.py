@@ -2,8 +2,16 @@
 
 import json
 
+from rclpy.logging import LoggingSeverity
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+
 from .engine import Observer
+from .parameters import StartError
 from .values import to_json
+
+_LAST = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_HISTORY = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Trace(Observer):
@@ -45,7 +53,7 @@ class Trace(Observer):
             return
         final = self._instance.final
         line['configuration'] = [final] if final else self._instance.configuration.innermost
-        self._listener(line, self._taken)
+        self._listener(line, self._taken, final)
 
     def received(self, instance, event):
         """Begin a line for a delay or an activity; `begin` does so for other events."""
@@ -86,5 +94,48 @@ class Trace(Observer):
             self._line[key].append(name)
 
 
-as_json = json.JSONEncoder(ensure_ascii=False).encode
-"""Return a line as JSON."""
+class Output:
+    """Writes the lines of a trace to the topics of the node, to its log, and to a file."""
+
+    def __init__(self, node, machine, member, path):
+        self._node = node
+        self._machine = machine
+        self._member = member
+        self._state = node.create_publisher(String, '~/state', _LAST)
+        self._transitions = node.create_publisher(String, '~/transitions', _HISTORY)
+        try:
+            self._file = open(path, 'w', encoding='utf-8') if path else None
+        except OSError as error:
+            raise StartError(f'the trace cannot be written: {error}') from None
+
+    def tell(self, line, taken, final):
+        """Write a line, with the transitions taken and the final state of the machine, if any."""
+        text = _as_json(line)
+        self._transitions.publish(String(data=text))
+        if self._file is not None:
+            self._file.write(text + '\n')
+            self._file.flush()
+        if line['entered'] or line['exited'] or line['event'] is None:
+            state = {
+                'machine': self._machine,
+                'member': self._member,
+                'configuration': line['configuration'],
+                'final': final,
+            }
+            self._state.publish(String(data=_as_json(state)))
+        places = ', '.join(each.origin for each in taken if each.origin)
+        where = ', '.join(line['configuration'])
+        what = line['event'] or 'start'
+        # Not `info`: rclpy inspects the frames of its callers, which takes longer than the rest.
+        said = f'{what} -> {where} ({places})' if places else f'{what} -> {where}'
+        self._node.get_logger().log(said, LoggingSeverity.INFO)
+
+    def release(self):
+        """Destroy the publishers, and close the file."""
+        self._node.destroy_publisher(self._state)
+        self._node.destroy_publisher(self._transitions)
+        if self._file is not None:
+            self._file.close()
+
+
+_as_json = json.JSONEncoder(ensure_ascii=False).encode
