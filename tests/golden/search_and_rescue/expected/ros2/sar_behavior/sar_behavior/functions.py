@@ -3,8 +3,9 @@
 
 from typing import Any, NamedTuple
 
-from action_msgs.msg import GoalStatus
+from action_msgs.msg import GoalStatus, GoalStatusArray
 from rclpy.action import ActionClient
+from rclpy.qos import qos_profile_action_status_default
 
 from .values import SECOND
 
@@ -12,6 +13,11 @@ _LOOK = SECOND // 10
 """Interval of checks for a missing server, in nanoseconds."""
 _WATCH = SECOND // 2
 """Interval of checks that a working server is still there, in nanoseconds."""
+_STATUS = '{}/_action/status'
+"""Topic on which an action server publishes the status of its goals."""
+_RESPONSE = 'rr{}Reply'
+"""Topic of DDS on which a service server publishes its responses."""
+_REPLACED = 'has another server, which does not know of it'
 _OUTCOMES = {
     GoalStatus.STATUS_SUCCEEDED: 'succeeded',
     GoalStatus.STATUS_CANCELED: 'preempted',
@@ -30,7 +36,11 @@ class Action(NamedTuple):
 
     def call(self, host, client, run):
         """Create a call without sending it."""
-        return _ActionCall(host, client, run, self.interface.Goal())
+        return _ActionCall(host, self, client, run, self.interface.Goal())
+
+    def servers(self, node):
+        """Return the servers that are in the graph; one that starts again is another one."""
+        return _ids(node.get_publishers_info_by_topic(_STATUS.format(self.name)))
 
 
 class Service(NamedTuple):
@@ -45,7 +55,16 @@ class Service(NamedTuple):
 
     def call(self, host, client, run):
         """Create a call without sending it."""
-        return _ServiceCall(host, client, run, self.interface.Request())
+        return _ServiceCall(host, self, client, run, self.interface.Request())
+
+    def servers(self, node):
+        """Return the servers that are in the graph; empty if ROS does not run on DDS."""
+        topic = _RESPONSE.format(node.resolve_service_name(self.name))
+        return _ids(node.get_publishers_info_by_topic(topic, no_mangle=True))
+
+
+def _ids(publishers):
+    return frozenset(bytes(each.endpoint_gid) for each in publishers)
 
 
 class _Call:
@@ -55,8 +74,9 @@ class _Call:
     `host` has the clock, the timeouts and the log, and runs the steps of all calls one by one.
     """
 
-    def __init__(self, host, client, run, empty):
+    def __init__(self, host, function, client, run, empty):
         self._host = host
+        self._function = function
         self._client = client
         self._run = run
         self._goal = run.goal if run.goal is not None else empty
@@ -64,6 +84,7 @@ class _Call:
         self._cancelled = False
         self._over = False
         self._missing_since = None
+        self._servers = frozenset()  # those that may know the goal or request
 
     def __str__(self):
         """Return the function and the name of its server."""
@@ -89,6 +110,7 @@ class _Call:
         if self._is_ready():
             self._sent = True
             self._missing_since = None
+            self._servers = self._find_servers()
             self._send()
             self._host.later(_WATCH, self._watch)
         elif not self._is_missing_for_long():
@@ -108,14 +130,17 @@ class _Call:
         self._over = True
 
     def _watch(self):
-        """Check that the server is still there."""
+        """Check that the server is still there, and not another one instead."""
         if self._over:
             return
-        if self._is_ready():
+        if self._is_ready() and self._is_known():
             self._missing_since = None
         elif self._is_missing_for_long():
             return
         self._host.later(_WATCH, self._watch)
+
+    def _find_servers(self):
+        return self._host.servers(self._function)
 
     def _is_missing_for_long(self):
         """Abort the call after the server timeout; return True if it is aborted."""
@@ -124,7 +149,7 @@ class _Call:
             self._missing_since = now
         if now - self._missing_since < self._host.server_timeout:
             return False
-        self._warn('has no server')
+        self._warn(_REPLACED if self._is_ready() else 'has no server')
         self._end('aborted')
         return True
 
@@ -160,9 +185,57 @@ class _ActionCall(_Call):
     """A call of an action server."""
 
     _handle = None
+    _inquiry = None  # a subscription to the status of goals
 
     def _is_ready(self):
         return self._client.server_is_ready()
+
+    def _is_known(self):
+        """
+        Return True; if the servers are not those that the goal was sent to, ask for the goal.
+
+        The middleware keeps a server that was killed in the graph for a while, also beside its
+        successor, which does not know the goal. Every server that is there tells a new
+        subscription the status of its goals, even while it is busy.
+        """
+        if self._handle is not None and self._inquiry is None:
+            servers = self._find_servers()
+            if servers != self._servers:
+                self._inquire(servers)
+        return True
+
+    def _inquire(self, servers):
+        def hear(status):
+            known = [bytes(each.goal_info.goal_id.uuid) for each in status.status_list]
+            if self._inquiry is made and bytes(self._handle.goal_id.uuid) in known:
+                self._servers = servers
+                self._stop_inquiry()
+                self._host.logger.info(f'{self} has other servers, and is still worked on')
+
+        def give_up():
+            if self._inquiry is made:
+                self._warn(_REPLACED)
+                self._stop()  # in case that a server works on it behind a broken network
+                self._end('aborted')
+
+        topic = _STATUS.format(self._function.name)
+        qos = qos_profile_action_status_default
+        made = self._inquiry = self._host.subscribe(GoalStatusArray, topic, hear, qos)
+        self._host.later(self._host.server_timeout, give_up)
+
+    def _stop_inquiry(self):
+        if self._inquiry is not None:
+            self._host.unsubscribe(self._inquiry)
+            self._inquiry = None
+
+    def drop(self):
+        """Ignore the answer of the server."""
+        super().drop()
+        self._stop_inquiry()
+
+    def _end(self, outcome, result=None):
+        self._stop_inquiry()
+        super()._end(outcome, result)
 
     def _send(self):
         self._then(self._client.send_goal_async(self._goal), self._accepted)
@@ -210,6 +283,10 @@ class _ServiceCall(_Call):
 
     def _is_ready(self):
         return self._client.service_is_ready()
+
+    def _is_known(self):
+        """Return True while a server to which the request was sent is in the graph."""
+        return not self._servers or not self._servers.isdisjoint(self._find_servers())
 
     def _send(self):
         self._future = self._client.call_async(self._goal)

@@ -177,6 +177,24 @@ class Host:
         """Call an action after a delay in nanoseconds of the steady clock."""
         self._alarms.schedule(delay, action)
 
+    def servers(self, function):
+        """Return the servers of a function that are in the graph."""
+        return function.servers(self._node)
+
+    def subscribe(self, interface, topic, hear, qos):
+        """Call a function with each message on a topic, when no other action is running."""
+        return self._node.create_subscription(
+            interface,
+            topic,
+            lambda message: self.post(lambda: hear(message)),
+            qos,
+            callback_group=self._group,
+        )
+
+    def unsubscribe(self, subscription):
+        """End a subscription."""
+        self._node.destroy_subscription(subscription)
+
     def warn(self, what):
         """Log a problem with which the machine can continue, and add it to the diagnostics."""
         self.logger.warning(what)
