@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 
+from swarmdsl.analysis.checks.conjunctions import satisfiable
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.guard_satisfiability import condition_of, satisfiable
+from swarmdsl.analysis.checks.guard_satisfiability import condition_of
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.event_topics import event_of, received_topic
 from swarmdsl.analysis.resolve.states import regions
@@ -68,7 +69,7 @@ def _check_assignments(
         for event, transition, effect in found:
             for before, first in earlier.get((_event_key(event), _path(effect)[0]), ()):
                 if _differ(first, effect) and satisfiable(
-                    [condition_of(before, context), condition_of(transition, context)]
+                    condition_of(before, context), condition_of(transition, context)
                 ):
                     context.report.report(
                         "conflicting-effects",

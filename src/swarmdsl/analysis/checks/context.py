@@ -27,6 +27,7 @@ from swarmdsl.syntax.ast import (
     Interface,
     MessageType,
     MonitorTrigger,
+    Node,
     Param,
     StateMachine,
     StructType,
@@ -39,6 +40,7 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.types import Array, Named, Type
 
 A = TypeVar("A")
+N = TypeVar("N", bound=Node)
 
 
 @dataclass(frozen=True)
@@ -72,11 +74,11 @@ class Context:
             self.hierarchies[machine] = StateHierarchy(machine)
         return self.hierarchies[machine]
 
-    def analysis(self, kind: Callable[[StateMachine, Context], A], machine: StateMachine) -> A:
-        """Return the result of an analysis of a machine, computed on first use."""
-        key = (kind, machine)
+    def analysis(self, kind: Callable[[N, Context], A], node: N) -> A:
+        """Return the result of an analysis of a machine or a state, computed on first use."""
+        key = (kind, node)
         if key not in self.analyses:
-            self.analyses[key] = kind(machine, self)
+            self.analyses[key] = kind(node, self)
         result: A = self.analyses[key]
         return result
 

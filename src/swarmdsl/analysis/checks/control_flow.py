@@ -228,7 +228,9 @@ class ControlFlowGraph:
             isinstance(vertex, State)
             and any(
                 transition.guard is None
-                and any(completes_at_once(each, vertex) for each in transition.triggers)
+                and any(
+                    completes_at_once(each, vertex, self._hierarchy) for each in transition.triggers
+                )
                 for transition in self._hierarchy.transitions[vertex]
             )
         )

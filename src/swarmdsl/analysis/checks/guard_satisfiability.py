@@ -1,22 +1,21 @@
-"""Satisfiability of guards: values exist for which several of them hold.
+"""Conditions of guards.
 
 A guard becomes a condition of atoms, joined by `and` and `or`. An atom restricts a term to a
 set of values. A term is an expression that is compared with a constant, or a Boolean of which
-nothing more is known. At one moment a term has one value, the same in all guards.
-"Not satisfiable" is certain; a search that would take too long answers "satisfiable".
+nothing more is known.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable
 from functools import lru_cache
 
+from swarmdsl.analysis.checks.conjunctions import negate, satisfiable
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.facts import ALWAYS, Atom, Combined, Condition
 from swarmdsl.analysis.checks.value_sets import (
     Numbers,
     Strings,
-    Values,
     all_numbers,
     between,
     compared,
@@ -42,8 +41,6 @@ from swarmdsl.syntax.types import INTEGERS, Named, Primitive, Type
 _MIRRORED = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
 _WHOLE = {*INTEGERS, "byte", "char"}
 _TRUE, _TRUE_OR_FALSE = these([1]), these([0, 1])
-# Limit of the search; guards in real models need far fewer steps.
-_MAX_STEPS = 2_000
 
 
 def guard_condition(tree: ExpressionTree, typing: Typing) -> Condition:
@@ -69,13 +66,6 @@ def _condition(tree: ExpressionTree, typing: Typing) -> Condition:
         case OperatorUse(operator=operator, operands=(left, right)) if operator in _MIRRORED:
             return _comparison(str(operator), left, right, typing)
     return _truth(_term(tree, typing.folding))
-
-
-def negate(some: Condition) -> Condition:
-    """Return the negation of a condition."""
-    if isinstance(some, Combined):
-        return Combined(not some.every, tuple(negate(part) for part in some.parts))
-    return Atom(some.term, some.values.complement(), some.range)
 
 
 def condition_of(item: Transition | Branch, context: Context) -> Condition:
@@ -104,53 +94,11 @@ def guard_value(item: Transition | Branch, context: Context) -> bool | None:
         return True
     if item not in context.guard_values:
         holds = condition_of(item, context)
-        if not satisfiable([holds]):
+        if not satisfiable(holds):
             context.guard_values[item] = False
         else:
-            context.guard_values[item] = None if satisfiable([negate(holds)]) else True
+            context.guard_values[item] = None if satisfiable(negate(holds)) else True
     return context.guard_values[item]
-
-
-def satisfiable(conditions: Iterable[Condition]) -> bool:
-    """Return True if values exist for which all conditions hold."""
-    together = list(conditions)
-    if len(together) == 1 and isinstance(together[0], Atom):
-        return together[0].range.meets(together[0].values)  # type: ignore[arg-type]
-    found: dict[Hashable, Values] = {}
-    ahead = [(together, found)]
-    for _ in range(_MAX_STEPS):
-        if not ahead:
-            return False
-        pending, found = ahead.pop()
-        found = dict(found)
-        forks: list[Combined] = []
-        if _hold(pending, found, forks):
-            if not forks:
-                return True
-            first, *others = forks
-            ahead += [([*others, part], found) for part in reversed(first.parts)]
-    return bool(ahead)
-
-
-def _hold(pending: list[Condition], found: dict[Hashable, Values], forks: list[Combined]) -> bool:
-    """Restrict the values in `found` by conditions; return False if a term has none left.
-
-    Disjunctions are added to `forks`.
-    """
-    while pending:
-        part = pending.pop()
-        if isinstance(part, Atom):
-            term = (part.term, type(part.range))
-            # The kind of set is a part of the key, so both sets are of one kind.
-            left = found.get(term, part.range) & part.values  # type: ignore[operator]
-            if not left:
-                return False
-            found[term] = left
-        elif part.every:
-            pending += part.parts
-        else:
-            forks.append(part)
-    return True
 
 
 def _comparison(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_value
-from swarmdsl.analysis.checks.livelock import EventlessSteps, is_idle
+from swarmdsl.analysis.checks.livelock import EventlessSteps
+from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.syntax.ast import Branch, Choice, Parallel, State, StateMachine, Transition, nodes_of
 
 
@@ -14,24 +15,32 @@ def check_guards(machine: StateMachine, context: Context) -> None:
     Guards that make a livelock have been reported as that.
     """
     endless = context.analysis(EventlessSteps, machine).endless
+    hierarchy = context.hierarchy(machine)
     for choice in nodes_of(machine, Choice):
         for branch in choice.branches:
             if branch not in endless:
-                _check(branch, _hint(branch, choice), context)
-    for state, transitions in context.hierarchy(machine).transitions.items():
+                _check(branch, choice, hierarchy, context)
+    for state, transitions in hierarchy.transitions.items():
         for transition in transitions:
             if transition not in endless:
-                _check(transition, _hint(transition, state), context)
+                _check(transition, state, hierarchy, context)
 
 
-def _check(item: Transition | Branch, hint: str, context: Context) -> None:
+def _check(
+    item: Transition | Branch,
+    owner: Choice | State | Parallel,
+    hierarchy: StateHierarchy,
+    context: Context,
+) -> None:
     guard = item.guard
     if guard is None or guard.tree is None:
         return
     holds = guard_value(item, context)
     if holds is None:
         return
-    held, help_ = ("always", hint) if holds else ("never", "remove the transition")
+    held, help_ = "never", "remove the transition"
+    if holds:
+        held, help_ = "always", _hint(item, owner, hierarchy)
     known = context.typing.folding.value(guard.tree) is not None
     context.report.report(
         "constant-guard",
@@ -42,12 +51,14 @@ def _check(item: Transition | Branch, hint: str, context: Context) -> None:
     )
 
 
-def _hint(item: Transition | Branch, owner: Choice | State | Parallel) -> str:
+def _hint(
+    item: Transition | Branch, owner: Choice | State | Parallel, hierarchy: StateHierarchy
+) -> str:
     """Return the replacement of a guard that always holds. Some transitions need a guard."""
     if isinstance(owner, Choice):
         return "write `else` in its place, and nothing after it"
     if isinstance(item, Branch) or item.triggers:
         return "remove the guard"
-    if is_idle(owner) and item.target is not None:
+    if owner in hierarchy.idle and item.target is not None:
         return f"write `on done -> {item.target.name}`: it is taken at once"
     return "give the transition a trigger: the state waits for nothing"

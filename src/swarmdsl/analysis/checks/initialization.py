@@ -80,15 +80,16 @@ def _early_reads(
 ) -> Iterator[tuple[Read, Iterator[Node]]]:
     """Yield the nearest read of each variable that no write precedes, with a path to it.
 
-    The path is reversed. A guard may test a variable that is not `settable`. One breadth-first
-    search propagates the unwritten variables as bits of an integer.
+    The path is reversed, and has the nodes of transitions at least. A guard may test a variable
+    that is not `settable`. One breadth-first search propagates the unwritten variables as bits
+    of an integer.
     """
     bits = {variable: 1 << number for number, variable in enumerate(settable)}
     everything = (1 << len(bits)) - 1
     found: dict[Variable, tuple[Read, Node]] = {}
     # By node: the variables that may be unwritten, those still to propagate, and their origins.
     unset, ahead = {entry: everything}, {entry: everything}
-    came: dict[Node, list[tuple[int, Node]]] = {entry: []}
+    came: dict[Node, dict[Node, int]] = {entry: {}}
     work = deque([entry])
     while work:
         node = work.popleft()
@@ -106,15 +107,24 @@ def _early_reads(
             new &= ~known
             if new:
                 unset[reached] = known | new
-                came.setdefault(reached, []).append((new, node))
+                origins = came.setdefault(reached, {})
+                origins[node] = origins.get(node, 0) | new
                 if reached not in ahead:
                     work.append(reached)
                 ahead[reached] = ahead.get(reached, 0) | new
 
+    # By node without a transition, all paths to which lead through one other node: a node before.
+    jumps: dict[Node, Node] = {}
+
     def path(node: Node | None, bit: int) -> Iterator[Node]:
         while node is not None:
+            passed = []
+            while node.transition is None and len(came[node]) == 1:
+                passed.append(node)
+                node = jumps.get(node) or next(iter(came[node]))
+            jumps.update((each, node) for each in passed)
             yield node
-            node = next((before for some, before in came[node] if some & bit), None)
+            node = next((before for before, some in came[node].items() if some & bit), None)
 
     for variable, bit in bits.items():
         if variable in found:

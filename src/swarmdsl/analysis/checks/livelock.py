@@ -11,7 +11,6 @@ from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.graphs import cycles
 from swarmdsl.syntax.ast import (
-    Activity,
     Branch,
     Choice,
     DoneTrigger,
@@ -41,7 +40,7 @@ class EventlessSteps:
         hierarchy = context.hierarchy(machine)
         self.immediate: dict[State | Parallel, list[Transition]] = {}
         for state, transitions in hierarchy.transitions.items():
-            found = [each for each in transitions if _is_immediate(each, state, context)]
+            found = [each for each in transitions if _is_immediate(each, state, hierarchy, context)]
             if found:
                 self.immediate[state] = found
 
@@ -103,25 +102,18 @@ def _check_internal(
             )
 
 
-def _is_immediate(transition: Transition, state: State | Parallel, context: Context) -> bool:
+def _is_immediate(
+    transition: Transition, state: State | Parallel, hierarchy: StateHierarchy, context: Context
+) -> bool:
     """Return True if a transition is always taken as soon as its state is entered."""
     triggers = transition.triggers
-    at_entry = not triggers or any(completes_at_once(trigger, state) for trigger in triggers)
+    at_entry = not triggers or any(completes_at_once(each, state, hierarchy) for each in triggers)
     return at_entry and guard_value(transition, context) is True
 
 
-def completes_at_once(trigger: Trigger, state: State | Parallel) -> bool:
+def completes_at_once(trigger: Trigger, state: State | Parallel, hierarchy: StateHierarchy) -> bool:
     """Return True for `done` of an idle state, which completes as soon as it is entered."""
-    return isinstance(trigger, DoneTrigger) and trigger.region is None and is_idle(state)
-
-
-def is_idle(state: State | Parallel) -> bool:
-    """Return True if a state has no activity, no states inside and no submachine."""
-    return (
-        isinstance(state, State)
-        and state.machine is None
-        and not any(isinstance(item, (Activity, Vertex)) for item in state.items)
-    )
+    return isinstance(trigger, DoneTrigger) and trigger.region is None and state in hierarchy.idle
 
 
 def _branches(choice: Choice, context: Context) -> Iterator[tuple[Branch, Choice]]:

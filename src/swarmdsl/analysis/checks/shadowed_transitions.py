@@ -9,13 +9,9 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping, Sequence
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.covering import Earlier, Item
 from swarmdsl.analysis.checks.delays import Leaving, check_late, leaves, sooner_one, soonest_of
-from swarmdsl.analysis.checks.guard_satisfiability import (
-    condition_of,
-    guard_value,
-    negate,
-    satisfiable,
-)
+from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.checks.livelock import EventlessSteps, completes_at_once
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.event_topics import event_of, received_topic
@@ -54,7 +50,7 @@ def check_shadowed_transitions(machine: StateMachine, context: Context) -> None:
     for state, transitions in hierarchy.transitions.items():
         alive = transitions
         if state in eventless.immediate:
-            dead = _check_immediate(state, transitions, eventless, context)
+            dead = _check_immediate(state, transitions, eventless, hierarchy, context)
             alive = [each for each in transitions if each not in dead]
         soonest: Sequence[Leaving] = ()
         if has_delays:
@@ -65,7 +61,7 @@ def check_shadowed_transitions(machine: StateMachine, context: Context) -> None:
             first = [each for each in (outer, *soonest[:1]) if each is not None]
             if first:
                 ends[state] = min(first, key=lambda each: each[0])
-        _check_transitions(alive, state, soonest, context)
+        _check_transitions(alive, state, soonest, hierarchy, context)
     for choice in nodes_of(machine, Choice):
         _check_branches(choice, context)
 
@@ -74,6 +70,7 @@ def _check_immediate(
     state: State | Parallel,
     transitions: Sequence[Transition],
     eventless: EventlessSteps,
+    hierarchy: StateHierarchy,
     context: Context,
 ) -> set[Transition]:
     """Report and return the transitions beside the one that a state takes immediately.
@@ -88,7 +85,8 @@ def _check_immediate(
         *(
             t
             for t in before
-            if t.triggers and not any(completes_at_once(each, state) for each in t.triggers)
+            if t.triggers
+            and not any(completes_at_once(each, state, hierarchy) for each in t.triggers)
         ),
         *transitions[len(before) + 1 :],
     ]
@@ -109,17 +107,19 @@ def _check_transitions(
     transitions: Sequence[Transition],
     state: State | Parallel,
     soonest: Sequence[Leaving],
+    hierarchy: StateHierarchy,
     context: Context,
 ) -> None:
     if len(transitions) == 1 and len(transitions[0].triggers) < 2:
         return  # nothing to compare it with
-    earlier: dict[Hashable, list[Transition]] = {}
+    earlier: dict[Hashable, Earlier] = {}
     for transition in transitions:
-        keys = [_keys(trigger, state) for trigger in transition.triggers] or [[_AT_ONCE]]
+        triggers = transition.triggers
+        keys = [_keys(trigger, state, hierarchy) for trigger in triggers] or [[_AT_ONCE]]
         if len(keys) > 1:
             _check_repeated(transition.triggers, keys, context)
         blockers = [
-            _covering(transition, _all(earlier, each), context) if earlier else [] for each in keys
+            _all(earlier, each).covering(transition, context) if earlier else [] for each in keys
         ]
         if soonest:
             for number, trigger in enumerate(transition.triggers):
@@ -130,7 +130,7 @@ def _check_transitions(
         elif not _decided(transition, context):
             for each in filter(None, keys):
                 key = each[0]
-                found = earlier.setdefault(key, [])
+                found = earlier.setdefault(key, Earlier()).items
                 few = len(found) < _MAX_COMPARED or transition.guard is None
                 if few and (key[0] != "after" or leaves(transition)):
                     found.append(transition)
@@ -156,7 +156,7 @@ def _check_repeated(
 
 
 def _check_branches(choice: Choice, context: Context) -> None:
-    earlier: list[Branch] = []
+    earlier = Earlier()
     last: Branch | None = None
     for branch in choice.branches:
         if last is not None:
@@ -167,52 +167,21 @@ def _check_branches(choice: Choice, context: Context) -> None:
                 help="`else` comes last",
             )
             continue
-        blockers = _covering(branch, earlier, context)
+        blockers = earlier.covering(branch, context)
         if blockers:
             _report(branch, blockers, context)
         elif branch.otherwise:
             last = branch
-        elif len(earlier) < _MAX_COMPARED and not _decided(branch, context):
-            earlier.append(branch)
+        elif len(earlier.items) < _MAX_COMPARED and not _decided(branch, context):
+            earlier.items.append(branch)
 
 
-def _decided(item: Transition | Branch, context: Context) -> bool:
+def _decided(item: Item, context: Context) -> bool:
     """Return True for a guard that always or never holds, which is reported elsewhere."""
     return item.guard is not None and guard_value(item, context) is not None
 
 
-def _covering(
-    item: Transition | Branch, earlier: Sequence[Transition | Branch], context: Context
-) -> list[Transition | Branch]:
-    """Return a subset of the earlier items of which one is taken whenever `item` could be.
-
-    An item without a guard is covered only by another one without a guard.
-    """
-    plain = [before for before in earlier if before.guard is None and isinstance(item, Transition)]
-    if plain or item.guard is None:
-        return list(plain[:1])
-    if guard_value(item, context) is False:
-        return []
-    # The last condition is tested first: the own guard leaves the fewest values.
-    holds = condition_of(item, context)
-    passed = {before: negate(condition_of(before, context)) for before in earlier}
-    if not passed:
-        return []
-    for before, condition in passed.items():
-        if not satisfiable([condition, holds]):
-            return [before]
-    if satisfiable([*passed.values(), holds]):
-        return []
-    for before in earlier:
-        others = [condition for each, condition in passed.items() if each is not before]
-        if not satisfiable([*others, holds]):
-            del passed[before]
-    return list(passed)
-
-
-def _report(
-    item: Transition | Branch, blockers: Sequence[Transition | Branch], context: Context
-) -> None:
+def _report(item: Item, blockers: Sequence[Item], context: Context) -> None:
     guards = [blocker.guard for blocker in blockers if blocker.guard is not None]
     if not guards:
         related = [Label(blockers[0].span, "this one is always taken first")]
@@ -235,16 +204,19 @@ def _words(text: str) -> str:
     return "".join(text.split())
 
 
-def _all(
-    earlier: Mapping[Hashable, list[Transition]], keys: list[tuple[Hashable, ...]]
-) -> list[Transition]:
-    found = {transition: None for key in keys for transition in earlier.get(key, ())}
-    return sorted(found, key=lambda transition: transition.span.start) if found else []
+def _all(earlier: Mapping[Hashable, Earlier], keys: list[tuple[Hashable, ...]]) -> Earlier:
+    groups = [earlier[key] for key in keys if key in earlier]
+    if len(groups) == 1:
+        return groups[0]
+    found = {transition: None for group in groups for transition in group.items}
+    return Earlier(sorted(found, key=lambda transition: transition.span.start))
 
 
-def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...]]:
+def _keys(
+    trigger: Trigger, state: State | Parallel, hierarchy: StateHierarchy
+) -> list[tuple[Hashable, ...]]:
     """Keys of a trigger: its own, then those of more general triggers that cover it."""
-    if completes_at_once(trigger, state):
+    if completes_at_once(trigger, state, hierarchy):
         return [_AT_ONCE]
     match trigger:
         case EventTrigger() | MonitorTrigger():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from swarmdsl.syntax.ast import (
+    Activity,
     Choice,
     Container,
     FinalState,
@@ -23,13 +24,15 @@ class StateHierarchy:
     """States, regions, initial states and transitions of a machine, in document order.
 
     `vertices` are all possible targets of transitions. `children` are the vertices directly
-    in a container; those of a parallel state are its regions.
+    in a container; those of a parallel state are its regions. `idle` are the states without
+    activity, states inside and submachine: they complete as soon as they are entered.
     """
 
     def __init__(self, machine: StateMachine) -> None:
         self.machine = machine
         self.vertices: list[Vertex] = []
         self.states: list[State | Parallel] = []
+        self.idle: set[State | Parallel] = set()
         self.transitions: dict[State | Parallel, Sequence[Transition]] = {}
         self.children: dict[Container, Sequence[Vertex | Region]] = {}
         self.initials: dict[Container, Sequence[Initial]] = {}
@@ -49,11 +52,14 @@ class StateHierarchy:
         transitions: list[Transition] = []
         initials: list[Initial] = []
         inside: list[Vertex | Region] = []
+        has_activity = False
         for item in container.items:
             if isinstance(item, Transition):
                 transitions.append(item)
             elif isinstance(item, Initial):
                 initials.append(item)
+            elif isinstance(item, Activity):
+                has_activity = True
             elif isinstance(item, (State, FinalState, Choice, Region, Parallel, History)):
                 inside.append(item)
                 self.parent[item] = container
@@ -63,6 +69,8 @@ class StateHierarchy:
         if isinstance(container, (State, Parallel)):
             self.states.append(container)
             self.transitions[container] = transitions
+        if isinstance(container, State) and not (container.machine or inside or has_activity):
+            self.idle.add(container)
 
     def ancestors(self, inside: Vertex | Region) -> Iterator[Container]:
         """Yield the containers of a state or a region, the innermost first, the machine last."""

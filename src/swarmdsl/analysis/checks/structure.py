@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from swarmdsl.analysis.checks.conjunctions import negate, satisfiable
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.guard_satisfiability import condition_of, negate, satisfiable
+from swarmdsl.analysis.checks.guard_satisfiability import condition_of
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.resolve.states import all_resolved, content, regions
 from swarmdsl.base.diagnostics.collector import Label
@@ -178,7 +179,7 @@ def _check_choice(choice: Choice, context: Context) -> None:
     """Check that a choice has `else` or guards of which one always holds."""
     conditions = [condition_of(branch, context) for branch in choice.branches]
     otherwise = any(branch.otherwise for branch in choice.branches)
-    if not otherwise and satisfiable(negate(each) for each in conditions):
+    if not otherwise and satisfiable(*map(negate, conditions)):
         context.report.report(
             "choice-without-else",
             choice.name.span,
@@ -192,6 +193,10 @@ def completes(state: Container, context: Context) -> bool:
 
     Also return True for unresolved targets and unparsed text, which may be final states.
     """
+    return context.analysis(_completes, state)
+
+
+def _completes(state: Container, context: Context) -> bool:
     if isinstance(state, Parallel):
         return all(completes(region, context) for region in regions(state))
     inside = content(state)

@@ -8,6 +8,8 @@ error that a check reports.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+from functools import cache
 from typing import TypeVar
 
 from swarmdsl.analysis.resolve.report_unresolved import (
@@ -41,103 +43,109 @@ V = TypeVar("V", bound=Vertex | Region)
 
 def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -> None:
     """Resolve the references between the states of a machine."""
-    _link_container(machine, (), (), scope, report)
+    _MachineLinker(scope, report).link(machine, (), ())
 
 
-def _link_container(
-    container: Container,
-    outer: tuple[Level, ...],
-    beside: tuple[Level, ...],
-    scope: FileScope,
-    report: Diagnostics,
-) -> None:
-    """Link the contents of a container.
+class _MachineLinker:
+    """Links one machine. What is inside a container is looked up in it once, and kept."""
 
-    `outer` are the levels around it, the nearest first, `beside` the levels of all regions of
-    the parallel states around it.
-    """
-    inside = states_by_name(container)
-    for item in container.items:
-        match item:
-            case Transition():
-                assert isinstance(container, (State, Parallel))
-                if item.target is not None:
-                    _link_vertex(item.target, (*outer, inside, *beside), scope, report)
-                for trigger in item.triggers:
-                    if isinstance(trigger, DoneTrigger):
-                        _link_done(trigger, container, scope, report)
-            case Initial() if inside or not isinstance(container, State):
-                # A check reports an initial state in a state without states.
-                _link_inside(item, container, inside, (*outer, *beside), scope, report)
-            case Choice():
-                for branch in item.branches:
-                    _link_vertex(branch.target, (inside, *outer, *beside), scope, report)
-            case History():
-                _link_inside(item, container, inside, (*outer, *beside), scope, report)
-            case Region():
-                _link_container(item, outer, (inside, *beside), scope, report)
-            case State() | Parallel():
-                _link_container(item, (inside, *outer), beside, scope, report)
+    def __init__(self, scope: FileScope, report: Diagnostics) -> None:
+        self._scope = scope
+        self._report = report
+        self._level_of = cache(states_by_name)
+        self._regions_of = cache(lambda state: _by_name(regions(state)))
+        self._finals_of = cache(
+            lambda container: _by_name(
+                each for each in vertices(container) if isinstance(each, FinalState)
+            )
+        )
 
+    def link(
+        self, container: Container, outer: tuple[Level, ...], beside: tuple[Level, ...]
+    ) -> None:
+        """Link the contents of a container.
 
-def _link_inside(
-    arrow: Initial | History,
-    container: Container,
-    inside: Level,
-    around: tuple[Level, ...],
-    scope: FileScope,
-    report: Diagnostics,
-) -> None:
-    """Resolve the target of an initial state or a history: a state inside its container."""
-    name = arrow.target.name
-    outside = next((level[name][0] for level in around if name in level), None)
-    if outside is None or name in inside:
-        _link_vertex(arrow.target, (inside,), scope, report)
-        return
-    report_state_outside(arrow, container, outside, report)
+        `outer` are the levels around it, the nearest first, `beside` the levels of all regions
+        of the parallel states around it.
+        """
+        inside = self._level_of(container)
+        for item in container.items:
+            match item:
+                case Transition():
+                    assert isinstance(container, (State, Parallel))
+                    if item.target is not None:
+                        self._link_vertex(item.target, (*outer, inside, *beside))
+                    for trigger in item.triggers:
+                        if isinstance(trigger, DoneTrigger):
+                            self._link_done(trigger, container)
+                case Initial() if inside or not isinstance(container, State):
+                    # A check reports an initial state in a state without states.
+                    self._link_inside(item, container, inside, (*outer, *beside))
+                case Choice():
+                    for branch in item.branches:
+                        self._link_vertex(branch.target, (inside, *outer, *beside))
+                case History():
+                    self._link_inside(item, container, inside, (*outer, *beside))
+                case Region():
+                    self.link(item, outer, (inside, *beside))
+                case State() | Parallel():
+                    self.link(item, (inside, *outer), beside)
 
-
-def _link_vertex(
-    ref: Ref[Vertex], levels: tuple[Level, ...], scope: FileScope, report: Diagnostics
-) -> None:
-    """Resolve a path to a state, its first name in the nearest level that has it."""
-    outer: Vertex | None = None
-    start = ref.span.start
-    for name in ref.name.split("."):
-        if outer is not None:
-            levels = (states_by_name(outer),)
-        found = next((level[name] for level in levels if name in level), ())
-        if len(found) != 1:
-            at = Span(ref.span.source, start, start + len(name))
-            if found:
-                report_ambiguous_state(name, at, found, report)
-            else:
-                report_missing_state(name, at, outer, levels, scope, report)
+    def _link_inside(
+        self,
+        arrow: Initial | History,
+        container: Container,
+        inside: Level,
+        around: tuple[Level, ...],
+    ) -> None:
+        """Resolve the target of an initial state or a history: a state inside its container."""
+        name = arrow.target.name
+        outside = next((level[name][0] for level in around if name in level), None)
+        if outside is None or name in inside:
+            self._link_vertex(arrow.target, (inside,))
             return
-        outer = found[0]
-        start += len(name) + 1
-    ref.target = outer
+        report_state_outside(arrow, container, outside, self._report)
+
+    def _link_vertex(self, ref: Ref[Vertex], levels: tuple[Level, ...]) -> None:
+        """Resolve a path to a state, its first name in the nearest level that has it."""
+        outer: Vertex | None = None
+        start = ref.span.start
+        for name in ref.name.split("."):
+            if outer is not None:
+                levels = (self._level_of(outer),)
+            found = next((level[name] for level in levels if name in level), ())
+            if len(found) != 1:
+                at = Span(ref.span.source, start, start + len(name))
+                if found:
+                    report_ambiguous_state(name, at, found, self._report)
+                else:
+                    report_missing_state(name, at, outer, levels, self._scope, self._report)
+                return
+            outer = found[0]
+            start += len(name) + 1
+        ref.target = outer
+
+    def _link_done(self, trigger: DoneTrigger, owner: State | Parallel) -> None:
+        """Resolve the region and the final state of a `done` trigger."""
+        container = content(owner)
+        if trigger.region is not None:
+            self._link_among(trigger.region, "region", self._regions_of(owner))
+            container = trigger.region.target
+            if container is None:
+                return
+        if trigger.final is not None and container is not None:
+            self._link_among(trigger.final, "final state", self._finals_of(container))
+
+    def _link_among(self, ref: Ref[V], kind: str, candidates: Mapping[str, V]) -> None:
+        ref.target = candidates.get(ref.name)
+        if ref.target is None:
+            names = [*candidates]
+            report_missing_inside(kind, ref.name, ref.span, names, self._scope, self._report)
 
 
-def _link_done(
-    trigger: DoneTrigger, owner: State | Parallel, scope: FileScope, report: Diagnostics
-) -> None:
-    """Resolve the region and the final state of a `done` trigger."""
-    container = content(owner)
-    if trigger.region is not None:
-        _link_among(trigger.region, "region", regions(owner), scope, report)
-        container = trigger.region.target
-        if container is None:
-            return
-    if trigger.final is not None and container is not None:
-        finals = [v for v in vertices(container) if isinstance(v, FinalState)]
-        _link_among(trigger.final, "final state", finals, scope, report)
-
-
-def _link_among(
-    ref: Ref[V], kind: str, candidates: list[V], scope: FileScope, report: Diagnostics
-) -> None:
-    ref.target = next((node for node in candidates if node.name == ref.name), None)
-    if ref.target is None:
-        names = [str(node.name) for node in candidates]
-        report_missing_inside(kind, ref.name, ref.span, names, scope, report)
+def _by_name(nodes: Iterable[V]) -> Mapping[str, V]:
+    """Return nodes by name, of several with one name the first."""
+    found: dict[str, V] = {}
+    for node in nodes:
+        found.setdefault(str(node.name), node)
+    return found
