@@ -13,10 +13,10 @@ domain of each. The targets differ in how an outcome leaves containers, for a re
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from swarmdsl.codegen import dataclass, fresh
+from swarmdsl.codegen import FreshNames, dataclass
 from swarmdsl.codegen.shared import Events, delays, entered_region, region_transitions
 from swarmdsl.ir import (
     DoneTrigger,
@@ -56,7 +56,8 @@ class OutcomeRoute:
     `triggers` are pairs of a trigger of the state `owner` and its event, `(None, "")` for a
     transition without triggers. `target` is None where the state is not left. A region also takes
     the internal transitions of the parallel state `owner` around it, which are `inherited`; in the
-    parallel state they are `delegated` and do nothing.
+    parallel state they are `delegated` and do nothing. `timers` are the names of the delays of the
+    owner.
     """
 
     state: State
@@ -65,6 +66,7 @@ class OutcomeRoute:
     triggers: tuple[tuple[Trigger | None, str], ...]
     guard: Expression | None
     target: Target | None
+    timers: Mapping[Expression, str]
     delegated: bool = False
 
     @property
@@ -117,20 +119,24 @@ class TransitionDomains:
         if state.kind is StateKind.HISTORY:
             return []
         found = []
+        timers = timer_names(state)
         for each in state.transitions:
             delegated = entered_region(each, state) is not None
             target = None
             if each.target is not None and not delegated:
                 target = target_in(self.domain(each, state), each.target)
             triggers = self._triggers(each, state)
-            found.append(OutcomeRoute(state, state, each, triggers, each.guard, target, delegated))
+            found.append(
+                OutcomeRoute(state, state, each, triggers, each.guard, target, timers, delegated)
+            )
         owner = self.parent(state)
         if owner.kind is StateKind.PARALLEL:
+            timers = timer_names(owner)
             for event, guard, each, _ in region_transitions(state, owner, self.events):
                 assert each.target is not None
                 triggers = tuple(pair for pair in self._triggers(each, owner) if pair[1] == event)
                 target = target_in(state.id, each.target)
-                found.append(OutcomeRoute(state, owner, each, triggers, guard, target))
+                found.append(OutcomeRoute(state, owner, each, triggers, guard, target, timers))
         return found
 
     def _triggers(
@@ -158,10 +164,8 @@ def is_inside(state: str, container: str) -> bool:
 
 def timer_names(state: State) -> dict[Expression, str]:
     """Return names for the delays of a state: `timeout`, `timeout_2`, ..."""
-    names: dict[Expression, str] = {}
-    for delay in delays(state):
-        names[delay] = fresh("timeout", names.values())
-    return names
+    names = FreshNames()
+    return {delay: names.new("timeout") for delay in delays(state)}
 
 
 def outcome_word(trigger: Trigger | None, route: OutcomeRoute) -> str:
@@ -175,7 +179,7 @@ def outcome_word(trigger: Trigger | None, route: OutcomeRoute) -> str:
         case OutcomeTrigger(outcome=outcome):
             return outcome
         case TimeTrigger(delay=delay):
-            return timer_names(route.owner)[delay]
+            return route.timers[delay]
         case DoneTrigger(final=final):
             return final.rpartition(".")[2] if final is not None else "done"
     return route.target.label if route.target is not None else ""

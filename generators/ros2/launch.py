@@ -92,9 +92,9 @@ def launches(system: System, modules: Mapping[str, str], report: Diagnostics) ->
 def _roles(
     swarm: Swarm, system: System, modules: Mapping[str, str], report: Diagnostics
 ) -> Iterator[LaunchedRole]:
-    components = {component.name: component for component in system.components}
+    components = system.components_by_name
     for role in swarm.roles:
-        member = next(each for each in system.members if each.name == role.member)
+        member = system.members_by_name[role.member]
         parts = any(has_node(components[part.component]) for part in member.parts)
         check_part_values(role, member, system, TARGET, report)
         yield LaunchedRole(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.codegen import Span, dataclass, fresh, snake_case
+from swarmdsl.codegen import FreshNames, Span, dataclass, snake_case
 from swarmdsl.codegen.python import Source, comments
 from swarmdsl.ir import StateMachine, System
 
@@ -33,7 +33,7 @@ class Module:
         self.types = {variable.name: variable.type for variable in machine.variables}
         self.functions: list[Function] = []
         self.callbacks: list[tuple[str, str, Span | None]] = []
-        self._used: set[str] = set()
+        self._names = FreshNames()
 
     def new_event(self, name: str) -> str:
         """Return the expression of a new event of the engine."""
@@ -44,7 +44,6 @@ class Module:
         self, what: str, state: str, parameters: str, lines: Iterable[str], origin: Span | None
     ) -> Source:
         """Add a function for a state; return its name."""
-        name = fresh(f"{what}_{snake_case(state.replace('.', '_'))}", self._used)
-        self._used.add(name)
+        name = self._names.new(f"{what}_{snake_case(state.replace('.', '_'))}")
         self.functions.append(Function(name, parameters, comments(origin), tuple(lines)))
         return Source(name)

@@ -25,24 +25,25 @@ def topics(
 ) -> list[tuple[Event, Call]]:
     """Return the declaration of each event of a machine."""
     heard, sent = heard_events(machine), sent_events(machine)
+    is_heard, is_sent = frozenset(heard), frozenset(sent)
     found = []
     for name in dict.fromkeys([*heard, *sent]):
         event = system.event(name)
         assert isinstance(event.type, Named)
-        topic, of_swarm = _place(event, name in sent)
+        topic, of_swarm = _place(event, name in is_sent)
         is_feedback = event.type in imports.messages_of_actions
         if is_feedback:
-            topic = feedback_topic(event, name in sent, report)
+            topic = feedback_topic(event, name in is_sent, report)
         check_topic(topic, event.origin, report, of_swarm=of_swarm)
         arguments = (name, Source(imports.interface(event.type, "msg")), topic)
         keywords: list[tuple[str, object]] = []
         keywords += [("swarm", True)] if of_swarm else []
-        keywords += [("heard", True)] if name in heard else []
-        keywords += [("sent", True)] if name in sent else []
+        keywords += [("heard", True)] if name in is_heard else []
+        keywords += [("sent", True)] if name in is_sent else []
         # Action servers publish feedback reliably.
         if not of_swarm and name not in sent_by_any and not is_feedback:
             keywords.append(("reliable", False))
-        if event.swarm and name in sent and _is_heard_here(event, system):
+        if event.swarm and name in is_sent and _is_heard_here(event, system):
             keywords.append(("local", event.topic))
         found.append((event, Call("Topic", arguments, tuple(keywords))))
     return found
@@ -60,4 +61,4 @@ def _place(event: Event, is_sent: bool) -> tuple[str, bool]:
 
 def _is_heard_here(sent: Event, system: System) -> bool:
     """Return True if a swarm event is also an event of the robot that sends it."""
-    return any(not each.swarm and each.topic == sent.topic for each in system.events)
+    return sent.topic in system.robot_topics

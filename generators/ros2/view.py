@@ -104,13 +104,23 @@ def package_view(
     check_described(system, options.interfaces, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
     sent = {event for machine in machines for event in package.sent_events(machine)}
+    of_actions = messages_of_actions(system)
     callbacks: dict[str, str] = {}
     for machine in machines:
         names.check_machine(machine, report)
     if report.has_errors:
         return None
     views = tuple(
-        _machine_view(system, machine, modules[machine.name], sent, callbacks, variant, report)
+        _machine_view(
+            system,
+            machine,
+            modules[machine.name],
+            sent,
+            Imports(of_actions),
+            callbacks,
+            variant,
+            report,
+        )
         for machine in machines
     )
     doc = system.doc or f"Behaviour of {system.name}."
@@ -148,11 +158,11 @@ def _machine_view(
     machine: StateMachine,
     module: str,
     sent: Iterable[str],
+    imports: Imports,
     callbacks: dict[str, str],
     variant: Variant,
     report: Diagnostics,
 ) -> MachineView:
-    imports = Imports(messages_of_actions(system))
     for own in ("Behavior", "tree"):
         imports.own("host", own)
     imports.own("engine", "Machine")

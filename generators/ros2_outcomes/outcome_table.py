@@ -105,15 +105,19 @@ class OutcomeTable:
     def _outcome(self, name: str, source: State, target: Target, passed: set[str]) -> str:
         """Return the outcome of a transition for the states with the ids `passed`."""
         target = Target(target.container, target.label)
-        taken = {
-            each
-            for state in passed
-            for each, known in self.outcomes[state].items()
-            if known != target
-        }
-        taken.add(self._library.stopped)
-        taken.update(*(self._names[state] for state in self._names.keys() & passed))
-        outcome = name if name not in taken else fresh(f"{source.name}_{name}", taken)
+
+        def is_taken(outcome: str) -> bool:
+            known = (self.outcomes[state].get(outcome, target) for state in passed)
+            return (
+                outcome == self._library.stopped
+                or any(each != target for each in known)
+                or any(outcome in self._names.get(state, ()) for state in passed)
+            )
+
+        outcome, number = name, 1
+        while is_taken(outcome):
+            outcome = f"{source.name}_{name}" + (f"_{number}" if number > 1 else "")
+            number += 1
         for state in passed:
             self.outcomes[state][outcome] = target
         return outcome

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from enum import Enum
 
-from swarmdsl.codegen import Diagnostics, camel_case, dataclass, field, fresh
+from swarmdsl.codegen import Diagnostics, FreshNames, camel_case, dataclass, field
 from swarmdsl.ir import State, StateKind, StateMachine
 
 from .library import Library
@@ -63,8 +63,8 @@ class Structure:
     def __init__(self, machine: StateMachine, library: Library, report: Diagnostics) -> None:
         self._table = OutcomeTable(machine, library, report)
         self._stopped = library.stopped
-        self._classes = {*_RESERVED}
-        self._functions = {"build", "main"}
+        self._classes = FreshNames(_RESERVED)
+        self._functions = FreshNames(["build", "main"])
         self.entries: dict[str, str] = {}
         self.transitions: Mapping[str, tuple[OutcomeTransition | None, ...]] = (
             self._table.transitions
@@ -152,14 +152,10 @@ class Structure:
 
     def _class(self, path: str) -> str:
         name = "".join(map(camel_case, path.split(".")))
-        name = fresh(name if name.isidentifier() else f"State{name}", self._classes)
-        self._classes.add(name)
-        return name
+        return self._classes.new(name if name.isidentifier() else f"State{name}")
 
     def _function(self, path: str) -> str:
-        name = fresh(f"build_{path.replace('.', '_').lower()}", self._functions)
-        self._functions.add(name)
-        return name
+        return self._functions.new(f"build_{path.replace('.', '_').lower()}")
 
 
 def _check(machine: StateMachine, library: Library, report: Diagnostics) -> None:

@@ -87,7 +87,7 @@ def bringup(system: System, made: Packages, ros: int, report: Diagnostics) -> Br
     include its launch files.
     """
     written = {node.model: node for node, _ in made.nodes if node.kind == "component"}
-    components = {component.name: component for component in system.components}
+    components = system.components_by_name
     robots = []
     for member in system.members:
         parts = [part for part in member.parts if has_node(components[part.component])]

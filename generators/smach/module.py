@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from functools import cached_property
 
-from swarmdsl.codegen import Diagnostics, Span, dataclass, field, fresh, snake_case
+from swarmdsl.codegen import Diagnostics, FreshNames, Span, dataclass, field, snake_case
 from swarmdsl.codegen.shared import field_type
 from swarmdsl.ir import StateMachine, System, Type
 
@@ -57,18 +58,20 @@ class Module:
     functions: list[Function] = field(default_factory=list)
     callbacks: list[tuple[str, str, Span | None]] = field(default_factory=list)
     sent: dict[str, None] = field(default_factory=dict)
-    _names: set[str] = field(default_factory=set)
+    _names: FreshNames = field(default_factory=FreshNames)
 
     def held(self, variable: str, path: tuple[str, ...]) -> Type | None:
         """Return the type of a variable or of its field; None if it is unknown."""
-        types = {each.name: each.type for each in self.machine.variables}
-        return field_type(types.get(variable), path, self.system)
+        return field_type(self._types.get(variable), path, self.system)
+
+    @cached_property
+    def _types(self) -> Mapping[str, Type]:
+        """Types of the variables."""
+        return {each.name: each.type for each in self.machine.variables}
 
     def function_name(self, *words: str) -> str:
         """Return an unused name for a private function."""
-        name = fresh("_" + "_".join(filter(None, map(snake_case, words))), self._names)
-        self._names.add(name)
-        return name
+        return self._names.new("_" + "_".join(filter(None, map(snake_case, words))))
 
     def add_function(
         self,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.codegen import Diagnostics, fresh, is_python_name, snake_case, stays_inside
+from swarmdsl.codegen import Diagnostics, FreshNames, is_python_name, snake_case, stays_inside
 from swarmdsl.codegen.ros import PackageNames
 from swarmdsl.ir import Action, Environment, Event, Param, StateMachine, Variable
 
@@ -75,11 +75,10 @@ def event_constants(
 ) -> dict[str, str]:
     """Return the Python constant of each event."""
     names: dict[str, str] = {}
-    used = set(taken)
+    constants = FreshNames(taken)
     for event in events:
         constant = snake_case(event.name).upper()
         if not is_python_name(constant):
             NAMES.bad(report, event.name, "the name of a constant", event.origin)
-        names[event.name] = constant = fresh(constant, used)
-        used.add(constant)
+        names[event.name] = constants.new(constant)
     return names

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.codegen import dataclass, field, fresh
+from swarmdsl.codegen import FreshNames, dataclass, field, fresh
 
 from ..outcome_routes import Target
 from .module import PREEMPTED, Entry
@@ -35,7 +35,7 @@ class ContainerOutcomes:
             return target.label
         exit_ = Target(target.container, target.label)
         if exit_ not in self._known:
-            outcome = fresh(f"to_{target.label}", {*self.taken, *self.exits, PREEMPTED})
+            outcome = fresh(f"to_{target.label}", self.taken, self.exits, {PREEMPTED})
             self._known[exit_] = outcome
             self.exits[outcome] = exit_
         return self._known[exit_]
@@ -48,13 +48,13 @@ def outcome_names(
 
     Routes with one word and one label share an outcome; None for a route without a target.
     """
-    taken = [*taken]
     given = [(word, Target(to.container, to.label) if to else None) for word, to in routes]
     targets: dict[str, dict[Target, None]] = {}
     for word, target in given:
         if target is not None:
             targets.setdefault(word, {}).setdefault(target)
     known: dict[tuple[str, Target], str] = {}
+    names = FreshNames([*taken, PREEMPTED])
     found: list[str | None] = []
     for word, target in given:
         if target is None:
@@ -62,6 +62,6 @@ def outcome_names(
             continue
         if (word, target) not in known:
             name = word if len(targets[word]) == 1 else f"{word}_{target.label}"
-            known[word, target] = fresh(name, {*known.values(), *taken, PREEMPTED})
+            known[word, target] = names.new(name)
         found.append(known[word, target])
     return found

@@ -86,7 +86,7 @@ class _Structure:
             region_transitions = self.maker.of(region, ())
             call, exits = self._composite(region, region_transitions, [])
             for outcome, target in exits.items():
-                name = fresh(outcome, {*targets, *transitions.targets, *further, PREEMPTED})
+                name = fresh(outcome, targets, transitions.targets, {*further, PREEMPTED})
                 targets[name] = target
                 outcome_map[name] = {region.name: outcome}
             add = Call("Concurrence.add", (region.name, call))

@@ -106,7 +106,7 @@ class TransitionMaker:
             case OutcomeTrigger(outcome=outcome):
                 return repr(outcome)
             case TimeTrigger(delay=delay):
-                name = timer_names(route.owner)[delay]
+                name = route.timers[delay]
                 return repr(f"after.{route.owner.id}.{name}" if route.inherited else name)
         return repr(event)
 

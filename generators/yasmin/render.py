@@ -22,7 +22,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
     """Return the files of the package with the behaviour, and of interface packages."""
 
     def behavior(package: PackageView, report: Diagnostics) -> Iterator[OutputFile]:
-        machines = {machine.name: machine for machine in system.machines}
+        machines = system.machines_by_name
         views = [
             fsm_view(machines[each.name], each.module, package.name, system, report)
             for each in package.machines

@@ -25,7 +25,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
     chosen = RosOptions(**{name: getattr(options, name) for name in fields_of(RosOptions)})
 
     def behavior(package: PackageView, report: Diagnostics) -> Iterator[OutputFile]:
-        machines = {machine.name: machine for machine in system.machines}
+        machines = system.machines_by_name
         for each in package.machines:
             check_keys(machines[each.name], report)
         views = [

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
-from collections.abc import Iterable, Set
+from collections.abc import Iterable, Mapping, Set
 from functools import lru_cache
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
@@ -36,11 +36,30 @@ def is_ros_package_name(name: str) -> bool:
     return re.fullmatch(r"[a-z][a-z0-9_]*", name) is not None and not name.endswith("_")
 
 
-def fresh(name: str, taken: Iterable[str]) -> str:
+def fresh(name: str, *taken: Iterable[str]) -> str:
     """Append a number to a name if it is taken."""
-    known = taken if isinstance(taken, Set) else set(taken)
+    known = [each if isinstance(each, (Set, Mapping)) else set(each) for each in taken]
     number, made = 1, name
-    while made in known:
+    while any(made in each for each in known):
         number += 1
         made = f"{name}_{number}"
     return made
+
+
+class FreshNames:
+    """Names that are taken one by one; one that is taken gets a number, as by `fresh`."""
+
+    def __init__(self, taken: Iterable[str] = ()) -> None:
+        self._taken = set(taken)
+        self._numbers: dict[str, int] = {}
+
+    def new(self, name: str) -> str:
+        """Take a name."""
+        number = self._numbers.get(name, 1)
+        made = name if number == 1 else f"{name}_{number}"
+        while made in self._taken:
+            number += 1
+            made = f"{name}_{number}"
+        self._numbers[name] = number
+        self._taken.add(made)
+        return made

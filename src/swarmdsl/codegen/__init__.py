@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         listed,
     )
     from swarmdsl.base.naming import (
+        FreshNames,
         camel_case,
         fresh,
         incoming_topic,
@@ -91,7 +92,8 @@ else:
         {
             "swarmdsl.base.diagnostics.collector": "Diagnostics Label listed",
             "swarmdsl.base.naming": (
-                "camel_case fresh incoming_topic is_python_name is_ros_package_name snake_case"
+                "FreshNames camel_case fresh incoming_topic is_python_name is_ros_package_name "
+                "snake_case"
             ),
             "swarmdsl.base.records": "dataclass field fields_of replace",
             "swarmdsl.base.relative_paths": "stays_inside",
@@ -117,6 +119,7 @@ __all__ = [
     "Dialect",
     "Emit",
     "Feature",
+    "FreshNames",
     "Generator",
     "Label",
     "Mapped",

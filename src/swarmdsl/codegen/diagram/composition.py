@@ -14,10 +14,14 @@ from swarmdsl.codegen.swarm_printer.layout import quoted
 
 def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
     """Return the diagram of a swarm: a box for each role, with its behaviour."""
-    members = {member.name: member for member in system.members}
-    machines = {machine.name: machine for machine in system.machines}
+    members = system.members_by_name
+    machines = system.machines_by_name
+    uses = {
+        name: _Uses(machines.get(name), system)
+        for name in dict.fromkeys(members[role.member].behavior or "" for role in swarm.roles)
+    }
     roles = [
-        _Role(role, members[role.member], machines.get(members[role.member].behavior or ""), system)
+        _Role(role, members[role.member], uses[members[role.member].behavior or ""])
         for role in swarm.roles
     ]
     head = Node(
@@ -47,13 +51,10 @@ def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
     return Diagram("composition", swarm.name, frame, edges)
 
 
-class _Role:
-    """Role in the swarm, with the events that its behaviour uses."""
+class _Uses:
+    """Events and functions that a behaviour uses."""
 
-    def __init__(
-        self, role: ir.Role, member: ir.Member, machine: ir.StateMachine | None, system: ir.System
-    ) -> None:
-        self.role, self.member, self.machine = role, member, machine
+    def __init__(self, machine: ir.StateMachine | None, system: ir.System) -> None:
         states = list(machine.walk()) if machine is not None else []
         effects = [
             effect
@@ -73,7 +74,14 @@ class _Role:
             if isinstance(trigger, ir.EventTrigger)
         }
         used = {state.activity.function for state in states if state.activity is not None}
-        self.functions = [each for each in system.functions if each.name in used]
+        self.functions = system.functions_of(used)
+
+
+class _Role:
+    """Role in the swarm, with what its behaviour uses."""
+
+    def __init__(self, role: ir.Role, member: ir.Member, uses: _Uses) -> None:
+        self.role, self.member, self.uses = role, member, uses
 
     @property
     def id(self) -> str:
@@ -89,7 +97,7 @@ class _Role:
             lines = value_lines(robot.values)
             groups.append(tuple(f"{self.role.name}[{robot.index}] {line}" for line in lines))
         groups.append(tuple(f"{part.name} : {part.component}" for part in member.parts))
-        groups.append(tuple(f"«{each.category}» {each.name}" for each in self.functions))
+        groups.append(tuple(f"«{each.category}» {each.name}" for each in self.uses.functions))
         return Node(
             self.id,
             "member",
@@ -115,16 +123,19 @@ class _Role:
 
 def _flows(roles: list[_Role], system: ir.System) -> Iterator[Edge]:
     """Yield an edge for each pair of roles that exchange swarm events."""
+    hearing: dict[str, list[int]] = {}
+    for number, receiver in enumerate(roles):
+        for name in receiver.uses.heard:
+            hearing.setdefault(name, []).append(number)
     for sender in roles:
-        for receiver in roles:
-            events = [
-                event.name
-                for event in system.events
-                if event.swarm and event.name in sender.sent and event.name in receiver.heard
-            ]
+        heard: dict[int, list[str]] = {}
+        for event in system.events_of(sender.uses.sent):
+            for number in hearing.get(event.name, ()) if event.swarm else ():
+                heard.setdefault(number, []).append(event.name)
+        for number, (*others, last) in sorted(heard.items()):
+            receiver = roles[number]
             alone = sender is receiver and sender.role.multiplicity.upper == 1
-            if events and not alone:
-                *others, last = events
+            if not alone:
                 label = (*(f"{each}," for each in others), last)
                 yield Edge(f"{sender.id}=>{receiver.id}", "flow", sender.id, receiver.id, label)
 

@@ -26,12 +26,13 @@ def identifiers(diagram: Diagram) -> dict[str, str]:
     ]
     names: dict[str, str] = {}
     taken = set(_RESERVED.split())
+    # The last number of each name that had to be numbered.
+    numbers: dict[str, int] = {}
     for each in ids:
         name = wanted = re.sub(r"[^A-Za-z0-9]+", "_", each).strip("_") or diagram.kind
-        number = 2
         while name.lower() in taken:
+            numbers[wanted.lower()] = number = numbers.get(wanted.lower(), 1) + 1
             name = f"{wanted}_{number}"
-            number += 1
         taken.add(name.lower())
         names[each] = name
     return names

@@ -39,6 +39,8 @@ class _Writer:
     def __init__(self, names: dict[str, str], diagram: Diagram) -> None:
         self.names = names
         self.diagram = diagram
+        self.entries = {edge.source: edge for edge in diagram.edges if edge.kind == "initial"}
+        self.ports = {port.id: port for node in diagram.frame.walk() for port in node.ports}
 
     def statechart(self) -> Iterator[str]:
         yield "stateDiagram-v2"
@@ -56,12 +58,11 @@ class _Writer:
 
     def states(self, owner: Node) -> Iterator[str]:
         """Yield the lines of the states in a state, with its initial state."""
-        entries = {edge.source: edge for edge in self.diagram.edges if edge.kind == "initial"}
         for number, node in enumerate(owner.nodes):
             if owner.kind == "parallel" and number:
                 yield "--"
             if node.kind == "initial":
-                yield f"[*] --> {self.names[entries[node.id].target]}"
+                yield f"[*] --> {self.names[self.entries[node.id].target]}"
             else:
                 yield from self.state(node)
 
@@ -104,11 +105,10 @@ class _Writer:
         return "<br/>".join(map(_text, lines))
 
     def edge(self, edge: Edge) -> str:
-        ports = {port.id: port for node in self.diagram.frame.walk() for port in node.ports}
         source, target, label = edge.source, edge.target, " ".join(edge.label)
         if edge.source_port is not None and edge.target_port is not None:
             # A port of the frame is a node of its own.
-            names = [ports[edge.source_port].name, ports[edge.target_port].name]
+            names = [self.ports[edge.source_port].name, self.ports[edge.target_port].name]
             label = " → ".join(names if names[0] != names[1] else names[:1])
             source = source or edge.source_port
             target = target or edge.target_port

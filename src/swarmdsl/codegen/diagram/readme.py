@@ -37,7 +37,7 @@ def member_pictures(system: System, members: Sequence[str]) -> tuple[Picture, ..
 
     Diagrams that are too large for Mermaid are left out.
     """
-    components = {component.name: component for component in system.components}
+    components = system.components_by_name
     shown = (member for member in system.members if member.name in members)
     return tuple(
         picture
@@ -52,7 +52,7 @@ def _drawn(system: System, machines: Sequence[StateMachine]) -> Iterator[Picture
     for swarm in system.swarms:
         if any(role.member in running for role in swarm.roles):
             yield from _picture(f"Swarm `{swarm.name}`", composition(swarm, system))
-    known = {machine.name: machine for machine in system.machines}
+    known = system.machines_by_name
     for machine in machines:
         # Drawing takes much longer than counting.
         if _fewest_edges(machine.states) <= _MOST_EDGES:

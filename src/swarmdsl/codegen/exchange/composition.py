@@ -39,7 +39,7 @@ class Options:
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
     """Yield a folder for each swarm: its composition and its launch files."""
     package = behaviour_package(system, options.package)
-    members = {member.name: member for member in system.members}
+    members = system.members_by_name
     for swarm in system.swarms:
         folder = snake_case(swarm.name)
         text = document(_composition(swarm, report))

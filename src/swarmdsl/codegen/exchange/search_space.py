@@ -89,7 +89,7 @@ def _scale(range_: ParamRange, optimization: Optimization, system: System) -> Fr
         return _exact(range_.step)
     swarm = next(each for each in system.swarms if each.name == optimization.swarm)
     role = next(each for each in swarm.roles if each.name == range_.role)
-    member = next(each for each in system.members if each.name == role.member)
+    member = system.members_by_name[role.member]
     param = next(each for each in member.params if each.name == range_.param)
     whole = isinstance(param.type, Primitive) and param.type.name in INTEGERS
     return Fraction(1) if whole else None

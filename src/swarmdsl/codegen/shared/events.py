@@ -34,13 +34,17 @@ class Events:
         self.ids = ids
         self.states = {state.id: state for state in machine.walk()}
         # States with a transition that depends on their final state.
-        self.by_final_state = {
-            trigger.state
-            for state in self.states.values()
-            for transition in state.transitions
-            for trigger in transition.triggers
-            if isinstance(trigger, DoneTrigger) and trigger.final is not None
-        }
+        self.by_final_state: set[str] = set()
+        # States that distinguish preempted from aborted activities.
+        self._preempted: set[str] = set()
+        for state in self.states.values():
+            for transition in state.transitions:
+                for trigger in transition.triggers:
+                    if isinstance(trigger, DoneTrigger) and trigger.final is not None:
+                        self.by_final_state.add(trigger.state)
+                    elif trigger == OutcomeTrigger(state.id, "preempted"):
+                        self._preempted.add(state.id)
+        self._timers: dict[str, dict[Expression, str]] = {}
 
     def of_transition(self, transition: Transition, state: State) -> list[str]:
         """Return the events that trigger a transition; [""] if it needs none."""
@@ -53,7 +57,7 @@ class Events:
             case EventTrigger(event=event):
                 return [event]
             case OutcomeTrigger(outcome=outcome):
-                if outcome == "aborted" and not _handles_preempted(state):
+                if outcome == "aborted" and state.id not in self._preempted:
                     return [self.outcome(state, "aborted"), self.outcome(state, "preempted")]
                 return [self.outcome(state, outcome)]
             case TimeTrigger(delay=delay):
@@ -71,7 +75,12 @@ class Events:
 
     def timer(self, state: State, delay: Expression) -> str:
         """Return the event for a delay that has passed."""
-        return f"after.{self.ids[state.id]}.{delays(state).index(delay) + 1}"
+        if state.id not in self._timers:
+            self._timers[state.id] = {
+                each: f"after.{self.ids[state.id]}.{number}"
+                for number, each in enumerate(delays(state), 1)
+            }
+        return self._timers[state.id][delay]
 
     def final(self, final: str) -> str:
         """Return the event for a final state that was entered."""
@@ -95,9 +104,3 @@ def delays(state: State) -> list[Expression]:
             if isinstance(trigger, TimeTrigger)
         )
     )
-
-
-def _handles_preempted(state: State) -> bool:
-    """Return True if a state distinguishes preempted from aborted activities."""
-    given_up = OutcomeTrigger(state.id, "preempted")
-    return any(given_up in transition.triggers for transition in state.transitions)

@@ -37,8 +37,8 @@ class BehaviorNode:
 
 def behavior_nodes(member: Member, system: System) -> Iterator[BehaviorNode]:
     """Yield the nodes for the behaviours of a member and of its parts."""
-    machines = {machine.name: machine for machine in system.machines}
-    components = {component.name: component for component in system.components}
+    machines = system.machines_by_name
+    components = system.components_by_name
     if member.behavior is not None:
         machine = machines[member.behavior]
         params = _given(machine, member.params, {}, {})

@@ -32,17 +32,20 @@ def region_transitions(
     A region takes its own transitions before those of the parallel state, so the guards exclude
     the earlier ones there.
     """
+    if not any(each.internal for each in around.transitions):
+        return
+    # By event: the negated guards of the earlier transitions.
+    refused: dict[str, list[Expression]] = {}
     for index, transition in enumerate(around.transitions):
-        if entered_region(transition, around) is not region:
-            continue
-        for event in events.of_transition(transition, around):
-            # One that is never taken is written too, so that importing the document restores it.
-            refused = [
-                Unary("not", earlier.guard or Literal(True, BOOL), BOOL)
-                for earlier in around.transitions[:index]
-                if event in events.of_transition(earlier, around)
-            ]
-            yield event, _all(refused, transition.guard), transition, index
+        triggers = events.of_transition(transition, around)
+        if entered_region(transition, around) is region:
+            for event in triggers:
+                # One that is never taken is written too: importing the document restores it.
+                guard = _all(refused.get(event, ()), transition.guard)
+                yield event, guard, transition, index
+        for event in dict.fromkeys(triggers):
+            negated = Unary("not", transition.guard or Literal(True, BOOL), BOOL)
+            refused.setdefault(event, []).append(negated)
 
 
 def _all(guards: Iterable[Expression], last: Expression | None) -> Expression | None:

@@ -32,8 +32,8 @@ class Use:
 
 def uses(member: Member, system: System) -> Iterator[Use]:
     """Yield each use once, in the order of the model."""
-    components = {component.name: component for component in system.components}
-    machines = {machine.name: machine for machine in system.machines}
+    components = system.components_by_name
+    machines = system.machines_by_name
     owners: list[Member | Component] = [member]
     owners += [components[part.component] for part in member.parts]
     found: dict[Use, None] = {}

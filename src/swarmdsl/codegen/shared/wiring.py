@@ -6,7 +6,8 @@ topic, the node is started with a remapping.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
@@ -25,20 +26,31 @@ class Wiring:
 
     def topic(self, port: PortRef) -> str:
         """Return the topic of a port."""
-        for group in self.member.port_groups:
-            if port in group.ports:
-                return group.topic
-        return self.ports[port].topic
+        return self._connected[port] if port in self._connected else self.ports[port].topic
 
     def remaps(self, part: str) -> Remaps:
         """Return the remappings of a part's node."""
-        made = {port.topic: self.topic(ref) for ref, port in self.ports.items() if ref.part == part}
+        made = {self.ports[ref].topic: self.topic(ref) for ref in self._of_parts.get(part, ())}
         return tuple((name, topic) for name, topic in made.items() if name != topic)
+
+    @cached_property
+    def _connected(self) -> Mapping[PortRef, str]:
+        """Topics of connected ports; of several groups with a port the first counts."""
+        groups = reversed(self.member.port_groups)
+        return {port: group.topic for group in groups for port in group.ports}
+
+    @cached_property
+    def _of_parts(self) -> Mapping[str | None, Sequence[PortRef]]:
+        """Ports of each part."""
+        found: dict[str | None, list[PortRef]] = {}
+        for ref in self.ports:
+            found.setdefault(ref.part, []).append(ref)
+        return found
 
 
 def member_wiring(member: Member, system: System) -> Wiring:
     """Return the wiring of a member."""
-    components = {component.name: component for component in system.components}
+    components = system.components_by_name
     ports = {PortRef(None, port.name): port for port in member.ports}
     for part in member.parts:
         for port in components[part.component].ports:

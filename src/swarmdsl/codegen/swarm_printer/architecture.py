@@ -28,7 +28,7 @@ T = TypeVar("T")
 
 def print_component(component: Component, system: System, names: Names) -> list[str]:
     """Print a component with its operations."""
-    base = next((each for each in system.components if each.name == component.base), None)
+    base = system.components_by_name.get(component.base or "")
     return documented(
         component.doc,
         block(
@@ -49,7 +49,7 @@ def print_component(component: Component, system: System, names: Names) -> list[
 
 def print_member(member: Member, system: System, names: Names) -> list[str]:
     """Print a member with its parts and connectors."""
-    base = next((each for each in system.members if each.name == member.base), None)
+    base = system.members_by_name.get(member.base or "")
     return documented(
         member.doc,
         block(

@@ -56,7 +56,7 @@ def all_parts(system: System) -> list[Part]:
 
 def own_operations(component: Component, system: System) -> tuple[str, ...]:
     """Return the functions that a component offers itself, without its base's."""
-    base = next((each for each in system.components if each.name == component.base), None)
+    base = system.components_by_name.get(component.base or "")
     return component.operations[len(base.operations) if base is not None else 0 :]
 
 

@@ -114,7 +114,7 @@ def _completed(owners: tuple[Owner, ...], needed: Mapping[str, list[Param]]) -> 
 
 
 def _known_reuse(system: System) -> System:
-    machines = {machine.name: machine for machine in system.machines}
+    machines = dict(system.machines_by_name)
     while True:
         lost = [each for each in machines.values() if find_reuse(each, machines) is None]
         if not lost:

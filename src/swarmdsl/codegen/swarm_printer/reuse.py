@@ -5,7 +5,7 @@ Lowering expands a reused machine; this is the inverse.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from swarmdsl.base.naming import snake_case
@@ -70,11 +70,13 @@ def find_reuse(machine: StateMachine, machines: Mapping[str, StateMachine]) -> R
     variables = own_variables(machine, machines)
     start = len(variables)
     uses: dict[str, Use] = {}
+    if _any_entered_from_outside(states, machine):
+        return None
     for state in states:
         template = machines[state.submachine or ""]
         end = start + len(template.variables)
         found = _use(state, template, machine.variables[start:end], machines)
-        if found is None or _entered_from_outside(state, machine):
+        if found is None:
             return None
         uses[state.id] = found
         start = end
@@ -103,13 +105,12 @@ def _reusing(states: tuple[State, ...]) -> Iterator[State]:
             yield from _reusing(state.states)
 
 
-def _entered_from_outside(state: State, machine: StateMachine) -> bool:
-    """Return True if a transition leads into a state from elsewhere."""
-    inside = {each.id for each in state.walk()} - {state.id}
-    return any(
-        transition.target in inside
+def _any_entered_from_outside(states: Iterable[State], machine: StateMachine) -> bool:
+    """Return True if a transition leads into one of some states from elsewhere."""
+    around = {each.id: state.id for state in states for each in state.walk() if each is not state}
+    return bool(around) and any(
+        transition.target in around and around[transition.target] != around.get(each.id)
         for each in machine.walk()
-        if each.id not in inside
         for transition in each.transitions
     )
 

@@ -80,7 +80,7 @@ def _declarations(system: System, names: Names) -> Iterator[list[str]]:
     if list(left) != [function.name for function in functions]:
         raise UnprintableError("the functions of parts are not in the order of the parts")
     yield from (print_member(member, system, names) for member in system.members)
-    machines = {machine.name: machine for machine in system.machines}
+    machines = system.machines_by_name
     for machine in system.machines:
         reuse = find_reuse(machine, machines)
         assert reuse is not None  # the system is in its normal form

@@ -111,5 +111,5 @@ def _owner_params(subject: Subject, robot: Robot, part: ir.Part | None) -> tuple
     if system is None or subject.swarm is None:
         return ()
     if part is not None:
-        return next(each for each in system.components if each.name == part.component).params
+        return system.components_by_name[part.component].params
     return subject.member(robot).params

@@ -71,10 +71,10 @@ class Subject:
         if self.system is None or self.swarm is None:
             return
         member = self.member(robot)
-        machines = {machine.name: machine for machine in self.system.machines}
+        machines = self.system.machines_by_name
         if member.behavior is not None:
             yield None, machines[member.behavior]
-        components = {component.name: component for component in self.system.components}
+        components = self.system.components_by_name
         for part in member.parts:
             behavior = components[part.component].behavior
             if behavior is not None:
@@ -84,7 +84,7 @@ class Subject:
         """Return the type of a robot of the swarm, with its own values as defaults of params."""
         assert self.system is not None
         assert self.swarm is not None
-        member = next(each for each in self.system.members if each.name == robot.kind)
+        member = self.system.members_by_name[robot.kind]
         role = next(each for each in self.swarm.roles if each.name == robot.role)
         return role.configured(member, robot.index)
 
@@ -120,7 +120,7 @@ def choose(
     """
     swarms = {each.name: each for each in system.swarms} if system is not None else {}
     machines: dict[str, StateMachine | Document] = {each.name: each for each in documents}
-    machines.update({each.name: each for each in system.machines} if system is not None else {})
+    machines.update(system.machines_by_name if system is not None else {})
     if machine is not None:
         if machine in machines:
             return _alone(machine, machines[machine], system)

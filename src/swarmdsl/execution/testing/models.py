@@ -31,7 +31,7 @@ class Model:
     def subject(self, table: Table, key: str | None, report: Diagnostics) -> Subject | None:
         """Return the swarm or machine named by `key`, else the only one."""
         swarms = {each.name: each for each in self.system.swarms} if self.system else {}
-        machines = {each.name: each for each in self.system.machines} if self.system else {}
+        machines = self.system.machines_by_name if self.system else {}
         names = {"swarm": list(swarms), "machine": [*machines, *self.documents]}
         if key is None:
             key = "swarm" if len(swarms) == 1 else "machine"

@@ -106,7 +106,7 @@ class Names:
         """Return the variables and params of a machine; None for a document."""
         if self.subject.system is None:
             return None
-        model = next(each for each in self.subject.system.machines if each.name == machine.name)
+        model = self.subject.system.machines_by_name[machine.name]
         params = {each.name: each.type for each in model.params}
         return {**params, **{each.name: each.type for each in model.variables}}
 
@@ -144,7 +144,7 @@ class Names:
         system = self.subject.system
         if system is None:
             return None
-        model = next(each for each in system.machines if each.name == machine.name)
+        model = system.machines_by_name[machine.name]
         return frozenset(_sent(model))
 
     def _state(self, machine: Machine, name: str) -> list[str]:

@@ -96,10 +96,10 @@ class Pictures:
         """Yield runner, machine and prefix of the state ids."""
         if self._system is None:
             return
-        machines = {each.name: each for each in self._system.machines}
+        machines = self._system.machines_by_name
         runs = {(name, name) for name in machines}
         behaviors = {each.name: each.behavior for each in self._system.components}
-        members = {each.name: each for each in self._system.members}
+        members = self._system.members_by_name
         for role in (role for swarm in self._system.swarms for role in swarm.roles):
             member = members[role.member]
             parts = ((f"{role.name}.{part.name}", part.component) for part in member.parts)

@@ -150,7 +150,7 @@ def _own(items: Sequence[T], base: Sequence[T]) -> list[T]:
 
 
 def _components(system: System) -> Iterator[Element]:
-    known = {component.name: component for component in system.components}
+    known = system.components_by_name
     for each in system.components:
         base = known.get(each.base or "")
         values = properties(
@@ -179,7 +179,7 @@ def _operations(component: Component, base: Component | None) -> Value:
 
 
 def _members(system: System) -> Iterator[Element]:
-    known = {member.name: member for member in system.members}
+    known = system.members_by_name
     for each in system.members:
         base = known.get(each.base or "")
         values = properties(

@@ -56,7 +56,7 @@ _KIND_NAMES = {
 
 def machine_element(machine: StateMachine, system: System) -> Element:
     """Element of a state machine with its params, variables and states."""
-    machines = {each.name: each for each in system.machines}
+    machines = system.machines_by_name
     builder = _Machine(machine.name, find_reuse(machine, machines))
     data = [*param_elements(machine.params, machine.name)]
     data += (

@@ -20,11 +20,11 @@ def diagrams(system: System, kinds: Collection[Kind] = KINDS) -> Iterator[Diagra
         for swarm in system.swarms:
             yield composition(swarm, system)
     if "internal" in kinds:
-        components = {component.name: component for component in system.components}
+        components = system.components_by_name
         for member in system.members:
             if member.parts:
                 yield internal(member, components)
     if "statechart" in kinds:
-        machines = {machine.name: machine for machine in system.machines}
+        machines = system.machines_by_name
         for machine in system.machines:
             yield statechart(machine, machines)

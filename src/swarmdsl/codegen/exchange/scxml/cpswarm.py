@@ -97,12 +97,18 @@ class _Ids:
     def __init__(self) -> None:
         # The generator's own variable for the machine is `top_sm`.
         self.taken = {"top"}
+        self._last_numbers: dict[str, int] = {}
 
     def new(self, *candidates: str) -> str:
         """Return the first free candidate, or the last one with a number."""
-        last = candidates[-1]
-        numbered = (f"{last}{number}" for number in range(2, len(self.taken) + 3))
-        free = next(name for name in (*candidates, *numbered) if name.casefold() not in self.taken)
+        free = next((each for each in candidates if each.casefold() not in self.taken), None)
+        if free is None:
+            last = candidates[-1]
+            number = self._last_numbers.get(last, 1)
+            while free is None or free.casefold() in self.taken:
+                number += 1
+                free = f"{last}{number}"
+            self._last_numbers[last] = number
         self.taken.add(free.casefold())
         return free
 

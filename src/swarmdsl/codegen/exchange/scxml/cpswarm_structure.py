@@ -89,6 +89,10 @@ class _Shaper:
         self.machine = machine
         self.report = report
         self.states = {state.id: state for state in machine.walk()}
+        self.awaited = {
+            state.id: {monitor.event for monitor in _monitors(state)}
+            for state in self.states.values()
+        }
         self.parents: dict[str, str | None] = {state.id: None for state in machine.states}
         for state in self.states.values():
             self.parents.update((child.id, state.id) for child in state.states)
@@ -132,7 +136,7 @@ class _Shaper:
                 Vertex(state, "Threads", True, (*behavior, *monitors)), ends
             )
         transitions = tuple((end.name, end.target) for end in staying)
-        leaving = [end for end in ends if end not in staying]
+        leaving = [end for end in ends if not self._is_sibling(end, state)]
         return Vertex(state, children=children, transitions=transitions), leaving
 
     def _parallel(self, state: State) -> tuple[Vertex, list[_Signal]]:
@@ -162,7 +166,7 @@ class _Shaper:
             # A SMACH concurrence has its declared outcomes, and `aborted`.
             replace(end, name="aborted") if staying or end.name not in OUTCOMES else end
             for end in ends
-            if end not in staying
+            if not self._is_sibling(end, vertex.state)
         ]
         leaving = self._deduplicate(leaving)
         if any(end.name == "aborted" for end in staying):
@@ -196,20 +200,21 @@ class _Shaper:
 
     def _awaits(self, state: str | None, event: str) -> bool:
         """Return True if an enclosing state waits for the event."""
-        return state is not None and event in [
-            monitor.event for monitor in _monitors(self.states[state])
-        ]
+        return state is not None and event in self.awaited[state]
 
     def _follow_final_states(
         self, ends: list[_Signal], container: str, transitions: tuple[Transition, ...]
     ) -> list[_Signal]:
         """Return the signals, with those to own final states led on to what follows."""
         followed = []
+        following = _completion_targets(transitions)
         for end in ends:
             target: str | None = end.target
             final = self.states[end.target].kind is StateKind.FINAL
             if final and self.parents[end.target] == container:
-                target = _completion_target(end.target, container, transitions)
+                completions = (DoneTrigger(container, None), DoneTrigger(container, end.target))
+                found = [following[each] for each in completions if each in following]
+                target = min(found)[1] if found else None
             if target is None:
                 self._reject("a final state that nothing follows", end.origin)
             else:
@@ -243,15 +248,16 @@ class _Shaper:
         self.report.report("unsupported-construct", origin, target=TARGET, construct=construct)
 
 
-def _completion_target(
-    final: str, container: str, transitions: tuple[Transition, ...]
-) -> str | None:
-    """Return the target of the transition on a final state of a container, if any."""
-    completions = {DoneTrigger(container, None), DoneTrigger(container, final)}
-    for transition in transitions:
-        if completions.intersection(transition.triggers):
-            return transition.target
-    return None
+def _completion_targets(
+    transitions: tuple[Transition, ...],
+) -> dict[DoneTrigger, tuple[int, str | None]]:
+    """Return the place and the target of the first transition on each end of a container."""
+    found: dict[DoneTrigger, tuple[int, str | None]] = {}
+    for number, transition in enumerate(transitions):
+        for trigger in transition.triggers:
+            if isinstance(trigger, DoneTrigger):
+                found.setdefault(trigger, (number, transition.target))
+    return found
 
 
 def _monitors(state: State) -> tuple[Monitor, ...]:

@@ -26,11 +26,13 @@ def data_ids(machine: StateMachine) -> dict[str, str]:
     names = [param.name for param in machine.params]
     names += [variable.name for variable in machine.variables]
     ids: dict[str, str] = {}
+    given, taken = set(names), set[str]()
     for name in names:
         candidate = f"data_{name}" if _RESERVED.fullmatch(name) else name
-        while candidate in ids.values() or (candidate != name and candidate in names):
+        while candidate in taken or (candidate != name and candidate in given):
             candidate += "_"
         ids[name] = candidate
+        taken.add(candidate)
     return ids
 
 

@@ -14,20 +14,20 @@ from swarmdsl.ir.expression_printer import translate
 
 def describe_interfaces(root: etree._Element, types: Iterable[Type], system: System) -> None:
     """Add the used interfaces that the model describes, and those in their fields."""
-    known: dict[Type, Interface] = {each.type: each for each in system.interfaces}
     used: set[Type] = set()
     waiting = list(types)
     while waiting:
         type_ = waiting.pop()
         while isinstance(type_, Array):
             type_ = type_.element
-        if type_ in known and type_ not in used:
-            used.add(type_)
-            for _, fields in _parts(known[type_]):
+        if type_ in used:
+            continue
+        used.add(type_)
+        for interface in system.interfaces_of([type_]):
+            for _, fields in _parts(interface):
                 waiting += [field.type for field in fields]
-    for interface in system.interfaces:
-        if interface.type in used:
-            _describe(root, interface)
+    for interface in system.interfaces_of(used):
+        _describe(root, interface)
 
 
 def _parts(interface: Interface) -> Iterator[tuple[str, tuple[Field, ...]]]:

@@ -42,34 +42,31 @@ def describe_machine(
     _add_initial(root, machine.docs)
     if machine.endless:
         add_payload(root, "endless")
-    used = set(_events(machine))
     types: list[Type] = []
-    for event in system.events:
-        if event.name in used:
-            types.append(event.type)
-            element = add_payload(
-                root,
-                "event",
-                name=event.name,
-                type=str(event.type),
-                topic=event.topic,
-                swarm="true" if event.swarm else "false",
-            )
-            add_doc(element, event.doc)
+    for event in system.events_of(_events(machine)):
+        types.append(event.type)
+        element = add_payload(
+            root,
+            "event",
+            name=event.name,
+            type=str(event.type),
+            topic=event.topic,
+            swarm="true" if event.swarm else "false",
+        )
+        add_doc(element, event.doc)
     called = {state.activity.function for state in machine.walk() if state.activity is not None}
-    for function in system.functions:
-        if function.name in called:
-            types.append(function.communication.type)
-            element = add_payload(
-                root,
-                "function",
-                name=function.name,
-                category=function.category,
-                paradigm=function.communication.paradigm,
-                server=function.communication.name,
-                type=str(function.communication.type),
-            )
-            add_doc(element, function.doc)
+    for function in system.functions_of(called):
+        types.append(function.communication.type)
+        element = add_payload(
+            root,
+            "function",
+            name=function.name,
+            category=function.category,
+            paradigm=function.communication.paradigm,
+            server=function.communication.name,
+            type=str(function.communication.type),
+        )
+        add_doc(element, function.doc)
     for tag, items in (("parameter", machine.params), ("variable", machine.variables)):
         for item in items:
             types.append(item.type)

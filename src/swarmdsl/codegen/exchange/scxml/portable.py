@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from itertools import accumulate
 
 from lxml import etree
 
@@ -59,7 +60,9 @@ def portable(machine: StateMachine, system: System, places: Places | None = None
     )
     describe_machine(document, machine, system, data)
     _add_data(document, machine, system, data, places)
-    writer = _StateWriter(machine, ids, dialect(data), Events(machine, ids), places)
+    left_with_effects = frozenset(state.id for state in machine.walk() if state.exit)
+    events = Events(machine, ids)
+    writer = _StateWriter(machine, ids, dialect(data), events, left_with_effects, places)
     for state in machine.states:
         writer.add_state(document, state)
     return document
@@ -93,6 +96,7 @@ class _StateWriter:
     ids: Mapping[str, str]
     dialect: Dialect
     events: Events
+    left_with_effects: frozenset[str]
     places: Places
 
     def add_state(self, parent: etree._Element, state: State, around: State | None = None) -> None:
@@ -177,8 +181,9 @@ class _StateWriter:
             self._add_effects(added, transition.effects)
 
     def _is_left_with_effects(self, state: State) -> bool:
-        around = (each for each in self.machine.walk() if f"{state.id}.".startswith(f"{each.id}."))
-        return any(each.exit for each in around)
+        """Return True if the state or one around it has effects on exit."""
+        around = accumulate(state.id.split("."), lambda outer, name: f"{outer}.{name}")
+        return not self.left_with_effects.isdisjoint(around)
 
     def _add_inward(self, element: etree._Element, region: State, around: State) -> None:
         for event, guard, transition, _ in region_transitions(region, around, self.events):
