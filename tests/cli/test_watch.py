@@ -228,3 +228,35 @@ def test_new_interfaces_of_ros(model: Path, tmp_path: Path, watching: Watching) 
     assert "x_msgs/B" in watching.run()
     put(messages / "B.msg", "int32 b\n")
     assert "error[" not in watching.run()
+
+
+# A finalizer in which a signal arrives: Python drops the exception of its handler there.
+FINALIZER = """
+import os, sys
+from swarmdsl.cli import main, watch
+
+class Garbage:
+    def __del__(self):
+        os.kill(os.getpid(), {number})
+        for _ in range(1000):
+            pass
+
+garbage = [Garbage()]
+sleep = watch.sleep
+
+def collect(seconds):
+    garbage.clear()
+    sleep(seconds)
+
+watch.sleep = collect
+main()
+"""
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 143)])
+def test_signal_in_a_finalizer_is_not_lost(model: Path, number: int, code: int) -> None:
+    script = FINALIZER.format(number=int(number))
+    command = [sys.executable, "-c", script, "check", str(model), "--watch"]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=SECONDS)
+    assert "Exception ignored in: <function Garbage.__del__" in ended.stderr
+    assert ended.returncode == code

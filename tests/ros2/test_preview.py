@@ -17,6 +17,7 @@ from queue import SimpleQueue
 from typing import Any
 
 import click
+import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "search_and_rescue"
@@ -24,14 +25,18 @@ TAKE_OFF = ("/sar/uav_0/cmd/takeoff", "uav_mavros_takeoff/action/TakeOff")
 PATIENCE = 60.0
 
 
+def environment(ros: Any) -> dict[str, str]:
+    """That of nodes, with the compiler; the packages that it imports are those of these tests."""
+    paths = [ros.environment["PYTHONPATH"], str(ROOT / "src"), str(Path(click.__file__).parents[1])]
+    return {**ros.environment, "PYTHONPATH": os.pathsep.join(paths)}
+
+
 @contextmanager
 def previewed(ros: Any, name: str) -> Iterator[SimpleQueue[Any]]:
     """A preview that follows nodes, with the Python of ROS; yields what its page is told."""
-    # The packages that the compiler imports are those of these tests.
-    paths = [ros.environment["PYTHONPATH"], str(ROOT / "src"), str(Path(click.__file__).parents[1])]
     process = subprocess.Popen(
         [ros.python, "-m", "swarmdsl", "preview", EXAMPLE, "--follow", f"ros2:{name}"],
-        env={**ros.environment, "PYTHONPATH": os.pathsep.join(paths)},
+        env=environment(ros),
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
@@ -91,3 +96,54 @@ def test_a_node_is_followed_while_it_runs(ros: Any) -> None:
         until(told, active={"uav[0]": ["Mission.Idle"]})
         node.terminate()
         until(told, active={"uav[0]": None})
+
+
+# The thread of the executor stops in METHOD, as on a busy machine, until that of the preview waits
+# for its end.
+BUSY = """
+import threading
+from rclpy.executors import Executor
+from swarmdsl.ide.preview import ros2
+from swarmdsl.ide.preview.serving import Snapshot
+
+ros2._GRACE = {grace}
+stopped, leaving = threading.Event(), threading.Event()
+owner, name = {method}
+go_on, join = getattr(owner, name), threading.Thread.join
+
+def slow(self):
+    stopped.set()
+    if not {forever}:
+        leaving.wait()
+    else:
+        threading.Event().wait()
+    return go_on(self)
+
+def leave(thread, timeout=None):
+    leaving.set()
+    join(thread, timeout)
+
+setattr(owner, name, slow)
+threading.Thread.join = leave
+with ros2.listening(["sar"], Snapshot(), print):
+    stopped.wait()
+print("left")
+"""
+
+
+@pytest.mark.parametrize(
+    ("method", "forever"),
+    [('(Executor, "get_nodes")', False), ('(ros2._NodeListener, "poll")', True)],
+    ids=["executor", "callback"],
+)
+def test_preview_ends_whatever_the_executor_does(
+    ros: Any, tmp_path: Path, method: str, forever: bool
+) -> None:
+    script = tmp_path / "busy.py"
+    grace = 0.1 if forever else PATIENCE
+    script.write_text(BUSY.format(method=method, forever=forever, grace=grace), encoding="utf-8")
+    ended = subprocess.run(
+        [ros.python, script], env=environment(ros), capture_output=True, text=True, timeout=PATIENCE
+    )
+    assert (ended.returncode, ended.stdout) == (0, "left\n")
+    assert "Traceback" not in ended.stderr

@@ -17,6 +17,7 @@ from importlib import import_module
 from io import TextIOWrapper
 from typing import NoReturn
 
+from swarmdsl.base import interrupts
 from swarmdsl.cli.command_names import COMMANDS, PLAIN
 from swarmdsl.cli.exit_code import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 
@@ -35,8 +36,10 @@ def main() -> None:
     if hasattr(signal, "SIGPIPE"):
         # `swarmc targets | head -1` ends quietly, as other programs do.
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
-    # As an exception, so that temporary files are removed.
-    signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(TERMINATED))
+    # As exceptions, so that temporary files are removed.
+    interrupts.install(signal.SIGTERM, SystemExit(TERMINATED))
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:  # not ignored, as in `nohup`
+        interrupts.install(signal.SIGINT, KeyboardInterrupt())
     # A compiler keeps its data until it ends: garbage collection costs a tenth of the time.
     # Commands that run for long turn it on.
     gc.disable()

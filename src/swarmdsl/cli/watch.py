@@ -11,6 +11,7 @@ from time import perf_counter, sleep, strftime
 
 import click
 
+from swarmdsl.base import interrupts
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.errors import UsageError
 from swarmdsl.base.records import dataclass
@@ -62,7 +63,7 @@ def watch_files(
             if report.has_errors:
                 screen.show(Result(report, files=1), settings, changed, start)
                 while _stamps(before) == before:
-                    sleep(_PAUSE)
+                    _pause()
             else:
                 _watch(before, settings, screen, changed, start)
             changed = {FILE_NAME}
@@ -81,7 +82,7 @@ def _watch(
     known = _stamps(workspace.watched())
     screen.show(_result(workspace, settings), settings, changed, start)
     while _stamps(project) == project:
-        sleep(_PAUSE)
+        _pause()
         found = _stamps(workspace.watched())
         changed = {path for path, _ in known.items() ^ found.items()}
         if changed:
@@ -92,6 +93,11 @@ def _watch(
             known.update((path, found[path]) for path in known.keys() & found.keys())
             screen.show(_result(workspace, settings), settings, changed, start)
             gc.collect()
+
+
+def _pause() -> None:
+    sleep(_PAUSE)
+    interrupts.raise_lost()
 
 
 def _result(workspace: Workspace, settings: Settings) -> Result:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from queue import SimpleQueue
 from typing import Literal
 
+from swarmdsl.base import interrupts
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.simulate.inputs import Input
 from swarmdsl.execution.simulate.world import World
@@ -38,6 +39,7 @@ class Pace:
         """Wait until a time."""
         while (left := until - self.now) > 0:
             time.sleep(min(left / SECOND, _NAP))
+            interrupts.raise_lost()
 
 
 def run(
@@ -85,6 +87,7 @@ def run_live(
             return "ended"
         world.clock.advance(max(pace.now - world.clock.now, 0))
         time.sleep(_BLINK)
+        interrupts.raise_lost()
     return _finish(world, until, pace)
 
 

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -23,6 +23,8 @@ _NAME = re.compile(r"/?(?:[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*/?)?", re.ASCII)
 _TYPE = "std_msgs/msg/String"
 _POLL_INTERVAL = 0.5
 """Seconds between two polls of the ROS graph."""
+_GRACE = 5.0
+"""Seconds that callbacks may take to end."""
 
 
 class UnavailableError(Exception):
@@ -78,15 +80,25 @@ def listening(
     executor.add_node(node)
     listener = _NodeListener(rclpy.qos, string, node, names, snapshot, tell)
     node.create_timer(_POLL_INTERVAL, listener.poll)
-    thread = Thread(target=executor.spin, daemon=True)
+    stop = Event()
+
+    def spin() -> None:
+        while not stop.is_set():
+            executor.spin_once()  # the timer ends it
+
+    thread = Thread(target=spin, daemon=True)
     thread.start()
     try:
         yield
     finally:
-        executor.shutdown()
-        thread.join()
-        node.destroy_node()
-        context.try_shutdown()
+        stop.set()
+        thread.join(_GRACE)
+        # `shutdown` destroys what the executor uses, so it must not spin any more. A thread that
+        # goes on ends with the process.
+        if not thread.is_alive():
+            executor.shutdown()
+            node.destroy_node()
+            context.try_shutdown()
 
 
 class _NodeListener:
