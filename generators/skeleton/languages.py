@@ -124,14 +124,14 @@ class Python:
         return python_field(name)
 
     def refusal(self, why: str, response: Mapping[str, str]) -> tuple[str, ...]:
-        """Return an exception; in ROS 2, which has none for clients, a field `success`."""
+        """Return an exception; in ROS 2, a field `success` if the response has one."""
         if self.ros == 1:
             return (f"raise rospy.ServiceException({why!r})",)
-        lines = [f"self.get_logger().error({why!r})"]
-        if response.get("success") == "bool":
-            lines.append("response.success = False")
-            if response.get("message") == "string":
-                lines.append(f"response.message = {why!r}")
+        if not reports_failure(response, self.ros):
+            return (f"raise NotImplementedError({why!r})",)
+        lines = [f"self.get_logger().error({why!r})", "response.success = False"]
+        if response.get("message") == "string":
+            lines.append(f"response.message = {why!r}")
         return (*lines, "return response")
 
 
@@ -198,20 +198,28 @@ class Cpp:
         return name
 
     def refusal(self, why: str, response: Mapping[str, str]) -> tuple[str, ...]:
-        """`return false;`; in rclcpp, a field `success`."""
+        """`return false;`; in rclcpp, a field `success`, else an exception."""
         if self.ros == 1:
             return (f"ROS_ERROR({_printed(why)});", "return false;")
-        lines = [f"RCLCPP_ERROR(get_logger(), {_printed(why)});"]
-        if response.get("success") == "bool":
-            lines.append("response.success = false;")
-            if response.get("message") == "string":
-                lines.append(f"response.message = {json.dumps(why)};")
+        if not reports_failure(response, self.ros):
+            return (f"throw std::runtime_error({json.dumps(why)});",)
+        lines = [f"RCLCPP_ERROR(get_logger(), {_printed(why)});", "response.success = false;"]
+        if response.get("message") == "string":
+            lines.append(f"response.message = {json.dumps(why)};")
         return tuple(lines)
 
 
 def language(name: str, ros: Generation) -> Language:
     """Return the language of option `language`."""
     return Python(ros) if name == "python" else Cpp(ros)
+
+
+def reports_failure(response: Mapping[str, str], ros: Generation) -> bool:
+    """Return True if a service can tell its client that a request failed.
+
+    ROS 1 does that for any service; in ROS 2 it takes a field `success` of the response.
+    """
+    return ros == 1 or response.get("success") == "bool"
 
 
 def _printed(text: str) -> str:

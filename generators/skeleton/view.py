@@ -12,7 +12,7 @@ from swarmdsl.codegen.python import comment_lines, comments, file_name
 from swarmdsl.codegen.ros import interface_parts, yaml_value
 from swarmdsl.ir import DURATION, Action, Field, Service, System
 
-from .languages import Language
+from .languages import Language, reports_failure
 from .nodes import Node, Server, Topic
 from .settings import Setting
 
@@ -48,6 +48,7 @@ class ServerView:
     given: tuple[str, ...]
     feedback: tuple[str, ...]
     refusal: tuple[str, ...]
+    reports_failure: bool
     comments: tuple[str, ...]
 
     @property
@@ -109,6 +110,11 @@ class NodeView:
         return (*((self.action,) if self.action else ()), *self.services)
 
     @property
+    def silent(self) -> tuple[ServerView, ...]:
+        """The services that cannot tell their clients that a request failed."""
+        return tuple(service for service in self.services if not service.reports_failure)
+
+    @property
     def required(self) -> tuple[SettingView, ...]:
         """The ROS parameters that require a value."""
         return tuple(setting for setting in self.settings if not setting.default)
@@ -131,7 +137,7 @@ class NodeView:
     @property
     def standard(self) -> tuple[str, ...]:
         """Headers of the standard library that the class needs."""
-        found = {"memory", "string"} if self.action else set()
+        found = {"atomic", "memory", "string"} if self.action else set()
         found |= {"mutex", "vector"} if self.inputs else set()
         found |= {"string", "vector"} if self.settings else set()
         found |= {"vector"} if self.services else set()
@@ -245,6 +251,7 @@ def _server(server: Server, node: Node, system: System, language: Language) -> S
         given=given,
         feedback=feedback,
         refusal=language.refusal(f"{what} is not implemented", _plain(fields[1])),
+        reports_failure=reports_failure(_plain(fields[1]), language.ros),
         comments=comments(server.origin, server.doc),
     )
 

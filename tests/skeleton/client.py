@@ -5,8 +5,11 @@ that are `filled` in with the code of this folder.
 """
 
 import json
+import os
+import signal
 import sys
 import threading
+from functools import partial
 
 import actionlib
 import demo.msg
@@ -56,6 +59,10 @@ def main(what):
     rospy.init_node("client")
     client = actionlib.SimpleActionClient("cmd/climb", demo.msg.ClimbAction)
     assert client.wait_for_server(rospy.Duration(20))
+    if what == "stopped":
+        stop = partial(os.kill, int(sys.argv[2]), signal.SIGTERM)
+        sys.stdout.write(json.dumps(goal(client, 3.0, stop)) + "\n")
+        return
     said = {
         "beep": ask("cmd/beep", demo.srv.Beep, times=2),
         "snap": ask("camera/snap", demo.srv.CameraSnap, zoom=1.0),

@@ -6,6 +6,8 @@ nodes that are `filled` in with the code of this folder.
 
 import contextlib
 import json
+import os
+import signal
 import sys
 import threading
 import time
@@ -73,7 +75,9 @@ class Client:
         client = self.node.create_client(type_, name)
         assert client.wait_for_service(PATIENCE)
         future = client.call_async(type_.Request(**request))
-        wait(future.done)
+        wait(lambda: future.done() or not client.service_is_ready())
+        if not future.done():
+            return None
         answer = future.result()
         return {field: getattr(answer, field) for field in answer.get_fields_and_field_types()}
 
@@ -92,9 +96,22 @@ class Client:
         return found[0]
 
 
-def main(what):
+def main(what, *process):
     rclpy.init()
     client = Client()
+    if what == "stopped":
+        handle = client.send(3.0)
+        os.kill(int(*process), signal.SIGTERM)
+        said = client.end(handle)
+    else:
+        said = ask_all(client, what)
+    sys.stdout.write(json.dumps(said) + "\n")
+    sys.stdout.flush()
+    rclpy.shutdown()
+    client.thread.join()
+
+
+def ask_all(client, what):
     said = {
         "beep": client.ask("cmd/beep", demo.srv.Beep, times=2),
         "snap": client.ask("camera/snap", demo.srv.CameraSnap, zoom=1.0),
@@ -121,11 +138,8 @@ def main(what):
             nothing=client.goal(4.0),
             wrong=client.goal(5.0),
         )
-    sys.stdout.write(json.dumps(said) + "\n")
-    sys.stdout.flush()
-    rclpy.shutdown()
-    client.thread.join()
+    return said
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(*sys.argv[1:])

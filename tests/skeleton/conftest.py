@@ -108,14 +108,15 @@ def messages(
 @pytest.fixture
 def start(graph: Any, messages: Path, request: pytest.FixtureRequest) -> Iterator[Any]:
     """Start nodes by their names in a namespace of their own, and ask them from a client."""
-    running: list[Any] = []
+    running: dict[str, Any] = {}
     namespace = f"/{request.node.name.replace('[', '_').replace(']', '').replace('-', '_')}"
 
     def start(commands: dict[str, list[str]], folders: list[Path]) -> Callable[..., Any]:
         graph.set_param(f"{namespace}/climb/frame", "map")
         environment = graph.environment([*folders, messages], ROS_NAMESPACE=namespace)
         for name, command in commands.items():
-            running.append(graph.start(command, output=f"{namespace[1:]}_{name}", env=environment))
+            output = f"{namespace[1:]}_{name}"
+            running[name] = graph.start(command, output=output, env=environment)
 
         def ask(*words: str) -> Any:
             run = subprocess.run(
@@ -128,6 +129,7 @@ def start(graph: Any, messages: Path, request: pytest.FixtureRequest) -> Iterato
 
         return ask
 
+    start.running = running  # type: ignore[attr-defined]
     yield start
-    for process in running:
+    for process in running.values():
         graph.end(process)

@@ -160,6 +160,17 @@ def test_cpp_nodes_do_what_is_filled_in(
     }
 
 
+def test_a_goal_has_a_result_when_its_node_is_stopped(graph: Any, catkin: Path, start: Any) -> None:
+    code = (HERE / "code" / "climb.cpp").read_text(encoding="utf-8")
+    (catkin / "src" / "climb" / "src" / "climb.cpp").write_text(code, encoding="utf-8")
+    make(graph, catkin, "-O0", "climb_node")
+    ask = start({"climb": cpp_commands(catkin)["climb"]}, [])
+    climb = start.running["climb"]
+
+    assert ask("stopped", str(climb.pid)) == ["ABORTED", 0.0, "left", []]
+    assert climb.wait(60) == 0
+
+
 def test_a_generated_machine_is_answered_by_the_server_of_a_skeleton(
     graph: Any, catkin: Path
 ) -> None:

@@ -56,6 +56,19 @@ def test_python_nodes_do_what_is_filled_in(
     }
 
 
+def test_a_goal_has_a_result_when_its_node_is_stopped(
+    graph: Any, python_nodes: Path, start: Any, tmp_path: Path
+) -> None:
+    shutil.copytree(python_nodes / "climb", tmp_path / "climb")
+    source = tmp_path / "climb" / "src"
+    shutil.copy(HERE / "code" / "climb.py", source / "climb" / "implementation.py")
+    ask = start({"climb": python_commands(graph, tmp_path)["climb"]}, [source])
+    climb = start.running["climb"]
+
+    assert ask("stopped", str(climb.pid)) == ["ABORTED", 0.0, "left", []]
+    assert climb.wait(60) == 0
+
+
 def test_python_tests_of_users_pass(graph: Any, messages: Path, python_nodes: Path) -> None:
     for name in NODES:
         environment = graph.environment([python_nodes / name / "src", messages])

@@ -59,7 +59,7 @@ def test_cpp_compiles_against_stubs(cpp: Path, name: str) -> None:
 def test_cpp_goals_end_on_stubs(cpp: Path, tmp_path: Path, optimisation: str) -> None:
     sources = [
         cpp / "climb" / "src" / "climb_base.cpp",
-        *sorted((HERE / "code" / "ros2").glob("*.cpp")),
+        *((HERE / "code" / "ros2" / name) for name in ("climb.cpp", "drive.cpp")),
     ]
     program = tmp_path / "drive"
     assert compiled(sources, cpp / "climb", optimisation, "-o", program) == ""
@@ -74,8 +74,21 @@ def test_cpp_goals_end_on_stubs(cpp: Path, tmp_path: Path, optimisation: str) ->
         "replaced aborted 0",
         "newer succeeded 1.1",
         "early canceled 0",
+        "ended 1",
         "stopped aborted 0",
     ]
+
+
+def test_cpp_service_that_fails_is_withdrawn_on_stubs(cpp: Path, tmp_path: Path) -> None:
+    sources = [*(cpp / "camera" / "src" / f"camera{part}.cpp" for part in ("", "_base"))]
+    sources.append(HERE / "code" / "ros2" / "request.cpp")
+    program = tmp_path / "request"
+    assert compiled(sources, cpp / "camera", "-o", program) == ""
+    run = subprocess.run([program], capture_output=True, text=True, timeout=60, check=True)
+
+    assert run.stdout.splitlines() == ["offered", "0 responses", "withdrawn", "offered"]
+    wanted = "Camera.snap is not implemented; the service is withdrawn for 10 s\n"
+    assert run.stderr == wanted
 
 
 @pytest.fixture(scope="module")
@@ -106,7 +119,7 @@ def start(ros2: tuple[Path, dict[str, str]], tmp_path: Path) -> Iterator[Any]:
     running: list[subprocess.Popen[bytes]] = []
     log = tmp_path / "log.txt"
 
-    def start(folder: Path) -> Callable[[str], Any]:
+    def start(folder: Path) -> Callable[..., Any]:
         path = os.pathsep.join([*(str(folder / name) for name in NODES), variables["PYTHONPATH"]])
         environment = {**variables, "PYTHONPATH": path}
         for name in NODES:
@@ -114,9 +127,10 @@ def start(ros2: tuple[Path, dict[str, str]], tmp_path: Path) -> Iterator[Any]:
             with log.open("ab") as file:
                 running.append(subprocess.Popen(command, env=environment, stderr=file, stdout=file))
 
-        def ask(what: str) -> Any:
+        def ask(what: str, *stopped: str) -> Any:
+            processes = (str(running[NODES.index(name)].pid) for name in stopped)
             run = subprocess.run(
-                [python, HERE / "client_ros2.py", what],
+                [python, HERE / "client_ros2.py", what, *processes],
                 env=environment, capture_output=True, text=True, timeout=200, check=False,
             )  # fmt: skip
             assert run.returncode == 0, run.stderr + log.read_text()
@@ -134,7 +148,9 @@ def start(ros2: tuple[Path, dict[str, str]], tmp_path: Path) -> Iterator[Any]:
         except subprocess.TimeoutExpired:
             process.kill()
             ends.append(process.wait())
-    assert set(ends) <= {0}, log.read_text()
+    said = log.read_text()
+    assert set(ends) <= {0}, said
+    assert "never retrieved" not in said
 
 
 def test_python_skeletons_end_each_goal(write: Write, start: Any, tmp_path: Path) -> None:
@@ -142,9 +158,20 @@ def test_python_skeletons_end_each_goal(write: Write, start: Any, tmp_path: Path
 
     assert start(tmp_path / "src")("skeletons") == {
         "beep": {"success": False, "message": "beep is not implemented"},
-        "snap": {"stored": False},
+        "snap": None,
         "goal": ["ABORTED", 0.0, []],
     }
+
+
+def test_a_goal_has_a_result_when_its_node_is_stopped(
+    write: Write, start: Any, tmp_path: Path
+) -> None:
+    write(tmp_path / "src", ros="2")
+    code = HERE / "code" / "ros2" / "climb.py"
+    shutil.copy(code, tmp_path / "src" / "climb" / "climb" / "implementation.py")
+
+    assert start(tmp_path / "src")("stopped", "climb") == ["ABORTED", 0.0]
+    assert "Traceback" not in (tmp_path / "log.txt").read_text()
 
 
 # A signal shuts ROS down, and may do so without waking who waits: here it does not.
@@ -169,7 +196,7 @@ if sys.argv[1] == 'begun':
     threading.Thread(target=stop_later, daemon=True).start()
 else:
     init = rclpy.init
-    rclpy.init = lambda: (init(), stop())
+    rclpy.init = lambda **options: (init(**options), stop())
 beep.node.main()
 """
 
@@ -228,7 +255,7 @@ def test_python_nodes_do_what_is_filled_in(write: Write, start: Any, tmp_path: P
         "beep": {"success": False, "message": "beep is not implemented"},
         "snap": {"stored": True},
         "zoomed": {"stored": False},
-        "stumbled": {"stored": False},
+        "stumbled": None,
         "seen": [0.5],
         "position": 7,
         "reached": ["SUCCEEDED", 1.1, [0.5]],
@@ -336,6 +363,51 @@ def _as_arguments(node: dict[str, Any]) -> Iterator[str]:
         yield from ("-r", f"{name}:={topic}")
     for file in node["parameters"][1:]:
         yield from ("--params-file", str(file))
+
+
+GREETING = """package greeting
+function bow : abstraction { service "bow" : std_srvs/Empty }
+statemachine Greet {
+  initial Bowing
+  state Bowing {
+    do bow
+    on succeeded -> Done
+    on aborted   -> Failed
+  }
+  final Done
+  final Failed
+}
+member Robot { behavior Greet }
+"""
+# The service is offered again after its failure, and fails again.
+BOW = """
+import bow.base
+import bow.node
+bow.base.WITHDRAWN = 2.0
+bow.node.main()
+"""
+
+
+def test_a_robot_does_not_take_for_done_what_is_not_implemented(tmp_path: Path) -> None:
+    """The response `std_srvs/Empty` has no field that could say so."""
+    given = os.environ.get("SWARMDSL_ROS2")
+    if given is None:
+        pytest.skip("no ROS 2: `make test-ros2`")
+    model = tmp_path / "greeting.swarm"
+    model.write_text(GREETING, encoding="utf-8")
+    words = ["--target", "ros2", "--target", "skeleton", "--option", "skeleton.ros=2"]
+    assert swarmc(["build", str(model), *words, "-o", str(tmp_path / "src")]) == 0
+    harness = load_module("skeleton_harness", ROS2 / "harness.py")
+    packages = [tmp_path / "src" / "ros2" / "greeting_behavior"]
+    packages.append(tmp_path / "src" / "skeleton" / "bow")
+    with ExitStack() as stack:
+        ros = harness.Ros(Path(given), packages, stack.enter_context(free_domain()), tmp_path)
+        stack.callback(ros.close)
+        ros.start("-c", BOW)
+        for _ in range(2):
+            node = ros.node("greeting_behavior.greet", timeouts__server=1.0)
+            assert node.exit_code() == 0
+            assert node.trace[-1]["event"] == "do.Bowing.aborted", node.log
 
 
 HOOK = """

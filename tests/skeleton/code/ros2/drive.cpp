@@ -62,8 +62,12 @@ int main()
   auto heard = std::static_pointer_cast<rclcpp::Subscription<demo::msg::Sample>>(
     node->subscriptions.at("state"));
   heard->callback(std::make_shared<demo::msg::Sample>());
+  // A signal shuts down ROS, as in the node.
+  rclcpp::contexts::get_global_default_context()->add_pre_shutdown_callback(
+    [&node]() {std::printf("ended %d\n", node->end_goal());});
   auto running = send(*node, 3);
-  node->stop();
+  rclcpp::shutdown();
   print("stopped", running);
+  node->stop();
   return 0;
 }

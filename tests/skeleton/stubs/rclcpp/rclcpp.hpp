@@ -23,6 +23,8 @@
   do {(void)(logger); std::fprintf(stderr, __VA_ARGS__); std::fputc('\n', stderr);} while (0)
 #define RCLCPP_INFO(logger, ...) RCLCPP_ERROR(logger, __VA_ARGS__)
 
+struct rmw_request_id_t {};
+
 namespace rclcpp
 {
 
@@ -33,7 +35,32 @@ inline bool & running()
 }
 inline void init(int, const char * const *) {running() = true;}
 inline bool ok() {return running();}
-inline bool shutdown() {running() = false; return true;}
+
+class Context
+{
+public:
+  void add_pre_shutdown_callback(std::function<void()> callback) {callbacks_.push_back(callback);}
+  void shutdown()
+  {
+    for (const auto & callback : callbacks_) {
+      callback();
+    }
+    callbacks_.clear();
+    running() = false;
+  }
+
+private:
+  std::vector<std::function<void()>> callbacks_;
+};
+namespace contexts
+{
+inline std::shared_ptr<Context> get_global_default_context()
+{
+  static const auto context = std::make_shared<Context>();
+  return context;
+}
+}  // namespace contexts
+inline bool shutdown() {contexts::get_global_default_context()->shutdown(); return true;}
 
 class Duration
 {
@@ -110,8 +137,25 @@ struct ServiceBase
 template<typename S>
 struct Service : ServiceBase
 {
+  using SharedPtr = std::shared_ptr<Service<S>>;
   std::function<void(std::shared_ptr<typename S::Request>, std::shared_ptr<typename S::Response>)>
   callback;
+  std::function<void(
+      std::shared_ptr<Service<S>>, std::shared_ptr<rmw_request_id_t>,
+      std::shared_ptr<typename S::Request>)>
+  deferring_callback;
+  void send_response(rmw_request_id_t &, typename S::Response & response)
+  {
+    responses.push_back(response);
+  }
+  std::vector<typename S::Response> responses;
+};
+struct TimerBase
+{
+  using SharedPtr = std::shared_ptr<TimerBase>;
+  void cancel() {cancelled = true;}
+  std::function<void()> callback;
+  bool cancelled = false;
 };
 template<typename M>
 class Publisher
@@ -176,14 +220,28 @@ public:
   template<typename S, typename C>
   typename std::shared_ptr<Service<S>> create_service(const std::string & name, C && callback)
   {
+    using Request = std::shared_ptr<typename S::Request>;
     auto made = std::make_shared<Service<S>>();
-    made->callback = std::forward<C>(callback);
+    if constexpr (std::is_invocable_v<C, Request, std::shared_ptr<typename S::Response>>) {
+      made->callback = std::forward<C>(callback);
+    } else {
+      made->deferring_callback = std::forward<C>(callback);
+    }
     services[name] = made;
+    return made;
+  }
+  template<typename Rep, typename Period, typename C>
+  TimerBase::SharedPtr create_wall_timer(std::chrono::duration<Rep, Period>, C && callback)
+  {
+    auto made = std::make_shared<TimerBase>();
+    made->callback = std::forward<C>(callback);
+    timers.push_back(made);
     return made;
   }
   // For who drives the stub.
   std::map<std::string, SubscriptionBase::SharedPtr> subscriptions;
-  std::map<std::string, ServiceBase::SharedPtr> services;
+  std::map<std::string, std::weak_ptr<ServiceBase>> services;
+  std::vector<TimerBase::SharedPtr> timers;
   std::map<std::string, std::shared_ptr<void>> actions;
 
 private:

@@ -59,9 +59,15 @@ bool ClimbBase::start()
 
 void ClimbBase::stop()
 {
+  stopping_ = true;
   if (server_)
   {
+    const bool works = server_->isActive();
     server_->shutdown();  // waits for the running goal
+    if (works)
+    {
+      ros::WallDuration(1).sleep();  // another thread sends the result
+    }
   }
   subscribers_.clear();
 }
@@ -74,7 +80,7 @@ ClimbBase::Inputs ClimbBase::inputs() const
 
 bool ClimbBase::cancelled()
 {
-  return !ros::ok() || (server_ && server_->isPreemptRequested());
+  return stopping_ || !ros::ok() || (server_ && server_->isPreemptRequested());
 }
 
 bool ClimbBase::wait(double seconds)
@@ -118,6 +124,12 @@ void ClimbBase::execute_goal(const Goal::ConstPtr& goal)
   {
     text = "execute threw what is no std::exception";
     ROS_ERROR("%s", text.c_str());
+  }
+  if (stopping_ && outcome == Outcome::preempted && !server_->isPreemptRequested())
+  {
+    // Its client has not cancelled it.
+    outcome = Outcome::aborted;
+    text = text.empty() ? "the node is stopped" : text;
   }
   switch (outcome)
   {

@@ -70,16 +70,24 @@ ClimbBase::~ClimbBase()
   stop();
 }
 
-void ClimbBase::stop()
+bool ClimbBase::end_goal()
 {
+  bool works = false;
   {
     const std::lock_guard<std::mutex> lock(goals_mutex_);
     stopping_ = true;
+    works = current_ || next_;
   }
   goals_changed_.notify_all();
   if (worker_.joinable()) {
     worker_.join();
   }
+  return works;
+}
+
+void ClimbBase::stop()
+{
+  end_goal();
   subscriptions_.clear();
 }
 

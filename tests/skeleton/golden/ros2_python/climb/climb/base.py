@@ -14,6 +14,11 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+GRACE = 10.0
+"""Time in which goals and requests have to end when the node is stopped, in seconds."""
+SENDING = 1.0
+"""Time in which their results are sent, in seconds."""
+
 
 class Outcome(NamedTuple):
     """Outcome of a goal: returned by `succeeded`, `aborted` and `preempted`."""
@@ -116,6 +121,8 @@ class ClimbBase(Node):
             10,
             callback_group=group,
         )
+        self._working = 0  # goals and requests
+        self._work_ended = threading.Condition()
         self._goals_lock = threading.Lock()
         self._current = None  # the running goal
         self._next = None  # the goal that replaces it
@@ -131,8 +138,22 @@ class ClimbBase(Node):
         )
 
     def stop(self):
-        """End the running goal, before the node ends."""
+        """Wait until goals and requests have ended, before the node ends."""
         self._stopping = True
+        with self._work_ended:
+            if not self._working:
+                return
+            self._work_ended.wait_for(lambda: not self._working, GRACE)
+        time.sleep(SENDING)
+
+    def _begin_work(self):
+        with self._work_ended:
+            self._working += 1
+
+    def _end_work(self):
+        with self._work_ended:
+            self._working -= 1
+            self._work_ended.notify_all()
 
     def execute(self, goal):
         """Process a goal; return its outcome."""
@@ -176,6 +197,7 @@ class ClimbBase(Node):
 
     def _accept(self, handle):
         """Process a goal, after the running goal has ended."""
+        self._begin_work()
         with self._goals_lock:
             left_out = self._next
             starts = self._current is None
@@ -190,7 +212,10 @@ class ClimbBase(Node):
 
     def _leave_out(self, handle):
         """End a goal that was replaced before it began."""
-        return self._end(handle, self.preempted('a newer goal came'), self.Result())
+        try:
+            return self._end(handle, self.preempted('a newer goal came'), self.Result())
+        finally:
+            self._end_work()
 
     def _execute(self, handle):
         """Run `execute`, and end the goal in any case."""
@@ -213,6 +238,7 @@ class ClimbBase(Node):
                 following = self._current
             if following is not None:
                 following.execute()
+            self._end_work()
 
     def _end(self, handle, outcome, result):
         """Set the final state of a goal."""

@@ -2,6 +2,7 @@
 #ifndef CLIMB_CLIMB_BASE_H
 #define CLIMB_CLIMB_BASE_H
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -76,7 +77,7 @@ public:
   /// Returns false if a parameter is missing or of another type, which is logged.
   bool start();
 
-  /// End the running goal. Call it before the object is destroyed.
+  /// End the running goal, and send its result. Call it before the object is destroyed.
   void stop();
 
   /// Process a goal; returns its outcome. `text` is sent to the client.
@@ -110,6 +111,8 @@ protected:
 
 private:
   void execute_goal(const Goal::ConstPtr& goal);
+
+  std::atomic<bool> stopping_{false};
 
   std::unique_ptr<actionlib::SimpleActionServer<demo::ClimbAction>> server_;
   Parameters parameters_;

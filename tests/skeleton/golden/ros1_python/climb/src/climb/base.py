@@ -2,11 +2,17 @@
 """Base class of node climb, which is implemented in implementation.py."""
 
 import collections
+import time
 import traceback
 
 import actionlib
 import rospy
 import demo.msg
+
+# Time in which a goal has to end when the node is stopped, in seconds.
+GRACE = 10
+# Time in which its result is sent, in seconds.
+SENDING = 1
 
 Outcome = collections.namedtuple('Outcome', 'status result text')
 Outcome.__doc__ = """Outcome of a goal: returned by `succeeded`, `aborted` and `preempted`."""
@@ -79,6 +85,7 @@ class ClimbBase:
         self.inputs = Inputs()
         self.outputs = None
         self._server = None
+        self._stopping = False
 
     def start(self):
         """Start: read the parameters, and create publishers, subscriptions and servers."""
@@ -90,15 +97,26 @@ class ClimbBase:
         )
         self._server.start()
 
+    def stop(self):
+        """End the running goal, before the node ends."""
+        self._stopping = True
+        if self._server is None or not self._server.is_active():
+            return
+        end = time.monotonic() + GRACE
+        while self._server.is_active() and time.monotonic() < end:
+            time.sleep(0.05)
+        time.sleep(SENDING)
+
     def execute(self, goal):
         """Process a goal; return its outcome."""
         raise NotImplementedError
 
     def cancelled(self):
         """Return True if the goal is cancelled, replaced by a newer goal, or the node ends."""
-        return rospy.is_shutdown() or (
-            self._server is not None and self._server.is_preempt_requested()
-        )
+        return self._stopping or rospy.is_shutdown() or self._is_preempt_requested()
+
+    def _is_preempt_requested(self):
+        return self._server is not None and self._server.is_preempt_requested()
 
     def wait(self, seconds):
         """Wait; return False as soon as the goal is cancelled, else True."""
@@ -144,6 +162,9 @@ class ClimbBase:
             rospy.logerr('%s', traceback.format_exc())
             outcome = self.aborted('{}: {}'.format(type(error).__name__, error))
             result = self.Result()
+        if self._stopping and outcome.status == 'preempted' and not self._is_preempt_requested():
+            # Its client has not cancelled it.
+            outcome = self.aborted(outcome.text or 'the node is stopped')
         ends = {
             'succeeded': self._server.set_succeeded,
             'aborted': self._server.set_aborted,

@@ -79,7 +79,10 @@ public:
 
   ~ClimbBase() override;
 
-  /// End the running goal. Call it before the object is destroyed.
+  /// End the running goal, while ROS can send its result; returns true if there was one.
+  bool end_goal();
+
+  /// End everything. Call it before the object is destroyed.
   void stop();
 
   /// Process a goal; returns its outcome. `text` is logged.
