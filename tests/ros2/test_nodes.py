@@ -314,6 +314,20 @@ def test_values_that_ros_holds_in_its_own_way(ros: Any) -> None:
     assert [line["event"] for line in lab.node.trace].count("Told") == 0
 
 
+def test_numbers_that_json_does_not_have_are_in_the_trace(ros: Any) -> None:
+    """The trace is replayed, as all are: there the guard `event.speed > 0.0` holds, too."""
+    lab = Lab(ros)
+    nan = float("nan")
+    lab.fakes.publish("/lab/noise", number=220, values=[nan, 1.0, float("-inf")])
+    assert lab.node.wait_for("Noise")["data"]["values"] == ["NaN", 1.0, "-Infinity"]
+    lab.go(speed=nan)
+    assert lab.node.wait_for("Go")["data"]["speed"] == "NaN"
+    lab.node.wait_in("Idle")
+    lab.go(speed=float("inf"))
+    assert lab.node.wait_for("Go", 2)["data"]["speed"] == "Infinity"
+    lab.fakes.wait("goal", WORK[0])
+
+
 def test_a_machine_that_ends_ends_its_node(ros: Any) -> None:
     lab = Lab(ros)
     lab.fakes.publish("/lab/stop")

@@ -222,3 +222,56 @@ def test_a_simulation_is_as_the_model_says(
     assert code == 0, err
     lines = len(trace.read_text(encoding="utf-8").splitlines())
     assert err.startswith(f"{lines} line")
+
+
+BATTERY = """
+package test
+import cpswarm.interfaces.*
+message Cell { share : float32[<=4]  label : string  inner : Inner }
+message Inner { reserve : float64 }
+event Battery : sensor_msgs/BatteryState on "battery"
+event Cells   : Cell on "cells"
+statemachine M {
+  initial Well
+  state Well {
+    on Battery [event.voltage < 3.0] -> Low
+    on Battery [event.capacity > 100.0] -> Large
+    on Cells [event.inner.reserve < 3.0] -> Low
+    on Battery, Cells -> Well
+  }
+  final Low
+  final Large
+}
+"""
+
+
+def test_numbers_that_json_does_not_have(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """They are written as strings, which all readers of JSON take, and read as numbers."""
+    model, events, trace = (tmp_path / name for name in ("m.swarm", "events.jsonl", "trace.jsonl"))
+    model.write_text(BATTERY, encoding="utf-8")
+    data = {"voltage": "NaN", "capacity": "-Infinity"}
+    cells = {"share": [0.5, "NaN"], "label": "NaN", "inner": {"reserve": "NaN"}}
+    sent = [
+        {"event": "Battery", "data": data},
+        {"event": "Cells", "data": cells},
+        {"event": "Battery", "data": {"voltage": "NaN", "capacity": "Infinity"}},
+    ]
+    events.write_text("\n".join(map(json.dumps, sent)), encoding="utf-8")
+    simulate = ["simulate", str(model), "--machine", "M"]
+
+    assert run([*simulate, "--events", str(events), "--trace-file", str(trace)]) == 0
+    lines = [
+        json.loads(line, parse_constant=pytest.fail) for line in trace.read_text().splitlines()
+    ]
+    assert [each["configuration"] for each in lines] == [["Well"], ["Well"], ["Well"], ["Large"]]
+    assert {key: lines[1]["data"][key] for key in data} == data
+    assert lines[2]["data"] == cells
+    assert run([*simulate, "--replay", str(trace)]) == 0
+
+    # As older nodes have written them.
+    older = [json.dumps(each).replace('"NaN"', "null") for each in lines]
+    trace.write_text("\n".join(older), encoding="utf-8")
+    assert run([*simulate, "--replay", str(trace)]) == 0
+    assert "4 lines of 1 member as in the model" in capsys.readouterr().err

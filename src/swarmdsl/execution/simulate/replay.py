@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -17,9 +18,10 @@ from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, Trace
-from swarmdsl.execution.simulate.trace_line import NAMES, read_line
+from swarmdsl.execution.simulate.trace_line import NAMES, numbers, read_line
 from swarmdsl.execution.simulate.world import LOST
-from swarmdsl.ir import Field, Message, System, Type
+from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
+from swarmdsl.syntax.types import FLOATS
 
 SHUTDOWN = "node.shutdown"
 """Trace event of a machine that was stopped from outside."""
@@ -213,7 +215,7 @@ class _Replay:
     def _message(self, name: str, data: Any) -> Any:
         system = self._subject.system
         declared = next((e.type for e in system.events if e.name == name), None) if system else None
-        return _as(declared, data, system) if declared is not None and system else data
+        return _as(declared, data, system) if declared is not None and system else numbers(data)
 
     def _result(self, run: Run, data: Any) -> Any:
         system = self._subject.system
@@ -222,7 +224,7 @@ class _Replay:
         fields = result_fields(system.function(run.activity.name).communication, system)
         if fields is not None:
             return _with_fields(fields, data, system)
-        return data if isinstance(data, dict) else {}
+        return numbers(data) if isinstance(data, dict) else {}
 
     def _report_difference(self, record: _Record, wrong: str) -> None:
         """Report a difference, with the states of the machine."""
@@ -263,12 +265,23 @@ def _list(names: Sequence[str]) -> str:
 
 def _as(type_: Type, data: Any, system: System) -> Any:
     """Convert data of a robot to a type of the model; unknown fields are dropped."""
+    match type_:
+        case Primitive(name=name) if name in FLOATS:
+            # Older nodes wrote `null` for numbers that JSON does not have.
+            return math.nan if data is None else numbers(data)
+        case Array(element=element) if isinstance(data, list):
+            return [_as(element, each, system) for each in data]
     described = system.interface(type_)
     if isinstance(described, Message):
         return _with_fields(described.fields, data, system)
-    return default_value(type_, system) if data is None else data
+    return default_value(type_, system) if data is None else numbers(data)
 
 
 def _with_fields(fields: Sequence[Field], data: Any, system: System) -> dict[str, Any]:
     given = data if isinstance(data, dict) else {}
-    return {field.name: _as(field.type, given.get(field.name), system) for field in fields}
+    return {
+        field.name: _as(field.type, given[field.name], system)
+        if field.name in given
+        else default_value(field.type, system)
+        for field in fields
+    }

@@ -20,6 +20,7 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.trace_line import named_numbers
 
 _LIMIT = 10_000
 """Maximum number of events that a machine may process at one point in time."""
@@ -151,8 +152,8 @@ def as_json(line: Line) -> str:
         "sent": line.sent,
     }
     if line.data:
-        values["data"] = line.data
-    return json.dumps(values, ensure_ascii=False, default=str)
+        values["data"] = named_numbers(line.data)
+    return json.dumps(values, ensure_ascii=False, default=str, allow_nan=False)
 
 
 def as_text(line: Line, width: int = 0) -> str:

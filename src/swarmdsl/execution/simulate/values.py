@@ -8,6 +8,7 @@ from typing import Any
 from swarmdsl.base.suggest import suggest
 from swarmdsl.codegen.shared.default_values import default_fields, default_result, result_fields
 from swarmdsl.execution.simulate.durations import duration
+from swarmdsl.execution.simulate.trace_line import NOT_FINITE, numbers
 from swarmdsl.ir import Array, Communication, Field, Message, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS, INTEGERS
 
@@ -48,7 +49,7 @@ def fitted(type_: Type, value: Any, system: System, way: Way = ()) -> Any:
         raise _misfit(way, f"the fields of `{type_}`", value)
     described = system.interface(type_)
     if not isinstance(described, Message):
-        return value
+        return numbers(value)
     given = _given(described.fields, value, system, f"`{type_}`", way)
     return {**default_fields(described.fields, system), **given}
 
@@ -59,7 +60,7 @@ def fitted_result(
     """Convert the result of a function; any values if its type is unknown."""
     fields = result_fields(call, system)
     if fields is None:
-        return dict(values)
+        return dict(numbers(values))
     if not isinstance(values, dict):
         raise _misfit(way, "a table of fields", values)
     return {**default_result(call, system), **_given(fields, values, system, owner, way)}
@@ -93,6 +94,8 @@ def _primitive(name: str, value: Any, way: Way) -> Any:
         raise _misfit(way, 'a time like "1.5 s"', value)
     if name in FLOATS:
         if isinstance(value, (int, float)) and not isinstance(value, bool):
+            return float(value)
+        if value in NOT_FINITE:
             return float(value)
         raise _misfit(way, "a number", value)
     bits = _BITS[name]

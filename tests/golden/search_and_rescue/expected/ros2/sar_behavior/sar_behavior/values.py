@@ -19,6 +19,8 @@ _TEXT = re.compile(r'w?string(?:<(?P<bound>\d+)>)?')
 _WHOLE = re.compile(r'(?P<unsigned>u)?int(?P<bits>\d+)')
 _TIMES = {'builtin_interfaces/Duration': Duration, 'builtin_interfaces/Time': Time}
 _GREATEST_FLOAT = 3.4028234663852886e38
+_NOT_FINITE = ('NaN', 'Infinity', '-Infinity')
+"""Numbers that JSON does not have, as strings."""
 
 
 def get(message, field):
@@ -106,17 +108,21 @@ def to_json(value):
     if isinstance(value, (list, tuple)):
         return [to_json(each) for each in value]
     if isinstance(value, float) and not math.isfinite(value):
-        return None
+        return 'NaN' if math.isnan(value) else 'Infinity' if value > 0 else '-Infinity'
     return value
 
 
 def _of_json(held, type_, value):
-    """Convert JSON objects to messages, also in lists."""
+    """Convert JSON objects to messages and the names of numbers to these, also in lists."""
     if isinstance(value, dict):
         return from_json(held, value)
+    if type_ in ('double', 'float') and value in _NOT_FINITE:
+        return float(value)
     many = _SEQUENCE.fullmatch(type_) or _ARRAY.fullmatch(type_)
-    if many is None or not isinstance(value, list) or '/' not in many['element']:
+    if many is None or not isinstance(value, list):
         return value
+    if '/' not in many['element']:
+        return [_of_json(None, many['element'], each) for each in value]
     package, _, name = many['element'].partition('/')
     made = getattr(import_module(f'{package}.msg'), name)
     return [from_json(made(), each) if isinstance(each, dict) else each for each in value]
