@@ -53,7 +53,8 @@ class Options(PackageOptions):
     )
     dead_server: int = option(
         5,
-        "seconds without status of a goal until it counts as aborted",
+        "seconds without status of a goal, or an answer of the node of a service, "
+        "until the call counts as aborted",
         check=_seconds_fault,
         only="ros=1",
     )

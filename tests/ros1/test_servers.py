@@ -1,5 +1,7 @@
 """Nodes whose servers are missing, die, or do not answer."""
 
+import signal
+import subprocess
 import time
 from collections.abc import Callable
 from typing import Any
@@ -116,6 +118,32 @@ def test_server_that_dies(function: str, world: World) -> None:
     flight.peers.process.kill()
     assert node.ended() == 0
     assert ground.called() == ["land"]
+
+
+@pytest.mark.parametrize("function", ["move", "ask"])
+def test_server_that_is_frozen(function: str, world: World) -> None:
+    flight = world(FLIGHT)
+    flight.serve("land", move=[] if function == "move" else ["succeeded"])
+    ground = flight.beside()
+    ground.serve("move", "ask", land=["succeeded"])
+    node = flight.node("flight", **QUICK)
+    flight.wait_for(function)
+    flight.peers.process.send_signal(signal.SIGSTOP)
+    assert node.ended() == 0
+    assert ground.called() == ["land"]
+
+
+def test_server_that_takes_long_is_waited_for(world: World) -> None:
+    """Its node answers a probe while it works on a request."""
+    flight = world(FLIGHT)
+    flight.serve(move=["succeeded"])
+    node = flight.node("flight", **QUICK)
+    flight.wait_for("ask")
+    with pytest.raises(subprocess.TimeoutExpired):
+        node.process.wait(3 * QUICK["timeouts__dead_server"])
+    flight.end("ask")
+    assert node.ended() == 0
+    assert flight.called() == ["move", "ask"]
 
 
 @pytest.mark.parametrize("function", ["move", "ask"])
