@@ -1,5 +1,6 @@
 """Nodes whose servers are missing, die, or do not answer."""
 
+import operator
 import signal
 import subprocess
 import time
@@ -131,6 +132,17 @@ def test_server_that_is_frozen(function: str, world: World) -> None:
     flight.peers.process.send_signal(signal.SIGSTOP)
     assert node.ended() == 0
     assert ground.called() == ["land"]
+
+
+def test_server_that_always_fails_is_called_again_after_pauses(world: World) -> None:
+    flight = world(FLIGHT)
+    flight.serve(move=["aborted"], land=["aborted", "aborted", "aborted", "aborted", "succeeded"])
+    assert flight.node("flight").ended() == 0
+    calls = flight.peers.times("call", "land")
+    ends = flight.peers.times("aborted", "land")
+    pauses = [later - earlier for earlier, later in zip(ends, calls[1:], strict=True)]
+    assert len(pauses) == 4
+    assert all(map(operator.ge, pauses, (0.1, 0.2, 0.4, 0.8))), pauses
 
 
 def test_server_that_takes_long_is_waited_for(world: World) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import operator
 import time
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -55,6 +57,22 @@ def test_a_goal_that_succeeds(uav: Uav) -> None:
     assert uav.fakes.wait("goal", TAKE_OFF[0])["data"] == {"altitude": 4.5}
     assert uav.fakes.wait("goal", AUCTION[0])["data"]["task_id"] == "walker"
     node.wait_in("Mission.SelectRover")
+
+
+def test_a_goal_that_always_fails_is_tried_again_after_pauses(uav: Uav) -> None:
+    uav.fakes.action(*TAKE_OFF, "succeeded")
+    uav.fakes.action(*COVERAGE, "succeeded")
+    uav.fakes.action(*AUCTION, *["reject"] * 4, "succeeded")
+    uav.fakes.action("/sar/uav_0/uav_tracking", "cpswarm_msgs/action/Tracking", "never")
+    node = uav.start()
+    uav.say("start")
+
+    node.wait_in("Mission.Tracking")
+    ends = [line["t"] for line in node.trace if "SelectRover" in str(line["event"])]
+    pauses = [later - earlier for earlier, later in pairwise(ends)]
+    wanted = (100, 200, 400, 800)
+    assert all(map(operator.ge, pauses, wanted)), pauses
+    assert len(pauses) == len(wanted)
 
 
 @pytest.mark.parametrize("outcome", ["reject", "aborted"])

@@ -1,8 +1,10 @@
-"""Delayed calls by a clock of ROS, with one timer for the earliest."""
+"""Delayed calls by a clock of ROS, with one timer for the earliest, and pauses between calls."""
 
 import heapq
 from itertools import count
 
+_FIRST_PAUSE = 100_000_000
+_LONGEST_PAUSE = 1_000_000_000
 _LONGEST = 86_400_000_000_000
 """Maximum period of a timer in nanoseconds: ROS adds it to the time in 64 bits."""
 
@@ -77,3 +79,32 @@ class Alarms:
             if action is not None:
                 action()
         self._set()
+
+
+class Pauses:
+    """
+    Pauses before functions are called again at once after they were aborted, in nanoseconds.
+
+    The pause doubles with each abort in a row. Without it, a machine that tries again would call a
+    server that fails at once some hundred times per second.
+    """
+
+    def __init__(self):
+        self._aborted = {}
+
+    def note(self, run, event, now):
+        """Note the end of an activity."""
+        name = run.activity.name
+        if event.name != run.activity.events['aborted']:
+            self._aborted.pop(name, None)
+            return
+        _, pause = self._aborted.get(name, (now, 0))
+        self._aborted[name] = now, min(max(2 * pause, _FIRST_PAUSE), _LONGEST_PAUSE)
+
+    def before(self, run, now):
+        """Return how long a call has to wait; a call that comes later ends the row."""
+        since, pause = self._aborted.get(run.activity.name, (now, 0))
+        left = since + pause - now
+        if left <= 0:
+            self._aborted.pop(run.activity.name, None)
+        return max(left, 0)

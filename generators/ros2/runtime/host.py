@@ -12,7 +12,7 @@ from rclpy.clock import Clock, ClockType
 from std_msgs.msg import String
 
 from . import engine, parameters
-from .alarms import Alarms
+from .alarms import Alarms, Pauses
 from .diagnostics import Diagnostics
 from .engine import Event, ExecutionError, Instance, LoopError, Machine, Servers
 from .parameters import Parameter, StartError
@@ -132,6 +132,7 @@ class Host:
                 String, '~/events', self._inject, _DEPTH, callback_group=self._group
             )
         self._servers = Servers()
+        self._pauses = Pauses()
         self._period = settings['diagnostics.period']
         self._diagnostics = Diagnostics(node, behavior.machine.name, self._member)
         self._output = Output(node, behavior.machine.name, self._member, settings['trace.file'])
@@ -225,11 +226,15 @@ class Host:
         self._delays.unschedule(handle)
 
     def start(self, run):
-        """Begin an activity."""
+        """Begin an activity, after a pause if its function has just been aborted."""
         function = self._behavior.functions[run.activity.name]
         call = function.call(self, self._clients[run.activity.name], run)
         self._calls[run] = call
-        call.begin()
+        pause = self._pauses.before(run, self.now)
+        if pause:
+            self.later(pause, call.begin)
+        else:
+            call.begin()
 
     def cancel(self, run):
         """Stop an activity."""
@@ -260,6 +265,7 @@ class Host:
             observer=self.observer(),
             servers=self._servers,
         )
+        self._trace.on_end = lambda event: self._pauses.note(event.origin, event, self.now)
         self._trace.begin(self._instance, None)
         self._instance.start()
 

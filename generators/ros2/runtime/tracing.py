@@ -6,7 +6,7 @@ from rclpy.logging import LoggingSeverity
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
-from .engine import Observer
+from .engine import Observer, Run
 from .parameters import StartError
 from .values import to_json
 
@@ -24,6 +24,8 @@ class Trace(Observer):
         self._line = None
         self._taken = []
         self._instance = None
+        self.on_end = lambda event: None
+        """Called with the event of each activity that has ended."""
 
     def begin(self, instance, event):
         """Begin the line of an external event, None for the start."""
@@ -59,6 +61,8 @@ class Trace(Observer):
         """Begin a line for a delay or an activity; `begin` does so for other events."""
         if event.origin is not None:
             self.begin(instance, event)
+        if isinstance(event.origin, Run):
+            self.on_end(event)
 
     def entered(self, instance, state):
         """Note an entered state."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.types import Typing, assignable, report_unknown_field
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.syntax.ast import (
@@ -14,10 +15,13 @@ from swarmdsl.syntax.ast import (
     Communication,
     Field,
     Operation,
+    OutcomeTrigger,
     Parameter,
     ResultMapping,
     ServiceType,
+    State,
     StateMachine,
+    Transition,
     Word,
     nodes_of,
 )
@@ -32,6 +36,9 @@ def check_activities(machine: StateMachine, context: Context) -> None:
         for callback in (activity.goal_callback, activity.result_callback):
             if callback is not None:
                 _check_callback(callback, activity, users, context)
+    if context.report.wants("endless-retry"):
+        for state in nodes_of(machine, State):
+            _check_retry(state, context)
 
 
 def _check_activity(activity: Activity, context: Context) -> None:
@@ -166,3 +173,28 @@ def _check_callback(
             related=(Label(first.function.span, "already used for this function"),),
             help="each function needs a callback of its own: goals and results differ in type",
         )
+
+
+def _check_retry(state: State, context: Context) -> None:
+    """Report a state that is entered again whenever its activity is aborted."""
+    activity = next((item for item in state.items if isinstance(item, Activity)), None)
+    if activity is None:
+        return
+    for transition in state.items:
+        if not isinstance(transition, Transition) or transition.target is None:
+            continue
+        for trigger in transition.triggers:
+            if (
+                isinstance(trigger, OutcomeTrigger)
+                and trigger.outcome == "aborted"
+                and transition.target.target is state
+                and guard_value(transition, context) is True
+            ):
+                context.report.report(
+                    "endless-retry",
+                    trigger.span,
+                    state=state.name,
+                    function=activity.function.span.text,
+                    related=(Label(transition.target.span, "back to the same state"),),
+                    help="lead through a state with a delay, or limit the attempts with a guard",
+                )

@@ -133,6 +133,12 @@ CODES: dict[str, Code] = {
     "conflicting-effects": Code(
         "SW0528", "warning", "two regions assign to `{variable}` on {event}"
     ),
+    "endless-retry": Code(
+        "SW0529",
+        "warning",
+        "`{state}` calls `{function}` again and again while it is aborted",
+        silent=True,
+    ),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "missing value for {fields} in {owner}"),

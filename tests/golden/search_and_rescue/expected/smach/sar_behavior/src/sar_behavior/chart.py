@@ -11,11 +11,16 @@ active states.
 import heapq
 import itertools
 import threading
+import time
 from collections import deque
 
 import rospy
 
 from . import engine
+
+# Pauses in seconds before a server is called again.
+_FIRST_PAUSE = 0.1
+_LONGEST_PAUSE = 1.0
 
 
 class Activation:
@@ -33,12 +38,40 @@ class Activation:
         self.outcome = None
 
 
+class Pauses:
+    """Pauses before servers are called again at once after they aborted a call, in seconds.
+
+    The pause doubles with each abort in a row. Without it, a machine that tries again would call a
+    server that fails at once some hundred times per second.
+    """
+
+    def __init__(self):
+        self._aborted = {}
+
+    def note(self, name, outcome):
+        """Note the end of a call."""
+        if outcome != 'aborted':
+            self._aborted.pop(name, None)
+            return
+        _, pause = self._aborted.get(name, (0, 0))
+        self._aborted[name] = time.monotonic(), min(max(2 * pause, _FIRST_PAUSE), _LONGEST_PAUSE)
+
+    def before(self, name):
+        """Return how long a call has to wait; a call that comes later ends the row."""
+        since, pause = self._aborted.get(name, (0, 0))
+        left = since + pause - time.monotonic()
+        if left <= 0:
+            self._aborted.pop(name, None)
+        return max(left, 0)
+
+
 class Chart(engine.Observer):
     """Runs the machine whose states are in the container `root`."""
 
     def __init__(self, root):
         self.changed = threading.Condition(threading.RLock())
         self.failure = None
+        self.pauses = Pauses()
         self._root = root
         self._states = []
         self._timers = []

@@ -286,13 +286,17 @@ class Activity(State):
             activation.is_called = True
             self.recall_preempt()
             self._wake.clear()
+        pause = self.chart.pauses.before(self.name)
+        if pause:
+            self._wake.wait(pause)
         try:
-            outcome, result = self.call()
+            outcome, result = ('preempted', None) if self.preempt_requested() else self.call()
             if outcome not in _OUTCOMES:
                 raise ValueError('a callback returned {!r}, which is no outcome'.format(outcome))
         except Exception:
             outcome, result = 'aborted', None
             rospy.logerr('%s in state %s:\n%s', self.name, self.path, traceback.format_exc())
+        self.chart.pauses.note(self.name, outcome)
         self.chart.ended(activation, outcome, result)
 
     def call(self):
