@@ -7,6 +7,7 @@ from swarmdsl.execution.engine import (
     LoopError,
     Machine,
     Observer,
+    Run,
     Servers,
 )
 from swarmdsl.execution.engine.world import FAILURES as _FAILURES
@@ -21,5 +22,6 @@ __all__ = (
     'LoopError',
     'Machine',
     'Observer',
+    'Run',
     'Servers',
 )
