@@ -9,7 +9,15 @@ from __future__ import annotations
 import keyword
 from functools import cache
 
-from swarmdsl.codegen import Dialect, python_literal, replace, translate
+from swarmdsl.codegen import (
+    PYTHON_DIVISION,
+    PYTHON_FUNCTIONS,
+    Dialect,
+    python_literal,
+    replace,
+    translate,
+    uses_math,
+)
 from swarmdsl.ir import (
     DURATION,
     FLOATS,
@@ -41,7 +49,7 @@ def python_expression(expression: Expression, imports: Imports, data: str = DATA
     """Return an expression for a function of `machine` and `event`, with variables in `data`."""
     made = _for_python(expression)
     for part in subexpressions(made):
-        if isinstance(part, Call) and part.function == "sqrt":
+        if uses_math(part):
             imports.module("math")
         if isinstance(part, Call) and part.function == _GET:
             imports.own("values", _GET)
@@ -124,7 +132,8 @@ def _dialect(data: str) -> Dialect:
         param=name,
         event=f"{EVENT}.data",
         operators={},
-        functions={"sqrt": "math.sqrt"},
+        functions=PYTHON_FUNCTIONS,
+        division=PYTHON_DIVISION,
     )
 
 

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 import keyword
 
-from swarmdsl.codegen import Dialect, python_literal, replace, translate
+from swarmdsl.codegen import (
+    PYTHON_DIVISION,
+    PYTHON_FUNCTIONS,
+    Dialect,
+    python_literal,
+    replace,
+    translate,
+    uses_math,
+)
 from swarmdsl.ir import (
     DURATION,
     FLOATS,
@@ -32,7 +40,7 @@ def python_expression(expression: Expression, imports: Imports) -> str:
     for part in subexpressions(expression):
         if isinstance(part, Literal) and part.type == DURATION:
             imports.module("rospy")
-        if isinstance(part, Call) and part.function == "sqrt":
+        if uses_math(part):
             imports.module("math")
     return translate(_for_python(expression), _DIALECT)
 
@@ -99,5 +107,6 @@ _DIALECT = Dialect(
     param=_key,
     event=EVENT,
     operators={},
-    functions={"sqrt": "math.sqrt"},
+    functions=PYTHON_FUNCTIONS,
+    division=PYTHON_DIVISION,
 )

@@ -12,6 +12,7 @@ import operator
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from types import SimpleNamespace
 from typing import Any, Protocol
 
@@ -19,9 +20,11 @@ from lxml import etree
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
+from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.codegen.exchange.scxml.portable import SEND_TYPE
 from swarmdsl.execution.engine import Event, Instance, Machine, Run
 from swarmdsl.execution.scxml import read
+from swarmdsl.ir.operations import OPERATIONS
 
 from ..engine.world import StillWorld
 
@@ -152,12 +155,50 @@ def _of(value: Any) -> Any:
     return _List(map(_of, value)) if isinstance(value, list) else value
 
 
+OF_ONE = ("sqrt", "int", "round", "floor", "ceil", "sin", "cos")
+
+
+def _distance(one: _Object, other: _Object) -> float:
+    names = set(vars(one)) & set(vars(other)) & {"x", "y", "z"}
+    return math.hypot(*(getattr(one, name) - getattr(other, name) for name in names))
+
+
+@cache
+def _functions() -> Mapping[str, str]:
+    """The functions that a document has, in Python: they have no value where those have none."""
+    words = dialect({})
+    assert words.division is not None
+    calls = {
+        "quotient": words.quotient("a", "b"),
+        "modulo": words.modulo("a", "b"),
+        "language_div": words.division("a", "b"),
+    }
+    for word in (*OF_ONE, "clamp"):
+        write = words.functions[word]
+        assert not isinstance(write, str)
+        calls[f"language_{word}"] = write("abc" if word == "clamp" else "a")
+    found = {call[: call.rindex("(")]: name for name, call in calls.items()}
+    for names in ("xy", "xyz"):
+        write = words.functions["distance"]
+        assert not isinstance(write, str)
+        call = write([f"{point}.{name}" for point in "ab" for name in names])
+        found[call[: call.rindex("(")]] = "language_distance"
+    return found
+
+
 _ECMASCRIPT = {
     "as_object": _of,
-    "Math": SimpleNamespace(abs=abs, ceil=math.ceil, max=max, min=min, sqrt=math.sqrt),
+    "Math": SimpleNamespace(
+        **{name: getattr(math, name) for name in ("sqrt", "hypot", "atan2", "sin", "cos")},
+        **{name: getattr(math, name) for name in ("ceil", "floor", "trunc")},
+        **{"abs": abs, "max": max, "min": min},
+    ),
+    "Number": float,
     "JSON": SimpleNamespace(parse=_of, stringify=_of),
     "modulo": operator.mod,
     "quotient": operator.truediv,
+    **{f"language_{word}": OPERATIONS[word] for word in (*OF_ONE, "clamp", "div")},
+    "language_distance": _distance,
     "true": True,
     "false": False,
 }
@@ -173,8 +214,7 @@ def in_python(document: bytes) -> str:
     def word(found: re.Match[str]) -> str:
         if found["function"]:
             # Those of Python have no value where these have none.
-            signs = {"sqrt": "Math.sqrt", "%": "modulo", "/": "quotient"}
-            return next(name for sign, name in signs.items() if sign in found["function"])
+            return _functions()[found["function"]]
         return found["kept"] or _WORDS[found["word"]]
 
     root = etree.fromstring(document)

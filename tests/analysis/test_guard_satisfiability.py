@@ -64,12 +64,19 @@ def codes(tmp_path: Path) -> Callable[[list[str]], list[str]]:
         "n + 1 > 3 and n + 1 < 2",
         "(n < 1 or n > 5) and n > 1 and not (n >= 4)",
         "3 < n and 2 >= n",
+        "hypot(x, n) < 0",
+        "div(n, 3) == 1.5",
     ],
 )
 def test_guards_that_hold_for_no_value(guard: str, codes: Callable[[list[str]], list[str]]) -> None:
     assert codes([guard]) == ["SW0519"]
     # The other way round it always holds.
     assert codes([f"not ({guard})"]) == ["SW0519"]
+
+
+def test_a_wave_is_between_its_bounds(codes: Callable[[list[str]], list[str]]) -> None:
+    assert codes(["sin(x) > 1"]) == ["SW0519"]
+    assert codes(["cos(x) < -1 or b and not b"]) == ["SW0519"]
 
 
 @pytest.mark.parametrize(
@@ -85,6 +92,9 @@ def test_guards_that_hold_for_no_value(guard: str, codes: Callable[[list[str]], 
         "n > other and other > n",  # not looked at together
         "n > 3 and other < 3",
         "n > 3 or n < 9 and b",
+        "hypot(x, n) <= 0",
+        "sin(x) >= 1",
+        "floor(x) > 3 and floor(x) < 5",
     ],
 )
 def test_guards_that_may_hold(guard: str, codes: Callable[[list[str]], list[str]]) -> None:
@@ -104,6 +114,7 @@ def test_guards_that_may_hold(guard: str, codes: Callable[[list[str]], list[str]
         ["n > 0", "n < 0", "n != 0"],
         ["1 / n > 1", "1 / n > 1"],
         ["n % 3 == 0", "n % 3 != 0", "n == 7"],
+        ["div(n, 3) == 0", "div(n, 3) != 0", "n == 7"],
         ['name == "a" or name == "b"', 'name == "b"'],
     ],
 )
@@ -126,6 +137,8 @@ def test_guards_after_others_that_cover_them(
         ["n + 1 > 3", "n > 5"],
         ["1 / n > 1 or n > 3", "n > 5"],  # a guard without a result does not hold
         ["1 / n > 1", "not (1 / n > 1)", "n > 5"],
+        ["div(1, n) > 1", "div(1, n) <= 1", "n > 5"],
+        ["floor(x) > 3", "floor(x) <= 3", "n > 5"],
     ],
 )
 def test_guards_after_others_that_leave_values(

@@ -7,6 +7,7 @@ import math
 import operator
 import shutil
 import subprocess
+from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -18,6 +19,9 @@ from hypothesis import strategies as st
 from swarmdsl.codegen import cpp
 from swarmdsl.codegen.exchange.scxml import ecmascript
 from swarmdsl.codegen.shared import constants
+from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.execution.engine import ExecutionError
+from swarmdsl.execution.scxml.ecmascript import read
 from swarmdsl.execution.simulate.expressions import function_of
 from swarmdsl.ir import (
     Binary,
@@ -30,10 +34,16 @@ from swarmdsl.ir import (
     Unary,
     VariableRef,
 )
-from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
+from swarmdsl.ir.expression_printer import (
+    PYTHON_DIVISION,
+    PYTHON_FUNCTIONS,
+    Dialect,
+    python_literal,
+    translate,
+)
 from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING, Array
 
-PYTHON = Dialect(python_literal, str, str, "event", {}, {"sqrt": "math.sqrt"})
+PYTHON = Dialect(python_literal, str, str, "event", {}, PYTHON_FUNCTIONS, division=PYTHON_DIVISION)
 ECMASCRIPT = ecmascript.dialect({"n": "n", "report": "report"})
 QUICK = settings(max_examples=200)
 
@@ -59,11 +69,23 @@ def negative(operands: st.SearchStrategy[Expression]) -> Any:
     return operands.map(lambda x: Unary("-", x, FLOAT))
 
 
+WHOLE = literals(st.integers(-40, 40), INT)
+WHOLE = st.recursive(
+    WHOLE,
+    lambda inner: (
+        st.builds(lambda x, y: Call("div", (x, y), INT), inner, inner)
+        | binary("+ - * %", inner, INT)
+        | calls("int round floor ceil", inner, 1)
+    ),
+    max_leaves=4,
+)
 # Numbers on which no operation has to round: a remainder of rounded ones would differ.
 EXACT = st.recursive(
-    literals(st.integers(-8, 8), INT) | literals(st.integers(-16, 16).map(lambda n: n / 4), FLOAT),
+    WHOLE | literals(st.integers(-16, 16).map(lambda n: n / 4), FLOAT),
     lambda inner: (
         binary("+ - * %", inner, FLOAT)
+        | calls("int float round floor ceil", inner, 1)
+        | st.builds(lambda *v: Call("clamp", v, FLOAT), inner, inner, inner)
         | negative(inner)
         | calls("min max", inner, 2)
         | calls("abs", inner, 1)
@@ -101,6 +123,12 @@ def modulo(left: float, right: float) -> float:
     return rest + right if rest and (rest < 0) != (right < 0) else rest
 
 
+def even(value: float) -> int:
+    """Return the nearest integer, the even one of two."""
+    below, rest = divmod(Fraction(value), 1)
+    return below + (rest > Fraction(1, 2) or (rest == Fraction(1, 2) and below % 2 == 1))
+
+
 OPERATIONS: dict[str, Any] = {
     "+": operator.add,
     "-": operator.sub,
@@ -117,6 +145,13 @@ OPERATIONS: dict[str, Any] = {
     "max": max,
     "abs": abs,
     "sqrt": math.sqrt,
+    "div": lambda x, y: math.floor(Fraction(x) / Fraction(y)),
+    "int": math.trunc,
+    "float": float,
+    "round": even,
+    "floor": math.floor,
+    "ceil": math.ceil,
+    "clamp": lambda x, low, high: high if max(x, low) > high else max(x, low),
 }
 
 
@@ -277,6 +312,133 @@ def test_a_remainder_has_the_sign_of_the_divisor(left: int, right: int, expected
 
     assert eval(translate(expression, PYTHON)) == expected
     assert in_node([translate(expression, ECMASCRIPT)]) == [expected]
+
+
+# Numbers near a half, whose sum with a half would be rounded, and beyond the exact ones.
+ROUNDED = [
+    *((0.5, 0), (1.5, 2), (2.5, 2), (-0.5, 0), (-1.5, -2), (-2.5, -2), (3.5, 4)),
+    *((0.49999999999999994, 0), (-0.49999999999999994, 0), (0.5000000000000001, 1)),
+    *((2.0**52 + 1, 2**52 + 1), (-(2.0**52) - 1, -(2**52) - 1), (1e300, int(1e300)), (-1e-20, 0)),
+]
+
+
+def test_halves_are_rounded_to_the_even_neighbour(tmp_path: Path) -> None:
+    calls = [Call("round", (Literal(value, FLOAT),), INT) for value, _ in ROUNDED]
+    expected = [whole for _, whole in ROUNDED]
+
+    assert [function_of(call)({}, None) for call in calls] == expected
+    assert [eval(translate(call, PYTHON)) for call in calls] == expected
+    assert [value_of_document(translate(call, ECMASCRIPT)) for call in calls] == expected
+    assert in_node([translate(call, ECMASCRIPT) for call in calls]) == expected
+    assert [*map(float, in_cpp([translate(call, CPP) for call in calls], tmp_path))] == expected
+
+
+def value_of_document(text: str) -> Any:
+    """Return the value of an expression in a document that our engine runs."""
+    return read(text)(SimpleNamespace(data={}), None, {})  # type: ignore[arg-type]
+
+
+ANGLES = st.floats(-1000, 1000, allow_subnormal=False)
+POINT = Named("geometry_msgs", "Point")
+
+
+@given(st.lists(ANGLES, min_size=6, max_size=6))
+@settings(max_examples=50)
+def test_lengths_and_angles(numbers: list[float]) -> None:
+    x, y, *_ = values = [Literal(number, FLOAT) for number in numbers]
+    zero = Unary("-", Literal(0, INT), INT)
+    calls = [
+        *(Call(word, (x,), FLOAT) for word in ("sin", "cos")),
+        *(Call("atan2", pair, FLOAT) for pair in ((y, x), (zero, x), (y, zero), (zero, zero))),
+        *(Call("hypot", tuple(values[:count]), FLOAT) for count in (2, 3)),
+    ]
+    a, b, *_ = numbers
+    angles = [math.atan2(b, a), math.atan2(0, a + 0.0), math.atan2(b, 0), 0]
+    lengths = [math.hypot(*numbers[:count]) for count in (2, 3)]
+    # A library may compute these with another last digit.
+    expected = pytest.approx([math.sin(a), math.cos(a), *angles, *lengths], rel=1e-9, abs=1e-12)
+
+    assert [function_of(call)({}, None) for call in calls] == expected
+    assert [eval(translate(call, PYTHON), {"math": math}) for call in calls] == expected
+    assert [value_of_document(translate(call, ECMASCRIPT)) for call in calls] == expected
+    assert [constants.constant(call, {}) for call in calls] == expected
+
+
+def test_lengths_and_angles_in_other_languages(tmp_path: Path) -> None:
+    x, y, z = Literal(3.0, FLOAT), Literal(-4.0, FLOAT), Literal(12.0, FLOAT)
+    zero = Unary("-", Literal(0, INT), INT)
+    calls = [
+        *(Call(word, (x,), FLOAT) for word in ("sin", "cos")),
+        *(Call("atan2", pair, FLOAT) for pair in ((y, x), (zero, y), (zero, zero))),
+        *(Call("hypot", given, FLOAT) for given in ((x, y), (x, y, z))),
+    ]
+    expected = pytest.approx(
+        [math.sin(3), math.cos(3), math.atan2(-4, 3), math.pi, 0, 5, 13], rel=1e-12
+    )
+
+    assert in_node([translate(call, ECMASCRIPT) for call in calls]) == expected
+    assert [*map(float, in_cpp([translate(call, CPP) for call in calls], tmp_path))] == expected
+
+
+@pytest.mark.parametrize(("names", "length"), [("xy", 5), ("xyz", 13)])
+def test_a_distance(names: str, length: int) -> None:
+    here, there = {"x": 1, "y": 2, "z": 3}, {"x": 4, "y": 6, "z": 15}
+    data = {"n": here, "report": there}
+    call = Call(
+        "distance",
+        tuple(
+            FieldAccess(VariableRef(point, POINT), name, FLOAT) for point in data for name in names
+        ),
+        FLOAT,
+    )
+    objects = {name: SimpleNamespace(**point) for name, point in data.items()}
+
+    assert function_of(call)(data, None) == length
+    assert eval(translate(call, PYTHON), {"math": math, **objects}) == length
+    text = translate(call, ECMASCRIPT)
+    assert read(text)(SimpleNamespace(data=data), None, {}) == length  # type: ignore[arg-type]
+    head = f"var n = {json.dumps(here)}, report = {json.dumps(there)}; "
+    assert in_node([head + text]) == [length]
+    assert expression(call) == "distance(n, report)"
+
+
+@pytest.mark.parametrize(
+    ("word", "number"),
+    [
+        *((word, -math.inf) for word in ("int", "round", "floor", "ceil", "sin", "cos")),
+        *((word, math.nan) for word in ("int", "round", "floor", "ceil")),
+    ],
+)
+def test_functions_of_what_is_not_finite_have_no_value(word: str, number: float) -> None:
+    call = Call(word, (VariableRef("n", FLOAT),), FLOAT)
+
+    with pytest.raises((ArithmeticError, ValueError)):
+        function_of(call)({"n": number}, None)
+    with pytest.raises((ArithmeticError, ValueError)):
+        eval(translate(call, PYTHON), {"math": math, "n": number})
+    with pytest.raises(ExecutionError):
+        read(translate(call, ECMASCRIPT))(SimpleNamespace(data={"n": number}), None, {})  # type: ignore[arg-type]
+
+
+def test_a_division_of_integers_by_zero_has_no_value() -> None:
+    call = Call("div", (Literal(7, INT), VariableRef("n", INT)), INT)
+
+    with pytest.raises(ZeroDivisionError):
+        function_of(call)({"n": 0}, None)
+    with pytest.raises(ZeroDivisionError):
+        eval(translate(call, PYTHON), {"n": 0})
+    with pytest.raises(ExecutionError):
+        read(translate(call, ECMASCRIPT))(SimpleNamespace(data={"n": 0}), None, {})  # type: ignore[arg-type]
+
+
+@given(st.integers(-(2**53), 2**53), st.integers(-(2**53), 2**53).filter(bool))
+def test_a_division_of_integers_and_its_remainder(left: int, right: int) -> None:
+    given = Literal(left, INT), Literal(right, INT)
+    quotient = function_of(Call("div", given, INT))({}, None)
+
+    assert quotient * right + function_of(Binary("%", *given, INT))({}, None) == left
+    assert eval(translate(Call("div", given, INT), PYTHON)) == quotient
+    assert value_of_document(translate(Call("div", given, INT), ECMASCRIPT)) == quotient
 
 
 def test_remainders_of_remainders_stay_short() -> None:

@@ -372,7 +372,7 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         STATE.format('<transition event="e" cond="eval(1)"/>'),
         "bad-expression",
-        "invalid expression: only functions of `Math`, and `In`, can be called",
+        "invalid expression: only functions of `Math`, `Number` and `In` can be called",
         "eval(1)",
     ),
     (

@@ -171,9 +171,8 @@ def _duration(draw: st.DrawFn, leaves: Leaves, depth: int) -> Expression:
 
 def _number(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int) -> Expression:
     """Return numbers; integers unless the type is real."""
-    operators = ["+", "-", "*", "%", "negative", "abs", "max", "len"]
-    if type_ in FLOAT_TYPES:
-        operators += ["/", "sqrt", "per"]
+    operators = ["+", "-", "*", "%", "negative", "abs", "max", "len", "clamp", "rounded"]
+    operators += ["/", "sqrt", "per", "wave", "hypot"] if type_ in FLOAT_TYPES else ["div"]
     operator = draw(st.sampled_from(operators))
     match operator:
         case "len":
@@ -185,6 +184,29 @@ def _number(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int) -> Express
             if constant(unit, {}) == 0:
                 unit = Literal(1, DURATION)
             return Binary("/", length, unit, FLOAT)
+        case "clamp":
+            values = [expressions(draw, type_, leaves, depth) for _ in range(3)]
+            known = [value for value in values if value is not None]
+            return Call("clamp", tuple(known), _widest(*known))
+        case "rounded":
+            words = ["int", "round", "floor", "ceil"]
+            if type_ in FLOAT_TYPES:
+                words.append("float")
+            word = draw(st.sampled_from(words))
+            number = expressions(draw, FLOAT if depth else INT, leaves, 0)
+            assert number is not None
+            return Call(word, (number,), FLOAT if word == "float" else INT)
+        case "wave":
+            number = expressions(draw, FLOAT, leaves, depth)
+            assert number is not None
+            return Call(draw(st.sampled_from(["sin", "cos"])), (number,), FLOAT)
+        case "hypot":
+            word = draw(st.sampled_from(["hypot", "atan2"]))
+            return Call(word, _two(draw, FLOAT, leaves, depth + 1), FLOAT)
+        case "div":
+            left, divisor = expressions(draw, type_, leaves, depth), draw(st.integers(1, 9))
+            assert left is not None
+            return Call("div", (left, Literal(divisor, INT)), INT)
         case "negative" | "abs" | "sqrt":
             operand = expressions(draw, type_, leaves, depth)
             assert operand is not None

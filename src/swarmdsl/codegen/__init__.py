@@ -79,10 +79,13 @@ if TYPE_CHECKING:
         fits,
     )
     from swarmdsl.ir.expression_printer import (
+        PYTHON_DIVISION,
+        PYTHON_FUNCTIONS,
         Dialect,
         ecmascript_literal,
         python_literal,
         translate,
+        uses_math,
     )
 else:
     from swarmdsl.base.lazy_exports import lazy_exports
@@ -108,13 +111,18 @@ else:
             "swarmdsl.codegen.source_map": "MappedText TracedStr at",
             "swarmdsl.codegen.templates": "Templates",
             "swarmdsl.codegen.user_code_marks": "fits",
-            "swarmdsl.ir.expression_printer": "Dialect ecmascript_literal python_literal translate",
+            "swarmdsl.ir.expression_printer": (
+                "PYTHON_DIVISION PYTHON_FUNCTIONS Dialect ecmascript_literal python_literal "
+                "translate uses_math"
+            ),
         },
     )
 
 __all__ = [
     "ALL_FEATURES",
     "API_VERSION",
+    "PYTHON_DIVISION",
+    "PYTHON_FUNCTIONS",
     "Diagnostics",
     "Dialect",
     "Emit",
@@ -156,4 +164,5 @@ __all__ = [
     "stays_inside",
     "suggest",
     "translate",
+    "uses_math",
 ]

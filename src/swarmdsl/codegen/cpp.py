@@ -1,15 +1,17 @@
 """Expressions in C++ (C++11 and later), for roscpp and rclcpp.
 
 The code needs `<algorithm>`, `<cmath>` and `<string>`. Numbers behave as in the language:
-`/` is the division of real numbers, `%` has the sign of the divisor.
+`/` is the division of real numbers, `%` has the sign of the divisor. Integers that a division or
+a rounding makes are whole numbers in a `double`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import reduce
 
 from swarmdsl.ir import Literal
-from swarmdsl.ir.expression_printer import Dialect
+from swarmdsl.ir.expression_printer import Dialect, differences
 from swarmdsl.syntax.types import DURATION
 
 _MODULO = (
@@ -33,8 +35,21 @@ def dialect(variable: Callable[[str], str], param: Callable[[str], str], event: 
             "len": ".size()",
             "min": lambda values: _extreme("min", values),
             "max": lambda values: _extreme("max", values),
+            "int": "std::trunc",
+            "float": "static_cast<double>",
+            # Halves go to the even neighbour, in the mode in which every program starts.
+            "round": "std::nearbyint",
+            "floor": "std::floor",
+            "ceil": "std::ceil",
+            "clamp": _clamped,
+            "hypot": _length,
+            "sin": "std::sin",
+            "cos": "std::cos",
+            "atan2": lambda values: "std::atan2({} + 0.0, {} + 0.0)".format(*values),
+            "distance": lambda values: _length(differences(values).split(", ")),
         },
         modulo=_MODULO.format,
+        division="std::floor(static_cast<double>({}) / {})".format,
         quotient="static_cast<double>({}) / {}".format,
     )
 
@@ -66,6 +81,16 @@ def _character(character: str) -> str:
     return (
         character if character.isprintable() else "".join(f"\\{b:03o}" for b in character.encode())
     )
+
+
+def _clamped(values: Sequence[str]) -> str:
+    value, low, high = values
+    return _extreme("min", [_extreme("max", [value, low]), high])
+
+
+def _length(values: Sequence[str]) -> str:
+    """Return the length of a vector: three arguments of `hypot` need C++17."""
+    return reduce("std::hypot({}, {})".format, values)
 
 
 def _extreme(name: str, values: Sequence[str]) -> str:

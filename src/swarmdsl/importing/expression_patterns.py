@@ -11,11 +11,12 @@ from lark import Tree
 from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.execution.scxml.grammar import parse
 from swarmdsl.ir import Literal, Primitive, Type
-from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, FLOATS, INT, STRING
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, FLOATS, INT, INTEGERS, STRING
 
 OPERATORS = {"===": "==", "!==": "!="}
 COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 FLOAT_TYPES = tuple(map(Primitive, FLOATS))
+WHOLE_TYPES = tuple(map(Primitive, INTEGERS))
 
 
 class TypeInference:
@@ -75,12 +76,12 @@ class TypeInference:
                 return self.of_operation(operator, self.of(left), self.of(right))
             case "call":
                 callee, *arguments = children
-                operator_ = operator_of(callee, arguments)
-                if operator_ in ("/", "%"):
-                    return self.of_operation(operator_, *map(self.of, arguments))
+                word = function_of(callee, arguments)
+                if word in ("/", "%"):
+                    return self.of_operation(word, *map(self.of, arguments))
                 if copied_value(tree) is not None:
                     return self.of(copied_value(tree))
-                return self.common(*arguments) if operator_ is None else FLOAT
+                return RESULTS[word] if word in RESULTS else self.common(*arguments)
         return None
 
     def of_operation(self, operator: str, left: Type | None, right: Type | None) -> Type | None:
@@ -152,19 +153,81 @@ def remainder(tree: Any) -> tuple[Any, Any] | None:
     return None
 
 
-def operator_of(callee: Any, arguments: list[Any]) -> str | None:
-    """Operator, or `sqrt`, that a function of the portable profile stands for.
+def function_of(callee: Any, arguments: list[Any]) -> str | None:
+    """Operator or built-in function that a call stands for, None if there is none.
 
-    The profile wraps these in functions that return no value where the operation is undefined.
+    The portable profile wraps operations in functions that return no value where the operation is
+    undefined.
     """
-    operator = _wrapped().get(callee) if callee.data == "function" else None
-    return operator if operator and len(arguments) == (1 if operator == "sqrt" else 2) else None
+    word = None
+    if callee.data == "function":
+        word = _wrapped().get(callee)
+    elif is_name(callee, "Number"):
+        word = "float"
+    elif callee.data == "member" and is_name(callee.children[0], "Math"):
+        name = str(callee.children[1])
+        word = {"trunc": "int"}.get(name, name) if name in FUNCTIONS_OF_MATH else None
+    least = _ARGUMENTS.get(word or "")
+    if least is None:
+        return None
+    more = word in ("min", "max", "hypot")
+    return word if len(arguments) == least or (more and len(arguments) > least) else None
+
+
+def without_zero(tree: Any) -> Any:
+    """Operand of a sum with 0, which makes a negative zero positive; else the tree itself."""
+    if tree.data == "operation" and tree.children[1] == "+":
+        left, _, right = tree.children
+        if right.data == "number" and str(right.children[0]) == "0":
+            return left
+    return tree
+
+
+def quotient_of(tree: Any) -> tuple[Any, Any] | None:
+    """Operands of a division; None for other expressions."""
+    if tree.data == "operation" and tree.children[1] == "/":
+        return tree.children[0], tree.children[2]
+    if tree.data != "call" or function_of(tree.children[0], tree.children[1:]) != "/":
+        return None
+    return tree.children[1], tree.children[2]
+
+
+POINTS = {"distance in a plane": ("x", "y"), "distance in space": ("x", "y", "z")}
+"""Coordinates that a function for a distance takes."""
+
+FUNCTIONS_OF_MATH = (
+    *("abs", "atan2", "ceil", "cos", "floor", "hypot", "max", "min"),
+    *("round", "sin", "sqrt", "trunc"),
+)
+RESULTS = {
+    **dict.fromkeys((*POINTS, "sqrt", "hypot", "sin", "cos", "atan2", "float"), FLOAT),
+    **dict.fromkeys(("int", "round", "floor", "ceil", "div"), INT),
+}
+"""Types of the results that do not depend on the arguments."""
+_WRAPPED_OF_ONE = ("sqrt", "int", "round", "floor", "ceil", "sin", "cos")
+_ARGUMENTS = {
+    **dict.fromkeys(POINTS, 2),
+    "clamp": 3,
+    **dict.fromkeys((*_WRAPPED_OF_ONE, "abs", "float"), 1),
+    **dict.fromkeys(("/", "%", "div", "min", "max", "hypot", "atan2"), 2),
+}
+"""Number of arguments of each, the least one where it can have more."""
 
 
 @cache
 def _wrapped() -> Mapping[Any, str]:
     words = dialect({})
-    root = words.functions["sqrt"]
-    assert not isinstance(root, str)
-    texts = {"/": words.quotient("a", "b"), "%": words.modulo("a", "b"), "sqrt": root(["a"])}
-    return {parse(text).children[0]: operator for operator, text in texts.items()}
+    assert words.division is not None
+    texts = {
+        "/": words.quotient("a", "b"),
+        "%": words.modulo("a", "b"),
+        "div": words.division("a", "b"),
+    }
+    given = {"clamp": ["a", "b", "c"], **{word: ["a"] for word in _WRAPPED_OF_ONE}}
+    for word, names in POINTS.items():
+        given[word] = [f"{point}.{name}" for point in "ab" for name in names]
+    for word, values in given.items():
+        write = words.functions[word if word in words.functions else "distance"]
+        assert not isinstance(write, str)
+        texts[word] = write(values)
+    return {parse(text).children[0]: word for word, text in texts.items()}

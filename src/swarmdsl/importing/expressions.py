@@ -8,17 +8,25 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from lark import Tree
+
 from swarmdsl.execution.scxml.grammar import Unreadable, parse, unquoted
 from swarmdsl.importing.expression_patterns import (
     COMPARISONS,
+    FUNCTIONS_OF_MATH,
     OPERATORS,
+    POINTS,
+    RESULTS,
+    WHOLE_TYPES,
     TypeInference,
     copied_value,
+    function_of,
     is_event,
     is_name,
     number,
-    operator_of,
+    quotient_of,
     remainder,
+    without_zero,
 )
 from swarmdsl.ir import (
     Array,
@@ -37,8 +45,6 @@ from swarmdsl.ir import (
 from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
 
-# Minimum number of arguments of each function.
-_FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1}
 _RESERVED = {"null", "undefined", "NaN", "Infinity", "_event", "_name", "_sessionid"}
 
 # Longest duration in milliseconds: 64 bits of nanoseconds.
@@ -235,29 +241,49 @@ class _ExpressionReader:
 
     def _call(self, tree: Any, expected: Type | None) -> Expression:
         callee, *arguments = tree.children
-        operator = operator_of(callee, arguments)
-        if operator == "sqrt":
-            return Call("sqrt", (self.expression(arguments[0], FLOAT),), FLOAT)
-        if operator is not None:
-            return self._arithmetic(operator, arguments[0], arguments[1], expected)
+        word = function_of(callee, arguments)
+        if word in ("/", "%"):
+            return self._arithmetic(word, arguments[0], arguments[1], expected)
+        if word is not None:
+            return self._function(word, tree, expected)
         if is_name(callee, "In") and [e.data in ("text", "name") for e in arguments] == [True]:
             # The null data model omits quotes around the id (SCXML B.1.2).
             return self.known.inside(unquoted(arguments[0].children[0]))
         if callee.data == "member" and is_name(callee.children[0], "Math"):
             name = str(callee.children[1])
-            least = _FUNCTIONS.get(name, 0)
-            if least == 2 <= len(arguments) or least == 1 == len(arguments):
-                open_ = expected in (None, BOOL)
-                hint = (self.types.common(*arguments) or INT) if open_ else expected
-                hint = FLOAT if name == "sqrt" else hint
-                return Call(name, tuple(self.expression(e, hint) for e in arguments), hint)
-            if least:
+            if name in FUNCTIONS_OF_MATH:
                 raise UnsupportedError(f"`Math.{name}` has other arguments")
             raise UnsupportedError(f"a model has no `Math.{name}`")
         inner = copied_value(tree)
         if inner is not None:
             return self.expression(inner, expected)
         raise UnsupportedError("only some functions of `Math` are supported")
+
+    def _function(self, word: str, tree: Any, expected: Type | None) -> Expression:
+        """Convert a call of a built-in function."""
+        callee, *arguments = tree.children
+        plain = callee.data == "member"
+        if word in ("min", "max", "abs", "clamp"):
+            open_ = expected in (None, BOOL)
+            hint = (self.types.common(*arguments) or INT) if open_ else expected
+            return Call(word, tuple(self.expression(e, hint) for e in arguments), hint)
+        if word in POINTS:
+            parts = [Tree("member", [e, name]) for e in arguments for name in POINTS[word]]
+            return Call("distance", tuple(self.expression(e, FLOAT) for e in parts), FLOAT)
+        if DURATION in map(self.types.of, arguments):
+            raise UnsupportedError(f"`{word}` takes numbers, and no duration")
+        quotient = quotient_of(arguments[0])
+        whole = quotient is not None and all(self.types.of(e) in WHOLE_TYPES for e in quotient)
+        if plain and word == "floor" and quotient is not None and whole:
+            word, arguments = "div", list(quotient)
+        if word == "atan2":
+            arguments = list(map(without_zero, arguments))
+        hint = INT if word in ("div", "float") else FLOAT
+        values = [self.expression(argument, hint) for argument in arguments]
+        if plain and word == "round":  # it takes halves up
+            half = Binary("+", values[0], Literal(0.5, FLOAT), FLOAT)
+            return Call("floor", (half,), INT)
+        return Call(word, tuple(values), RESULTS[word])
 
 
 def _is_root(tree: Any) -> bool:
@@ -267,7 +293,7 @@ def _is_root(tree: Any) -> bool:
     callee, *arguments = tree.children
     if callee.data == "member" and is_name(callee.children[0], "Math"):
         return str(callee.children[1]) == "sqrt"
-    return operator_of(callee, arguments) == "sqrt"
+    return function_of(callee, arguments) == "sqrt"
 
 
 def _is_too_long(tree: Any) -> bool:

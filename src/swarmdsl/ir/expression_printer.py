@@ -44,7 +44,8 @@ class Dialect:
     `param` print a leaf; `event` is the message of the triggering event; `functions`
     renames the built-in functions, to `.name` if the target has a property instead, or
     prints a call from its arguments. `modulo` prints `%`, whose result has the sign of the
-    divisor in the language; `quotient` prints `/`, the division of real numbers.
+    divisor in the language; `quotient` prints `/`, the division of real numbers; `division`
+    prints `div`, the division of integers, if the target has an operator for it.
     """
 
     literal: Callable[[Literal], str]
@@ -55,6 +56,7 @@ class Dialect:
     functions: Mapping[str, str | Callable[[Sequence[str]], str]]
     modulo: Callable[[str, str], str] = "{} % {}".format
     quotient: Callable[[str, str], str] = "{} / {}".format
+    division: Callable[[str, str], str] | None = None
 
 
 def translate(expression: Expression, dialect: Dialect) -> str:
@@ -76,6 +78,10 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             return dialect.event, _PRIMARY
         case FieldAccess(base=base, field=field):
             return f"{_operand(base, _PRIMARY, dialect)}.{field}", _PRIMARY
+        case Call(function="div", arguments=(left, right)) if dialect.division is not None:
+            level = _PRECEDENCE["/"]
+            first, second = _operand(left, level, dialect), _operand(right, level + 1, dialect)
+            return dialect.division(first, second), level
         case Call(function=function, arguments=arguments):
             written = dialect.functions.get(function, function)
             if isinstance(written, str) and written.startswith("."):
@@ -106,6 +112,38 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
 def _operand(expression: Expression, least: int, dialect: Dialect) -> str:
     text, level = _print(expression, dialect)
     return text if level >= least else f"({text})"
+
+
+def points(coordinates: Sequence[str]) -> tuple[str, str, Sequence[str]]:
+    """Return the two points of a distance, and the names of their coordinates."""
+    count = len(coordinates) // 2
+    first, second = (coordinates[at].removesuffix(".x") for at in (0, count))
+    return first, second, "xyz"[:count]
+
+
+def differences(coordinates: Sequence[str]) -> str:
+    """Return the differences of the coordinates of two points, separated by commas."""
+    count = len(coordinates) // 2
+    pairs = zip(coordinates[:count], coordinates[count:], strict=True)
+    return ", ".join(f"{first} - {second}" for first, second in pairs)
+
+
+PYTHON_FUNCTIONS: Mapping[str, str | Callable[[Sequence[str]], str]] = {
+    **{name: f"math.{name}" for name in ("sqrt", "floor", "ceil", "hypot", "sin", "cos")},
+    "atan2": lambda values: "math.atan2({} + 0.0, {} + 0.0)".format(*values),
+    "clamp": lambda values: "min(max({}, {}), {})".format(*values),
+    "distance": lambda values: f"math.hypot({differences(values)})",
+}
+"""Built-in functions that Python spells otherwise."""
+
+PYTHON_DIVISION = "{} // {}".format
+
+
+def uses_math(expression: Expression) -> bool:
+    """Return True for a built-in function that is in Python's module `math`."""
+    if not isinstance(expression, Call):
+        return False
+    return expression.function in PYTHON_FUNCTIONS and expression.function != "clamp"
 
 
 def python_literal(literal: Literal) -> str:

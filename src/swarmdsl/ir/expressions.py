@@ -85,7 +85,10 @@ class Binary:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """Built-in function: `min`, `max`, `abs`, `sqrt`, `len`."""
+    """Built-in function of `operations.py`.
+
+    The arguments of `distance` are the coordinates of one point, then those of the other.
+    """
 
     function: str
     arguments: tuple[Expression, ...]

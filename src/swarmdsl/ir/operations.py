@@ -6,6 +6,13 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 
+
+def _distance(*coordinates: float) -> float:
+    """Return the distance of two points: the coordinates of one, then those of the other."""
+    count = len(coordinates) // 2
+    return math.hypot(*map(operator.sub, coordinates[:count], coordinates[count:]))
+
+
 OPERATIONS: Mapping[str, Callable[..., bool | int | float | str]] = {
     "==": operator.eq,
     "!=": operator.ne,
@@ -23,5 +30,18 @@ OPERATIONS: Mapping[str, Callable[..., bool | int | float | str]] = {
     "abs": abs,
     "sqrt": math.sqrt,
     "len": len,
+    "div": operator.floordiv,
+    "int": int,
+    "float": float,
+    "round": round,
+    "floor": math.floor,
+    "ceil": math.ceil,
+    "clamp": lambda value, low, high: min(max(value, low), high),
+    "hypot": math.hypot,
+    "sin": math.sin,
+    "cos": math.cos,
+    # An integer has no negative zero in Python, but has one in ECMAScript.
+    "atan2": lambda y, x: math.atan2(y + 0.0, x + 0.0),
+    "distance": _distance,
 }
 """All but `and`, `or` and `not`, which each caller evaluates itself."""

@@ -63,10 +63,9 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
         case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
             return ir.Literal(context.typing.folding.numbers(enum)[str(name)], INT, tree.span)
         case FieldUse(base=base, name=name):
-            owner = _lower(base, context)
-            type_ = context.typing.field(owner.type, name, name.span)
-            type_ = context.plain(type_) if type_ is not None else None
-            return ir.FieldAccess(owner, str(name), type_, tree.span)
+            return _field(_lower(base, context), str(name), tree.span, context)
+        case Call(function="distance", arguments=points):
+            return _distance(tree, [_lower(point, context) for point in points], context)
         case Call(function=function, arguments=arguments):
             values = tuple(_lower(argument, context) for argument in arguments)
             return ir.Call(str(function), values, _result(tree, values, context), tree.span)
@@ -77,6 +76,28 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
                 return _unary(str(operator), values[0], type_, tree.span)
             return ir.Binary(str(operator), values[0], values[1], type_, tree.span)
     raise AssertionError(tree)
+
+
+def _distance(tree: Call, points: list[ir.Expression], context: Context) -> ir.Call:
+    """Return the distance of two positions as a function of their coordinates.
+
+    A message that is not described has the coordinates of the other one.
+    """
+    found = [context.typing.position(point.type) for point in points]
+    known = [place.coordinates for place in found if place is not None and place.coordinates]
+    coordinates = known[0] if known else ("x", "y", "z")
+    values = []
+    for message, place in zip(points, found, strict=True):
+        point = message
+        for name in place.path if place is not None else ():
+            point = _field(point, name, tree.span, context)
+        values += [_field(point, name, tree.span, context) for name in coordinates]
+    return ir.Call("distance", tuple(values), FLOAT, tree.span)
+
+
+def _field(owner: ir.Expression, name: str, at: Span, context: Context) -> ir.FieldAccess:
+    type_ = context.typing.field(owner.type, name, at)
+    return ir.FieldAccess(owner, name, context.plain(type_) if type_ is not None else None, at)
 
 
 def _constant(constant: Constant, at: Span, context: Context) -> ir.Literal:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from functools import lru_cache
+from math import inf
 
 from swarmdsl.analysis.checks.conjunctions import negate, satisfiable
 from swarmdsl.analysis.checks.context import Context
@@ -40,6 +41,10 @@ from swarmdsl.syntax.types import INTEGERS, Named, Primitive, Type
 
 _MIRRORED = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
 _WHOLE = {*INTEGERS, "byte", "char"}
+_BOUNDS = {
+    **dict.fromkeys(("sqrt", "hypot", "distance"), (0, inf)),
+    **dict.fromkeys(("sin", "cos"), (-1, 1)),
+}
 _TRUE, _TRUE_OR_FALSE = these([1]), these([0, 1])
 
 
@@ -79,11 +84,16 @@ def condition_of(item: Transition | Branch, context: Context) -> Condition:
 
 
 def _may_fail(part: Node, folding: Folding) -> bool:
-    """Return True for an operation without a result for some operands: division, square root."""
+    """Return True for an operation without a result for some operands.
+
+    Such are a division, the square root, and functions that `inf` and `nan` are no argument of.
+    """
     match part:
+        case Call(function="div", arguments=(_, divisor)):
+            return not folding.value(divisor)
         case OperatorUse(operator="/" | "%", operands=(_, divisor)):
             return not folding.value(divisor)
-        case Call(function="sqrt") as tree:
+        case Call(function="sqrt" | "int" | "round" | "floor" | "ceil" | "sin" | "cos") as tree:
             return folding.value(tree) is None
     return False
 
@@ -133,6 +143,9 @@ def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
     """
     if isinstance(tree, Call) and tree.function == "len":
         return compared(">=", 0, whole=True)
+    if isinstance(tree, Call) and tree.function in _BOUNDS:
+        low, high = _BOUNDS[str(tree.function)]
+        return Numbers((((low, 0), (high, 0)),), nan=True)
     if isinstance(type_, Named):
         enum = typing.interfaces.get(type_)
         if isinstance(enum, EnumType):

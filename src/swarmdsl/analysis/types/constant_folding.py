@@ -89,7 +89,7 @@ class Folding:
             return None
         operands = tree.arguments if isinstance(tree, Call) else tree.operands
         values = [self.value(operand) for operand in operands]
-        if word in ("/", "%") and _is_zero(values[-1]):
+        if word in ("/", "%", "div") and values and _is_zero(values[-1]):
             return "the divisor is 0"
         if None in values:
             return None

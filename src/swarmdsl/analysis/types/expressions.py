@@ -14,6 +14,7 @@ from swarmdsl.analysis.resolve.report_unresolved import report_missing
 from swarmdsl.analysis.types.constant_folding import Folded, Folding
 from swarmdsl.analysis.types.fitting import fits, is_number, is_text, range_of
 from swarmdsl.analysis.types.operators import Application
+from swarmdsl.analysis.types.positions import Position, position_of
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
@@ -95,7 +96,11 @@ class Typing:
 
     def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """Return the type of an operation on operands of these types."""
-        return Application(tree, types, self._is_enum, self.report).result()
+        return Application(tree, types, self._is_enum, self.position, self.report).result()
+
+    def position(self, type_: Type | None) -> Position | None:
+        """Return the position in a message; None if there is none."""
+        return position_of(type_, self.interfaces)
 
     def expect(self, tree: ExpressionTree | None, expected: Type | None) -> bool:
         """Report an expression that does not fit type `expected`; return True for a correct one."""

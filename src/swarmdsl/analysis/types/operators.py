@@ -6,12 +6,23 @@ from collections.abc import Callable
 
 from swarmdsl.analysis.resolve.report_unresolved import report_missing
 from swarmdsl.analysis.types.fitting import fits, is_float, is_number, is_text
+from swarmdsl.analysis.types.positions import Position
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import Call, OperatorUse, Value
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING, Array, Named, Type
 
-_FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1, "len": 1}
+_FUNCTIONS = {
+    **dict.fromkeys(("min", "max", "hypot", "atan2", "div", "distance"), 2),
+    **dict.fromkeys(("abs", "sqrt", "len", "sin", "cos"), 1),
+    **dict.fromkeys(("int", "float", "round", "floor", "ceil"), 1),
+    "clamp": 3,
+}
+_MORE = ("min", "max", "hypot")
+_RESULTS = {
+    **dict.fromkeys(("sqrt", "sin", "cos", "atan2", "hypot", "float"), FLOAT),
+    **dict.fromkeys(("int", "round", "floor", "ceil"), INT),
+}
 
 
 @dataclass(frozen=True)
@@ -21,6 +32,7 @@ class Application:
     tree: Call | OperatorUse
     types: list[Type | None]
     is_enum: Callable[[Named], bool]
+    position: Callable[[Type | None], Position | None]
     report: Diagnostics
 
     def result(self) -> Type | None:
@@ -40,22 +52,36 @@ class Application:
                 "built-in function", function, call.function.span, _FUNCTIONS, self.report
             )
             return None
-        enough = len(types) >= count if function in ("min", "max") else len(types) == count
+        enough = len(types) >= count if function in _MORE else len(types) == count
         if not enough:
             self._report(
                 f"{len(types)} value{'s' * (len(types) != 1)}: it takes {count}"
-                + (" or more" if function in ("min", "max") else "")
+                + (" or more" if function in _MORE else "")
             )
             return None
         if function == "len":
             self._require(lambda t: is_text(t) or isinstance(t, Array))
             return INT
-        if function == "sqrt":
-            self._require(is_number)
+        if function in _RESULTS:
+            self._require(is_number, self._duration_hint)
+            return _RESULTS[function]
+        if function == "div":
+            self._require(lambda t: is_number(t) and not is_float(t), self._division_hint)
+            return INT
+        if function == "distance":
+            self._check_positions()
             return FLOAT
         if self._are_durations():
             return DURATION
         return self._widest() if self._require(is_number, self._unit_hint) else None
+
+    def _check_positions(self) -> None:
+        """Report what is not a position, and two of which one has no `z`."""
+        found = [self.position(known) for known in self.types if known is not None]
+        if None in found:
+            self._report_operands("a position is a message with the numbers `x` and `y`")
+        elif len({place.coordinates for place in found if place and place.coordinates}) > 1:
+            self._report_operands("one has no `z`: `hypot(a.x - b.x, a.y - b.y)` leaves it out")
 
     def _sign(self, operator: str, operand: Type | None) -> Type | None:
         if operator == "not":
@@ -133,6 +159,16 @@ class Application:
             if isinstance(tree, Value) and is_number(known)
         ]
         return f"give it a unit: `{numbers[0]} s`" if numbers else None
+
+    def _duration_hint(self) -> str | None:
+        """Hint for a function of numbers of which an argument is a duration."""
+        return "divide it by a unit: `d / 1 s` is a number" if DURATION in self.types else None
+
+    def _division_hint(self) -> str | None:
+        """Hint for a division of integers with other numbers."""
+        if not all(known is None or is_number(known) for known in self.types):
+            return self._duration_hint()
+        return "it divides integers: `floor(a / b)` divides real numbers and rounds down"
 
     def _require(
         self, test: Callable[[Type], bool], hint: Callable[[], str | None] | None = None

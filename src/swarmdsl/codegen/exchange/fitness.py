@@ -15,7 +15,13 @@ from swarmdsl.codegen.api import Generator, NoOptions, OutputFile
 from swarmdsl.codegen.shared.constants import constant, params_by_name
 from swarmdsl.codegen.templates import Templates
 from swarmdsl.ir import Array, Field, Fitness, Primitive, System
-from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
+from swarmdsl.ir.expression_printer import (
+    PYTHON_DIVISION,
+    PYTHON_FUNCTIONS,
+    Dialect,
+    python_literal,
+    translate,
+)
 
 _DIALECT = Dialect(
     literal=python_literal,
@@ -23,7 +29,8 @@ _DIALECT = Dialect(
     param="values[{!r}]".format,
     event="",
     operators={},
-    functions={"sqrt": "math.sqrt"},
+    functions=PYTHON_FUNCTIONS,
+    division=PYTHON_DIVISION,
 )
 _TIMES = ("time", "duration")
 

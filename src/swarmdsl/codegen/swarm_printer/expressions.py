@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import isfinite
 
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError, quoted
 from swarmdsl.ir import Expression, Literal
-from swarmdsl.ir.expression_printer import Dialect, translate
+from swarmdsl.ir.expression_printer import Dialect, points, translate
 from swarmdsl.syntax.parser.literals import UNITS
 from swarmdsl.syntax.types import DURATION
 
 
 def expression(value: Expression, named: Callable[[str], str] = str) -> str:
     """Return an expression with minimal parentheses; `named` prints names."""
-    return translate(value, Dialect(_literal, named, named, "event", {}, {}))
+    return translate(value, Dialect(_literal, named, named, "event", {}, {"distance": _distance}))
+
+
+def _distance(coordinates: Sequence[str]) -> str:
+    """Return the distance of two points."""
+    first, second, _ = points(coordinates)
+    return f"distance({first}, {second})"
 
 
 def delay(value: Expression) -> str:

@@ -288,7 +288,10 @@ def _call(tree: Any) -> Value:
             return lambda instance, event, names: function(
                 *[argument(instance, event, names) for argument in arguments]
             )
-    raise Unreadable("only functions of `Math`, and `In`, can be called")
+    if _is_name(callee, "Number") and len(arguments) == 1:
+        (operand,) = arguments
+        return lambda instance, event, names: FUNCTIONS["Number"](operand(instance, event, names))
+    raise Unreadable("only functions of `Math`, `Number` and `In` can be called")
 
 
 def _call_function(function: Any, arguments: list[Value]) -> Value:

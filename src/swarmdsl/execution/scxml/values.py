@@ -212,6 +212,22 @@ def _power(base: Any, exponent: Any) -> float:
         return math.copysign(math.inf, of) if by % 2 == 1 else math.inf
 
 
+def _rounded(value: float) -> float:
+    """Return the nearest integer, the greater one of two; without an error of rounding."""
+    below = math.floor(value)
+    return below + (value - below >= 0.5)
+
+
+def _of_reals(function: Callable[..., float]) -> Callable[..., float]:
+    def call(*given: Any) -> float:
+        try:
+            return whole(function(*(float(number(each)) for each in given)))
+        except ValueError:
+            return math.nan
+
+    return call
+
+
 def _extreme(choose: Callable[[list[float]], float]) -> Callable[..., float]:
     def call(*given: Any) -> float:
         values = [number(each) for each in given]
@@ -294,10 +310,15 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "Math.abs": _numeric(abs),
     "Math.ceil": _numeric(math.ceil),
     "Math.floor": _numeric(math.floor),
-    "Math.round": _numeric(lambda value: math.floor(value + 0.5)),
+    "Math.round": _numeric(_rounded),
     "Math.trunc": _numeric(math.trunc),
     "Math.sqrt": _numeric(math.sqrt),
     "Math.pow": _power,
+    "Math.hypot": _of_reals(math.hypot),
+    "Math.sin": _of_reals(math.sin),
+    "Math.cos": _of_reals(math.cos),
+    "Math.atan2": _of_reals(math.atan2),
+    "Number": number,
     "Math.min": _extreme(lambda values: min(values, default=math.inf)),
     "Math.max": _extreme(lambda values: max(values, default=-math.inf)),
 }
@@ -308,8 +329,8 @@ METHODS: Mapping[str, Callable[..., Any]] = {
 }
 """Functions of lists and strings; they change neither."""
 
-_ARGUMENTS = {"Math.pow": (2, 2), "indexOf": (1, 1), "join": (0, 1)}
-_ANY_NUMBER = ("Math.min", "Math.max", "concat")
+_ARGUMENTS = {"Math.pow": (2, 2), "Math.atan2": (2, 2), "indexOf": (1, 1), "join": (0, 1)}
+_ANY_NUMBER = ("Math.hypot", "Math.min", "Math.max", "concat")
 
 
 def takes(function: str, arguments: int) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from swarmdsl.codegen.exchange.scxml.effects import effects_of
 from swarmdsl.codegen.shared.default_values import default_value
@@ -23,7 +23,7 @@ from swarmdsl.ir import (
     Type,
     VariableRef,
 )
-from swarmdsl.ir.expression_printer import Dialect, ecmascript_literal, translate
+from swarmdsl.ir.expression_printer import Dialect, ecmascript_literal, points, translate
 
 
 def dialect(data: Mapping[str, str]) -> Dialect:
@@ -40,9 +40,21 @@ def dialect(data: Mapping[str, str]) -> Dialect:
             "max": "Math.max",
             "abs": "Math.abs",
             "len": ".length",
+            "float": "Number",
+            "hypot": "Math.hypot",
+            "clamp": _clamped,
+            "atan2": lambda values: "Math.atan2({} + 0, {} + 0)".format(*values),
+            "distance": _distance,
+            **{name: _of_finite("a - a == 0", result) for name, result in _FINITE.items()},
+            # A wave of NaN is NaN.
+            **{
+                name: _of_finite("Math.abs(a) != Infinity", f"Math.{name}(a)")
+                for name in ("sin", "cos")
+            },
         },
         modulo=_modulo,
         quotient=_quotient,
+        division=_division,
     )
 
 
@@ -62,6 +74,40 @@ def _modulo(left: str, right: str) -> str:
         return f"(({left} % {right}) + {right}) % {right}"
     result = f"b != 0 ? ((a % b) + b) % b : {_NO_VALUE}"
     return f"(function (a, b) {{ return {result}; }})({left}, {right})"
+
+
+def _division(left: str, right: str) -> str:
+    """Return the quotient of integers, rounded down."""
+    if _is_number(right):
+        return f"Math.floor({left} / {right})"
+    result = f"b != 0 ? Math.floor(a / b) : {_NO_VALUE}"
+    return f"(function (a, b) {{ return {result}; }})({left}, {right})"
+
+
+# `Math.round` takes halves up, and some engines compute it with an error of rounding.
+_FINITE = {
+    "int": "Math.trunc(a)",
+    "floor": "Math.floor(a)",
+    "ceil": "Math.ceil(a)",
+    "round": "Math.floor(a) + (a - Math.floor(a) > 0.5 "
+    "|| a - Math.floor(a) == 0.5 && Math.floor(a) % 2 != 0 ? 1 : 0)",
+}
+
+
+def _clamped(values: Sequence[str]) -> str:
+    return f"(function (a, b, c) {{ return Math.min(Math.max(a, b), c); }})({', '.join(values)})"
+
+
+def _distance(coordinates: Sequence[str]) -> str:
+    first, second, names = points(coordinates)
+    parts = ", ".join(f"a.{name} - b.{name}" for name in names)
+    return f"(function (a, b) {{ return Math.hypot({parts}); }})({first}, {second})"
+
+
+def _of_finite(test: str, result: str) -> Callable[[Sequence[str]], str]:
+    """Return the printer of a function without a value for numbers that fail the test."""
+    head = f"(function (a) {{ return {test} ? {result} : {_NO_VALUE}; }})"
+    return lambda values: f"{head}({values[0]})"
 
 
 def _root(values: Sequence[str]) -> str:

@@ -4,6 +4,7 @@
 from copy import deepcopy
 import math
 
+import geometry_msgs.msg
 import language.msg
 import language.srv
 import my_acts.action
@@ -29,6 +30,10 @@ class Data:
         self.mode = 0
         # model.swarm:60
         self.ok = False
+        # model.swarm:61
+        self.here = geometry_msgs.msg.Point()
+        # model.swarm:62
+        self.seen = geometry_msgs.msg.PoseStamped()
         # model.swarm:47
         self.a_k = 0
 
@@ -49,79 +54,84 @@ def goal_a_a(machine):
 
 
 def guard_d(machine, event):
-    # model.swarm:66
+    # model.swarm:68
     return event.data.mode == 0
 
 
 def effect_d(machine, event):
-    # model.swarm:66
+    # model.swarm:68
     machine.data.n = 1
 
 
 def guard_d_2(machine, event):
-    # model.swarm:67
+    # model.swarm:69
     return event.data.level < 3
 
 
 def effect_d_2(machine, event):
-    # model.swarm:67
+    # model.swarm:69
     machine.data.n = 4
 
 
 def guard_d_3(machine, event):
-    # model.swarm:68
+    # model.swarm:70
     return event.data.level > 3 and event.data.header.seq > 2
 
 
 def effect_d_3(machine, event):
-    # model.swarm:68
+    # model.swarm:70
     machine.data.n = 4
 
 
 def guard_d_4(machine, event):
-    # model.swarm:69
+    # model.swarm:71
     return machine.data.n > 3
 
 
+def guard_d_5(machine, event):
+    # model.swarm:73
+    return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(3, 4)  # noqa: E501
+
+
 def enter_d(machine, event):
-    # model.swarm:64
+    # model.swarm:66
     machine.emit(Event('X', filled(language.msg.M(), mode=4)))
     machine.data.n = 3
 
 
 def leave_d(machine, event):
-    # model.swarm:65
-    machine.data.n = 3
+    # model.swarm:67
+    machine.data.n = bounded(min(max(machine.data.n // 2, 1), round(2.5)), 'int32')
 
 
 def wait_d_out(machine, event):
-    # model.swarm:78
+    # model.swarm:80
     machine.send_after(Event('after.D.Out.1'), math.ceil(2_000_000_000 * 2), 'after.D.Out.1')
     machine.send_after(Event('after.D.Out.2'), 3_000_000_000, 'after.D.Out.2')
 
 
 def stop_waiting_d_out(machine, event):
-    # model.swarm:78
+    # model.swarm:80
     machine.cancel('after.D.Out.1')
     machine.cancel('after.D.Out.2')
 
 
 def goal_d_out(machine):
-    # model.swarm:75
+    # model.swarm:77
     return filled(language.srv.BaseTake.Request(), mode=machine.data.mode)
 
 
 def result_d_out(machine, event):
-    # model.swarm:75
+    # model.swarm:77
     machine.data.ok = deepcopy(get(event.data, 'ok'))
 
 
 STATES = tree(
-    # model.swarm:62
+    # model.swarm:64
     State(
         'A',
         initial=('A.A',),
-        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:62'),),
+        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:64'),),
         entry=(enter_a,),
     ),
     # model.swarm:49
@@ -137,37 +147,37 @@ STATES = tree(
     ),
     # model.swarm:54
     State('A.D', Kind.FINAL),
-    # model.swarm:63
+    # model.swarm:65
     State(
         'D',
         initial=('D.In',),
         transitions=(
-            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:66'),
+            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:68'),
             Transition(
-                ('Battery',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:67'
+                ('Battery',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:69'
             ),
             Transition(
-                ('Battery',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:68'
+                ('Battery',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:70'
             ),
-            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:69'),
-            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:70'),
-            Transition(('X',), ('D.H',), origin='model.swarm:71'),
-            Transition(('MissionAbort',), ('Z',), origin='model.swarm:81'),
+            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:71'),
+            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:72'),
+            Transition(('X',), ('D.H',), guard=guard_d_5, origin='model.swarm:73'),
+            Transition(('MissionAbort',), ('Z',), origin='model.swarm:83'),
         ),
         entry=(enter_d,),
         exit=(leave_d,),
     ),
-    # model.swarm:73
-    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:73'),)),
-    # model.swarm:74
+    # model.swarm:75
+    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:75'),)),
+    # model.swarm:76
     State(
         'D.Out',
         transitions=(
-            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:76'),
+            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:78'),
             Transition(
-                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:77'
+                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:79'
             ),
-            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.In',), origin='model.swarm:78'),
+            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.In',), origin='model.swarm:80'),
         ),
         entry=(wait_d_out,),
         exit=(stop_waiting_d_out,),
@@ -175,16 +185,16 @@ STATES = tree(
             'cam_take', 'cam/take', outcomes('D.Out'), goal=goal_d_out, finalize=result_d_out
         ),
     ),
-    # model.swarm:80
+    # model.swarm:82
     State('D.H', Kind.DEEP_HISTORY, transitions=(Transition((), ('D.In',)),)),
-    # model.swarm:83
+    # model.swarm:85
     State('Z', Kind.FINAL),
 )
 
 TOPICS = (
     # model.swarm:40
     Topic('E', language.msg.M, 'e', heard=True, reliable=False),
-    # model.swarm:67
+    # model.swarm:69
     Topic('Battery', my_msgs.msg.Level, 'battery', heard=True, reliable=False),
     # model.swarm:41
     Topic('F', std_msgs.msg.Empty, 'f', heard=True, reliable=False),

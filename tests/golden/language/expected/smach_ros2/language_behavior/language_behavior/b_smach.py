@@ -39,9 +39,9 @@ def build():
     """Build state machine B."""
     machine = Machine(CHART, ['Z', 'preempted'])
     with machine:
-        # model.swarm:62
+        # model.swarm:64
         StateMachine.add('A', build_a(), transitions={'done': 'D', 'preempted': 'preempted'})
-        # model.swarm:63
+        # model.swarm:65
         StateMachine.add(
             'D',
             build_d(),
@@ -58,7 +58,7 @@ def build():
 
 def build_a():
     """Build state A."""
-    # model.swarm:62
+    # model.swarm:64
     machine = StateMachine(['done', 'preempted'])
     with machine:
         # model.swarm:49
@@ -79,7 +79,7 @@ def build_a():
 
 def build_d():
     """Build state D."""
-    # model.swarm:63
+    # model.swarm:65
     machine = StateMachine(['Battery', 'A', 'X', 'MissionAbort', 'preempted'])
     with machine:
         # Leads to the state that is entered first.
@@ -88,7 +88,7 @@ def build_d():
             Junction(CHART, 'D.Entry', ['In', 'Out', 'preempted']),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
-        # model.swarm:73
+        # model.swarm:75
         StateMachine.add(
             'In',
             State(CHART, 'D.In', ['Battery', 'A', 'F', 'X', 'MissionAbort', 'Out', 'preempted']),
@@ -102,7 +102,7 @@ def build_d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:74
+        # model.swarm:76
         # Calls service cam/take.
         StateMachine.add(
             'Out',
