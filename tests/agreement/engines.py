@@ -191,7 +191,7 @@ _ECMASCRIPT = {
     "Math": SimpleNamespace(
         **{name: getattr(math, name) for name in ("sqrt", "hypot", "atan2", "sin", "cos")},
         **{name: getattr(math, name) for name in ("ceil", "floor", "trunc")},
-        **{"abs": abs, "max": max, "min": min},
+        **{function.__name__: function for function in (abs, max, min)},
     ),
     "Number": float,
     "JSON": SimpleNamespace(parse=_of, stringify=_of),
