@@ -47,7 +47,7 @@ _HELD_OTHERWISE = ("byte", "duration", "time")
 
 def python_expression(expression: Expression, imports: Imports, data: str = DATA) -> str:
     """Return an expression for a function of `machine` and `event`, with variables in `data`."""
-    made = _for_python(expression)
+    made = _for_python(expression, imports)
     for part in subexpressions(made):
         if uses_math(part):
             imports.module("math")
@@ -96,11 +96,14 @@ def default_value(type_: Type, imports: Imports) -> str:
     raise AssertionError(type_)
 
 
-def _for_python(expression: Expression) -> Expression:
+def _for_python(expression: Expression, imports: Imports) -> Expression:
     """Return an expression with the names of fields in ROS 2."""
     match expression:
+        case Literal(name=name) if name:
+            text = _literal(replace(expression, name=""))
+            return replace(expression, name=imports.constants.name(name, text))
         case FieldAccess(base=base, field=field, type=type_):
-            inner, field = _for_python(base), field_name(field)
+            inner, field = _for_python(base, imports), field_name(field)
             plain = isinstance(type_, Named | Array) or (
                 isinstance(type_, Primitive) and type_.name not in _HELD_OTHERWISE
             )
@@ -108,15 +111,21 @@ def _for_python(expression: Expression) -> Expression:
                 return replace(expression, base=inner, field=field)
             return Call(_GET, (inner, Literal(field, STRING)), type_)
         case Unary(operand=operand):
-            return replace(expression, operand=_for_python(operand))
+            return replace(expression, operand=_for_python(operand, imports))
         case Binary(left=left, right=right):
-            return replace(expression, left=_for_python(left), right=_for_python(right))
+            return replace(
+                expression, left=_for_python(left, imports), right=_for_python(right, imports)
+            )
         case Call(arguments=arguments):
-            return replace(expression, arguments=tuple(map(_for_python, arguments)))
+            return replace(
+                expression, arguments=tuple(_for_python(each, imports) for each in arguments)
+            )
     return expression
 
 
 def _literal(literal: Literal) -> str:
+    if literal.name:
+        return literal.name
     if literal.type == DURATION and isinstance(literal.value, int):
         return f"{literal.value:_}"
     return python_literal(literal)

@@ -5,11 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Mapping
 
+from swarmdsl.codegen.python import Constants
 from swarmdsl.ir import Named
 
 from .names import type_name
 
 WIDTH = 99
+# Names that modules of state machines use for other things.
+_TAKEN = ("BEHAVIOR", "CHART", "FUNCTIONS", "PARAMETERS", "STATES", "TOPICS")
 
 
 class Imports:
@@ -19,6 +22,7 @@ class Imports:
         self.messages_of_actions = messages_of_actions
         self._modules: set[str] = set()
         self._names: dict[str, set[str]] = {}
+        self.constants = Constants(_TAKEN)
 
     def module(self, name: str) -> None:
         """Import a module by its own name."""
@@ -44,7 +48,7 @@ class Imports:
     def lines(self) -> list[str]:
         """Return the import statements in the order that the linters of ROS require.
 
-        Blank lines separate the standard library, ROS and the package.
+        Blank lines separate the standard library, ROS and the package; constants come last.
         """
         groups: dict[int, list[tuple[str, str]]] = {}
         for module in self._modules:
@@ -56,7 +60,8 @@ class Imports:
         for key in sorted(groups):
             lines += [""] if lines else []
             lines += [line for _, line in sorted(groups[key])]
-        return lines
+        values = self.constants.lines()
+        return [*lines, "", *values] if values else lines
 
 
 def _group(module: str) -> int:

@@ -42,7 +42,7 @@ def python_expression(expression: Expression, imports: Imports) -> str:
             imports.module("rospy")
         if uses_math(part):
             imports.module("math")
-    return translate(_for_python(expression), _DIALECT)
+    return translate(_for_python(expression, imports), _DIALECT)
 
 
 def field_name(name: str) -> str:
@@ -73,26 +73,37 @@ def default_value(type_: Type, imports: Imports) -> str:
     raise AssertionError(type_)
 
 
-def _for_python(expression: Expression) -> Expression:
+def _for_python(expression: Expression, imports: Imports) -> Expression:
     """Return an expression with names and operands that Python and rospy accept."""
     match expression:
+        case Literal(name=name) if name:
+            text = _literal(replace(expression, name=""))
+            return replace(expression, name=imports.constants.name(name, text))
         case FieldAccess(base=base, field=field):
-            return replace(expression, base=_for_python(base), field=field_name(field))
+            return replace(expression, base=_for_python(base, imports), field=field_name(field))
         case Unary(operand=operand):
-            return replace(expression, operand=_for_python(operand))
+            return replace(expression, operand=_for_python(operand, imports))
         case Binary(operator="*", left=left, right=right, type=type_) if (
             type_ == DURATION and getattr(right, "type", None) == DURATION
         ):
             # `rospy.Duration * number` works, `number * rospy.Duration` does not.
-            return replace(expression, left=_for_python(right), right=_for_python(left))
+            return replace(
+                expression, left=_for_python(right, imports), right=_for_python(left, imports)
+            )
         case Binary(left=left, right=right):
-            return replace(expression, left=_for_python(left), right=_for_python(right))
+            return replace(
+                expression, left=_for_python(left, imports), right=_for_python(right, imports)
+            )
         case Call(arguments=arguments):
-            return replace(expression, arguments=tuple(map(_for_python, arguments)))
+            return replace(
+                expression, arguments=tuple(_for_python(each, imports) for each in arguments)
+            )
     return expression
 
 
 def _literal(literal: Literal) -> str:
+    if literal.name:
+        return literal.name
     text = python_literal(literal)
     return f"rospy.Duration({text})" if literal.type == DURATION else text
 

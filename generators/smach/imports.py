@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.codegen import dataclass
-from swarmdsl.codegen.python import WIDTH
+from swarmdsl.codegen.python import WIDTH, Constants
 from swarmdsl.ir import Named
 
 # Names that generated modules use for other things.
@@ -74,6 +74,7 @@ class Imports:
         self.types = types
         self._modules: set[str] = set()
         self._names: dict[str, set[str]] = {}
+        self.constants = Constants(_TAKEN)
 
     def module(self, name: str) -> None:
         """Import a module by its own name."""
@@ -93,7 +94,7 @@ class Imports:
         return f"{module}.{name}"
 
     def lines(self) -> list[str]:
-        """Return the import statements: standard library, ROS, this package."""
+        """Return the import statements (standard library, ROS, this package), then constants."""
         groups: dict[int, list[tuple[bool, str, str]]] = {}
         for module in self._modules:
             statement = (False, module, f"import {module}")
@@ -105,7 +106,8 @@ class Imports:
         for key in sorted(groups):
             lines += [""] if lines else []
             lines += [line for _, _, line in sorted(groups[key])]
-        return lines
+        values = self.constants.lines()
+        return [*lines, "", *values] if values else lines
 
     def _group(self, module: str) -> int:
         if module in _STANDARD:

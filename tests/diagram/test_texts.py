@@ -124,3 +124,25 @@ def test_nothing_is_drawn_of_a_model_without_anything(
     compiled: Callable[[str], System],
 ) -> None:
     assert list(diagrams(compiled("event E : std_msgs/Empty\n"))) == []
+
+
+def test_values_have_their_names(tmp_path: Path) -> None:
+    model = tmp_path / "model.swarm"
+    model.write_text(
+        """
+        enum Species { DOCK THISTLE }
+        const PATIENCE : duration = 2 * 30 s
+        endless statemachine Spray {
+          param wanted : Species = Species.THISTLE
+          initial Wait
+          state Wait { after PATIENCE [wanted == Species.DOCK] -> Wait }
+        }
+        """,
+        encoding="utf-8",
+    )
+    (diagram,) = diagrams(system_of(model))
+    said = list(told(diagram))
+
+    assert "param wanted : Species = Species.THISTLE" in said
+    assert "after PATIENCE" in said
+    assert "[wanted == Species.DOCK]" in said

@@ -413,3 +413,47 @@ def test_what_is_derived_does_not_count_in_comparisons(compiled: Compiled) -> No
     system = compiled(STANDARD)
     assert system.standard
     assert replace(system, standard=(), ros_packages=()) == system
+
+
+def test_values_keep_their_names(compiled: Compiled) -> None:
+    system = compiled("""
+      enum Mode { MANUAL AUTO = 4 }
+      const LIMIT : float64  = 2.5
+      const WAIT  : duration = 2 * 30 s
+      endless statemachine M {
+        var mode : Mode = Mode.AUTO
+        var x    : float64 = LIMIT
+        initial A
+        state A {
+          entry / x = -LIMIT, x = LIMIT + 1
+          after WAIT [mode == Mode.MANUAL] -> A
+        }
+      }
+    """)
+    machine = machine_of(system, "M")
+    mode, x = machine.variables
+    assert mode.type == ir.Primitive("uint8")
+    assert isinstance(mode.type, ir.Primitive)
+    assert mode.type.enum == ir.Named("model", "Mode")
+    assert mode.initial == ir.Literal(4, ir.INT)
+    literals = [mode.initial, x.initial]
+    (state,) = machine.walk()
+    literals += [effect.value for effect in state.entry if isinstance(effect, ir.Assignment)]
+    (transition,) = state.transitions
+    assert transition.guard is not None
+    found = [
+        (part.value, part.name)
+        for each in [*literals, transition.guard]
+        if each is not None
+        for part in ir.subexpressions(each)
+        if isinstance(part, ir.Literal)
+    ]
+    assert found == [
+        *((4, "Mode.AUTO"), (2.5, "LIMIT")),
+        # A folded sign makes another value.
+        *((-2.5, ""), (2.5, "LIMIT"), (1, ""), (0, "Mode.MANUAL")),
+    ]
+    (trigger,) = transition.triggers
+    assert isinstance(trigger, ir.TimeTrigger)
+    assert isinstance(trigger.delay, ir.Literal)
+    assert trigger.delay.name == "WAIT"

@@ -13,6 +13,7 @@ import pytest
 
 from swarmdsl.codegen import registry
 from swarmdsl.codegen.api import Generator
+from swarmdsl.codegen.python import Constants
 
 ROOT = Path(__file__).resolve().parents[2]
 CODEGEN = ROOT / "src" / "swarmdsl" / "codegen"
@@ -158,3 +159,27 @@ def test_a_plugin_with_old_names_works(install) -> None:
         generator = registry.load("old")
     assert isinstance(generator, Generator)
     assert {Path(warning.filename).name for warning in warned} == {"installed_old.py"}
+
+
+def test_constants_of_a_module_do_not_collide() -> None:
+    constants = Constants(taken=["STATES"])
+    named = {
+        "Mode.AUTO": "4",
+        "SearchMode.AUTO": "5",
+        "mode.auto": "6",
+        "STATES": "7",
+        "_3": "8",
+    }
+    made = {name: constants.name(name, text) for name, text in named.items()}
+
+    assert list(made.values()) == [
+        "MODE_AUTO",
+        "SEARCH_MODE_AUTO",
+        "MODE_AUTO_",
+        "STATES_",
+        "VALUE_3",
+    ]
+    assert constants.name("Mode.AUTO", "4") == "MODE_AUTO"
+    values: dict[str, object] = {}
+    exec("\n".join(constants.lines()), values)
+    assert {values[name] for name in made.values()} == {4, 5, 6, 7, 8}

@@ -523,3 +523,59 @@ def test_a_scenario_that_is_not_there(simulate: Simulate) -> None:
 
     assert (ran.code, ran.out) == (1, "")
     assert "error[SW0001]" in ran.err
+
+
+WEEDS = """
+enum Species { DOCK THISTLE = 3 NETTLE }
+message Weed { species : Species  near : Species[] }
+swarm event Seen : Weed
+
+endless statemachine Weeding {
+  param wanted : Species = Species.DOCK
+  var last : Species = Species.DOCK
+  initial Search
+  state Search {
+    on Seen [event.species == wanted and len(event.near) == 2] / last = event.species -> Spray
+  }
+  state Spray { on Start [last == Species.THISTLE] -> Search }
+}
+member Rover { behavior Weeding }
+swarm S { rover : Rover }
+"""
+
+
+def test_values_of_enums_by_name(simulate: Simulate) -> None:
+    scenario = """
+      params.rover.wanted = "THISTLE"
+      [[messages]]
+      event = "Seen"
+      at    = "1 s"
+      data  = { species = "THISTLE", near = ["DOCK", "NETTLE"] }
+    """
+    ran = simulate(WEEDS, scenario=scenario)
+
+    assert [line["configuration"] for line in ran.trace] == [["Search"], ["Spray"]]
+    assert ran.trace[1]["data"] == {"species": 3, "near": [0, 4]}
+
+
+def test_values_of_enums_by_name_in_events(simulate: Simulate) -> None:
+    data = {"species": "DOCK", "near": ["NETTLE", 3]}
+    ran = simulate(WEEDS, events=[{"event": "Seen", "after": 5, "data": data}])
+
+    assert ran.trace[-1]["configuration"] == ["Spray"]
+    assert ran.trace[-1]["data"] == {"species": 0, "near": [4, 3]}
+
+
+@pytest.mark.parametrize(
+    ("value", "message"),
+    [
+        ('"THISTEL"', 'a value of `Species`: `DOCK`, `THISTLE` or `NETTLE`, not `"THISTEL"`'),
+        ("256", "a whole number from 0 to 255, not `256`"),
+    ],
+)
+def test_values_that_an_enum_does_not_have(simulate: Simulate, value: str, message: str) -> None:
+    ran = simulate(WEEDS, scenario=f"params.rover.wanted = {value}")
+
+    assert ran.code == 1
+    assert f"error[SW0013]: `wanted` takes {message}" in ran.err
+    assert ("did you mean `THISTLE`?" in ran.err) == (value != "256")

@@ -404,3 +404,39 @@ def test_variables_of_documents(ran: Callable[..., Ran], folder: Path) -> None:
     for wrong in ("o = { n = 1 }", "o = { list = [1] }", "o = { list = [true, true] }", "p = 1"):
         found = ran(text.replace("CLAIM", wrong))
         assert (found.code, "SW1101" in found.out) == (1, True)
+
+
+def test_values_of_enums_by_name(folder: Path, swarmc: Callable[..., Ran]) -> None:
+    (folder / "lamps.swarm").unlink()
+    (folder / "weeds.swarm").write_text(
+        """
+        enum Species { DOCK THISTLE }
+        message Weed { species : Species }
+        swarm event Seen : Weed
+        endless statemachine Weeding {
+          var last : Species = Species.DOCK
+          initial A
+          state A {
+            on Seen [last == Species.DOCK] / last = event.species, send Seen(species = last) -> A
+          }
+        }
+        """,
+        encoding="utf-8",
+    )
+    test = """
+        [[test]]
+        name = "it"
+        steps = [
+          { send = "Seen", data = { species = "THISTLE" } },
+          { sends = "Seen", data = { species = "NAME" } },
+          { has = { last = "NAME" } },
+        ]
+    """
+    results = {}
+    for name in ("THISTLE", "DOCK", "THISTEL"):
+        (folder / "it.swarmtest.toml").write_text(test.replace("NAME", name), encoding="utf-8")
+        results[name] = swarmc("test", "it.swarmtest.toml")
+
+    assert results["THISTLE"].code == 0, results["THISTLE"].err
+    assert results["DOCK"].code == 1
+    assert "error[SW0013]: `species` takes a value of `Species`" in results["THISTEL"].out

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import NamedTuple
 
 from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.naming import snake_case
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.source_map import TracedStr
@@ -111,6 +112,37 @@ def _laid_out(written: _Written | str, indent: int, before: str, after: str, wid
         ]
     closing = f"{_STEP * indent}{written.closing}{after}"
     return "\n".join([f"{before}{written.opening}", *lines, closing])
+
+
+class Constants:
+    """Constants of a module for values that have a name in the model, such as `Mode.AUTO`.
+
+    `taken` are names that the module uses for other things.
+    """
+
+    def __init__(self, taken: Iterable[str] = ()) -> None:
+        self._taken = frozenset(taken)
+        self._known: dict[str, tuple[str, str]] = {}
+
+    def name(self, name: str, text: str) -> str:
+        """Return the constant for a name in the model, whose value is written as `text`."""
+        known = "_".join(snake_case(part) for part in name.split(".")).upper()
+        if not known.isidentifier():  # leading underscores of `_3` are lost
+            known = f"VALUE_{known}"
+        while known in self._taken or self._differs(known, name, text):
+            known += "_"
+        self._known[known] = name, text
+        return known
+
+    def lines(self) -> list[str]:
+        """Return the statements, each with the name in the model."""
+        return [
+            f"{known} = {text}" + (f"  # {name}" if name != known else "")
+            for known, (name, text) in sorted(self._known.items())
+        ]
+
+    def _differs(self, known: str, name: str, text: str) -> bool:
+        return self._known.get(known, (name, text)) != (name, text)
 
 
 def comment_lines(text: str) -> list[str]:

@@ -8,6 +8,7 @@ from dataclasses import MISSING, fields, is_dataclass
 from enum import Enum
 from typing import Any, get_args
 
+from swarmdsl.base.records import replace
 from swarmdsl.ir.architecture import Multiplicity, PortRef
 from swarmdsl.ir.expression_printer import Dialect, translate
 from swarmdsl.ir.expressions import Expression, Literal
@@ -92,6 +93,8 @@ def _needs_quotes(text: str) -> bool:
 
 
 def _literal(literal: Literal) -> str:
+    if literal.name:
+        return f"{literal.name} ({_literal(replace(literal, name=''))})"
     if literal.type == DURATION:
         return f"{literal.milliseconds:g} ms"
     return json.dumps(literal.value, ensure_ascii=False)

@@ -12,10 +12,15 @@ from swarmdsl.syntax.types import DURATION, Type
 
 @dataclass(frozen=True, slots=True)
 class Literal:
-    """Value written in the model; durations are in nanoseconds (ROS's unit)."""
+    """Value written in the model; durations are in nanoseconds (ROS's unit).
+
+    `name` is what the model calls it, such as `Mode.AUTO`, if it is a value of an enum or a
+    constant. The value counts, not its name.
+    """
 
     value: bool | int | float | str
     type: Type
+    name: str = dataclass_field(default="", compare=False, repr=False, kw_only=True)
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
     @property

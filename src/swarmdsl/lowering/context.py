@@ -67,6 +67,10 @@ class Context:
         """Return the name of the target of a resolved reference."""
         return self.names[cast("Declaration", ref.target)]
 
+    def declared(self, declaration: Declaration) -> str:
+        """Return the name of a declaration, of a library too."""
+        return self.names.get(declaration, str(declaration.name))
+
     def function(self, activity: Activity) -> str:
         """Return the name of the function that an activity calls."""
         operation = activity.function.target
@@ -103,7 +107,9 @@ class Context:
         """Return the type with integer types instead of enums."""
         if isinstance(type_, ir.Array):
             return replace(type_, element=self.plain(type_.element))
-        return self.enums.get(type_, type_) if isinstance(type_, ir.Named) else type_
+        if not isinstance(type_, ir.Named) or type_ not in self.enums:
+            return type_
+        return replace(self.enums[type_], enum=type_)
 
 
 def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Context:

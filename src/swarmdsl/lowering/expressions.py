@@ -61,7 +61,8 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
         case NameUse():
             return _name(tree, context)
         case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
-            return ir.Literal(context.typing.folding.numbers(enum)[str(name)], INT, tree.span)
+            number = context.typing.folding.numbers(enum)[str(name)]
+            return ir.Literal(number, INT, tree.span, name=f"{context.declared(enum)}.{name}")
         case FieldUse(base=base, name=name):
             return _field(_lower(base, context), str(name), tree.span, context)
         case Call(function="distance", arguments=points):
@@ -104,10 +105,11 @@ def _constant(constant: Constant, at: Span, context: Context) -> ir.Literal:
     """Return the value of a constant as a literal, not its expression."""
     value = context.typing.folding.constant(constant)
     assert value is not None
+    name = context.declared(constant)
     if constant.type.type == DURATION:
         assert not isinstance(value, str)
-        return ir.Literal(round(value), DURATION, at)
-    return ir.Literal(value, _TYPES[type(value)], at)
+        return ir.Literal(round(value), DURATION, at, name=name)
+    return ir.Literal(value, _TYPES[type(value)], at, name=name)
 
 
 def _name(use: NameUse, context: Context) -> ir.Expression:
@@ -134,7 +136,7 @@ def _result(
 def _unary(operator: str, operand: ir.Expression, type_: ir.Type | None, at: Span) -> ir.Expression:
     """Lower a prefix operator; a sign before a number gives a literal."""
     if operator == "-" and isinstance(operand, ir.Literal) and not isinstance(operand.value, str):
-        return replace(operand, value=-operand.value, origin=at)
+        return replace(operand, value=-operand.value, origin=at, name="")
     return ir.Unary(operator, operand, type_, at)
 
 

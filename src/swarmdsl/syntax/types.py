@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
 class Primitive:
     """`bool`, `int32`, `float64`, `string`, `time`, `duration`, ...
 
-    `bound` is the greatest length of a string, None where there is no limit.
+    `bound` is the greatest length of a string, None where there is no limit. In the intermediate
+    representation, `enum` is the enum whose values an integer has; it makes no other type.
     """
 
     name: str
     bound: int | None = None
+    enum: Named | None = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         return self.name if self.bound is None else f"{self.name}<={self.bound}"

@@ -8,7 +8,7 @@ from typing import Literal
 from swarmdsl import ir
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
-from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.codegen.swarm_printer.expressions import expression, with_names
 from swarmdsl.codegen.swarm_printer.layout import quoted
 
 
@@ -154,7 +154,7 @@ def _fitness(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edge]]:
         if each.name == swarm.fitness:
             data = [f"in {field.name} : {type_name(field.type)}" for field in each.inputs]
             data += map(param_line, each.params)
-            goal = f"{each.goal} {expression(each.value)}"
+            goal = f"{each.goal} {expression(with_names(each.value))}"
             yield _around(swarm, "fitness", each, _groups(data, [goal]))
 
 
@@ -181,13 +181,13 @@ def _optimizations(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[str, ..
     for each in system.optimizations:
         if each.swarm != swarm.name:
             continue
-        lines = [f"{name} {expression(value)}" for name, value in each.settings]
+        lines = [f"{name} {expression(with_names(value))}" for name, value in each.settings]
         for param in each.params:
-            step = f" step {expression(param.step)}" if param.step is not None else ""
-            span = f"{expression(param.lower)} .. {expression(param.upper)}"
+            step = f" step {expression(with_names(param.step))}" if param.step is not None else ""
+            span = f"{expression(with_names(param.lower))} .. {expression(with_names(param.upper))}"
             lines.append(f"{param.role}.{param.param} in {span}{step}")
         for count in each.counts:
-            span = f"{expression(count.lower)} .. {expression(count.upper)}"
+            span = f"{expression(with_names(count.lower))} .. {expression(with_names(count.upper))}"
             lines.append(f"count of {count.role} in {span}")
         yield ("«optimize»", *lines)
 

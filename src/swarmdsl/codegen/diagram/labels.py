@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from swarmdsl.codegen.swarm_printer.actions import activity_text, effect_text
-from swarmdsl.codegen.swarm_printer.expressions import default, delay, expression
+from swarmdsl.codegen.swarm_printer.expressions import default, delay, expression, with_names
 from swarmdsl.ir import (
     Array,
     DoneTrigger,
@@ -15,6 +15,7 @@ from swarmdsl.ir import (
     Named,
     OutcomeTrigger,
     Param,
+    Primitive,
     State,
     TimeTrigger,
     Transition,
@@ -30,7 +31,7 @@ def transition_label(transition: Transition, owner: State) -> tuple[str, ...]:
     if transition.triggers:
         pieces.append(", ".join(_trigger(each, owner) for each in transition.triggers))
     if transition.guard is not None:
-        pieces.append(f"[{expression(transition.guard)}]")
+        pieces.append(f"[{expression(with_names(transition.guard))}]")
     return (*pieces, *effects_label(transition.effects))
 
 
@@ -38,7 +39,7 @@ def effects_label(effects: tuple[Effect, ...]) -> tuple[str, ...]:
     """Return `/ x = 1, send Found`, one piece for each effect."""
     if not effects:
         return ()
-    *others, last = map(effect_text, effects)
+    *others, last = map(effect_text, with_names(effects))
     first, *rest = (*(f"{each}," for each in others), last)
     return (f"/ {first}", *rest)
 
@@ -49,7 +50,7 @@ def behaviour_lines(state: State, entry: tuple[Effect, ...]) -> tuple[str, ...]:
     if entry:
         lines.append(f"entry {' '.join(effects_label(entry))}")
     if state.activity is not None:
-        lines.append(f"do / {activity_text(state.activity, state.activity.function)}")
+        lines.append(f"do / {activity_text(with_names(state.activity), state.activity.function)}")
     if state.exit:
         lines.append(f"exit {' '.join(effects_label(state.exit))}")
     for _, each in internal_transitions(state):
@@ -66,25 +67,27 @@ def internal_transitions(state: State) -> Iterator[tuple[str, Transition]]:
 
 def param_line(param: Param) -> str:
     """Return a param with its type and default."""
-    return f"param {param.name} : {type_name(param.type)}{default(param.default)}"
+    return f"param {param.name} : {type_name(param.type)}{default(with_names(param.default))}"
 
 
 def variable_line(variable: Variable) -> str:
     """Return a variable with its type and initial value."""
-    return f"var {variable.name} : {type_name(variable.type)}{default(variable.initial)}"
+    return (
+        f"var {variable.name} : {type_name(variable.type)}{default(with_names(variable.initial))}"
+    )
 
 
 def value_lines(values: Iterable[tuple[str, Expression]]) -> tuple[str, ...]:
     """Return values that are set, one a line."""
-    return tuple(f"{name} = {expression(value)}" for name, value in values)
+    return tuple(f"{name} = {expression(with_names(value))}" for name, value in values)
 
 
 def type_name(type_: Type) -> str:
-    """Return a type without its package, to keep labels short."""
+    """Return a type without its package, to keep labels short; an enum by its name."""
     match type_:
         case Array(element=element):
             return type_name(element) + str(type_).removeprefix(str(element))
-        case Named(name=name):
+        case Named(name=name) | Primitive(enum=Named(name=name)):
             return name
     return str(type_)
 
@@ -94,7 +97,7 @@ def _trigger(trigger: Trigger, owner: State) -> str:
         case EventTrigger(event=event):
             return event
         case TimeTrigger(delay=time):
-            return f"after {delay(time)}"
+            return f"after {delay(with_names(time))}"
         case OutcomeTrigger(state=state, outcome=outcome):
             return _state_event(state, owner, outcome)
         case DoneTrigger(state=state, final=final):

@@ -3,18 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import is_dataclass
 from math import isfinite
+from typing import Any, TypeVar, cast
 
+from swarmdsl.base.records import fields_of, replace
+from swarmdsl.base.source import Span
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError, quoted
-from swarmdsl.ir import Expression, Literal
+from swarmdsl.ir import Array, Expression, Literal, Named, Primitive, VariableRef
 from swarmdsl.ir.expression_printer import Dialect, points, translate
 from swarmdsl.syntax.parser.literals import UNITS
 from swarmdsl.syntax.types import DURATION
+
+T = TypeVar("T")
 
 
 def expression(value: Expression, named: Callable[[str], str] = str) -> str:
     """Return an expression with minimal parentheses; `named` prints names."""
     return translate(value, Dialect(_literal, named, named, "event", {}, {"distance": _distance}))
+
+
+def with_names(node: T) -> T:
+    """Return a node of the IR in which values with a name in the model are printed as that name."""
+    if isinstance(node, Literal):
+        return cast("T", VariableRef(node.name, node.type)) if node.name else node
+    if isinstance(node, tuple):
+        return cast("T", tuple(map(with_names, node)))
+    if isinstance(node, (Primitive, Named, Array, Span)) or not is_dataclass(node):
+        return node
+    changed = {name: with_names(getattr(node, name)) for name in fields_of(type(node))}
+    return cast("T", replace(cast("Any", node), **changed))
 
 
 def _distance(coordinates: Sequence[str]) -> str:

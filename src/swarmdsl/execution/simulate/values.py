@@ -5,11 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from swarmdsl.base.suggest import suggest
+from swarmdsl.base.diagnostics.collector import listed
+from swarmdsl.base.suggest import did_you_mean, suggest
 from swarmdsl.codegen.shared.default_values import default_fields, default_result, result_fields
 from swarmdsl.execution.simulate.durations import duration
 from swarmdsl.execution.simulate.trace_line import NOT_FINITE, numbers
-from swarmdsl.ir import Array, Communication, Field, Message, Primitive, System, Type
+from swarmdsl.ir import (
+    Array,
+    Communication,
+    Field,
+    Literal,
+    Message,
+    Named,
+    Primitive,
+    System,
+    Type,
+)
 from swarmdsl.syntax.types import FLOATS, INTEGERS
 
 _BITS = {name: int(name.lstrip("uint")) for name in INTEGERS} | {"byte": 8, "char": 8}
@@ -37,6 +48,8 @@ def fitted(type_: Type, value: Any, system: System, way: Way = ()) -> Any:
     Raises MisfitError if it does not fit.
     """
     match type_:
+        case Primitive(enum=Named() as enum):
+            return _enum_value(type_, enum, value, system, way)
         case Primitive():
             return _primitive(type_.name, value, way)
         case Array(element=element, size=size, bounded=bounded):
@@ -76,6 +89,21 @@ def _given(
             help_ = suggest(name, known, "fields")
             raise MisfitError((*way, name), "unknown-field", help_, owner=owner, name=name)
     return {name: fitted(known[name], values[name], system, (*way, name)) for name in values}
+
+
+def _enum_value(type_: Primitive, enum: Named, value: Any, system: System, way: Way) -> Any:
+    """Return the number of a value of an enum, which is given by its name or as a number."""
+    described = system.interface(enum)
+    if not isinstance(value, str) or not isinstance(described, Message):
+        return _primitive(type_.name, value, way)
+    values = ((each.name, each.value) for each in described.constants)
+    known = {name: each.value for name, each in values if isinstance(each, Literal)}
+    if value not in known:
+        names = listed(list(known), "or")
+        misfit = _misfit(way, f"a value of `{enum.name}`: {names}", value)
+        misfit.help = did_you_mean(value, known)
+        raise misfit
+    return known[value]
 
 
 def _primitive(name: str, value: Any, way: Way) -> Any:

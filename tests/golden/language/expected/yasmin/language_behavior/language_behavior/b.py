@@ -18,6 +18,10 @@ from .host import Behavior, outcomes, tree
 from .topics import Topic
 from .values import filled, get
 
+LIMIT = 3
+MODE_AUTO = 4  # Mode.AUTO
+MODE_MANUAL = 0  # Mode.MANUAL
+
 
 class Data:
     """Data of the machine: params, which are constant after its start, and variables."""
@@ -54,7 +58,7 @@ def goal_a_a(machine):
 
 def guard_d(machine, event):
     # model.swarm:68
-    return event.data.mode == 0
+    return event.data.mode == MODE_MANUAL
 
 
 def effect_d(machine, event):
@@ -94,8 +98,8 @@ def guard_d_5(machine, event):
 
 def enter_d(machine, event):
     # model.swarm:66
-    machine.emit(Event('X', filled(language.msg.M(), mode=4)))
-    machine.data.n = 3
+    machine.emit(Event('X', filled(language.msg.M(), mode=MODE_AUTO)))
+    machine.data.n = LIMIT
 
 
 def leave_d(machine, event):

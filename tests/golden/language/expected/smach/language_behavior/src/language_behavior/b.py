@@ -17,6 +17,10 @@ from language_behavior.engine import bounded
 from language_behavior.services import ServiceState
 from language_behavior.states import AT_ONCE, Final, History, On, State
 
+LIMIT = 3
+MODE_AUTO = 4  # Mode.AUTO
+MODE_MANUAL = 0  # Mode.MANUAL
+
 
 def build():
     """Build state machine B."""
@@ -83,7 +87,12 @@ def _d():
     """Build state D."""
     machine = StateMachine(
         on=[
-            On(events.E, None, guard=lambda userdata, event: event.mode == 0, effect=_d_e_effect),
+            On(
+                events.E,
+                None,
+                guard=lambda userdata, event: event.mode == MODE_MANUAL,
+                effect=_d_e_effect,
+            ),
             On(
                 events.BATTERY,
                 guard=lambda userdata, event: event.level < 3,
@@ -184,8 +193,8 @@ def _d_out_response(userdata, response):
 
 def _d_entry(userdata):
     # model.swarm:66
-    events.X.send(M(mode=4))
-    userdata.n = 3
+    events.X.send(M(mode=MODE_AUTO))
+    userdata.n = LIMIT
 
 
 def _d_exit(userdata):
