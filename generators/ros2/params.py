@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from swarmdsl.codegen import Diagnostics
-from swarmdsl.codegen.python import Call
+from swarmdsl.codegen.python import Call, Source
 from swarmdsl.codegen.ros import parameter_value, with_parameters
 from swarmdsl.codegen.shared import BehaviorNode, Value, constant, params_by_name
-from swarmdsl.ir import Array, Param, Primitive, StateMachine
+from swarmdsl.ir import Array, Literal, Param, Primitive, StateMachine
 
+from .imports import Imports
 from .names import TARGET
 
 
-def parameters(machine: StateMachine, report: Diagnostics) -> list[tuple[Param, Call]]:
+def parameters(
+    machine: StateMachine, imports: Imports, report: Diagnostics
+) -> list[tuple[Param, Call]]:
     """Return the declaration of each param of a machine."""
     found = []
     known = params_by_name(machine.params)
@@ -30,7 +33,8 @@ def parameters(machine: StateMachine, report: Diagnostics) -> list[tuple[Param, 
                 _unsupported("a param whose default is not constant", param, report)
             else:
                 value = parameter_value(value, param.type, 2, default.origin, TARGET, report)
-            arguments.append(value)
+            named = default.name if isinstance(default, Literal) and element.enum else ""
+            arguments.append(Source(imports.constants.name(named, repr(value))) if named else value)
         doc = " ".join(param.doc.split())
         keywords = (("doc", doc),) if doc else ()
         found.append((param, Call("Parameter", tuple(arguments), keywords)))

@@ -172,7 +172,7 @@ def _machine_view(
     table = Table(machine, made)
     for callback, signature, origin in made.callbacks:
         NAMES.check_callback(callback, signature, callbacks, origin, report)
-    declared = parameters(machine, report)
+    declared = parameters(machine, imports, report)
     if declared:
         imports.own("parameters", "Parameter")
     heard = topics(machine, system, sent, imports, report)

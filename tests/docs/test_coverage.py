@@ -6,9 +6,11 @@ import re
 
 import pytest
 
+from swarmdsl.analysis.types import BUILT_INS
 from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.cli import COMMANDS
 from swarmdsl.codegen import registry
+from swarmdsl.ir.operations import OPERATIONS
 from swarmdsl.syntax.parser.keywords import RESERVED
 
 from .pages import LANGUAGE, PAGES, ROOT, Page
@@ -37,6 +39,12 @@ def test_the_reference_has_every_word_of_the_language() -> None:
 
     assert {"statemachine", "gives", "world"} <= in_grammar
     assert in_grammar - words(LANGUAGE.code) == set()
+
+
+def test_the_reference_has_every_built_in_function() -> None:
+    assert BUILT_INS.keys() <= OPERATIONS.keys()
+    written = "".join(line for line in LANGUAGE.text.splitlines() if line.startswith("| `"))
+    assert [name for name in BUILT_INS if f"`{name}(" not in written] == []
 
 
 def test_the_reference_lists_the_reserved_words() -> None:

@@ -356,3 +356,33 @@ def _code(node: ast.stmt) -> str:
             ]
             inner.body = kept or [ast.Pass()]  # type: ignore[attr-defined]
     return ast.dump(node)
+
+
+def test_values_have_their_names(generate: Generate) -> None:
+    files = generate("""
+      package weeds
+      enum Species : int32 { DOCK THISTLE = 3 }
+      const STATES : duration = 2 s
+      const MOST   : int32    = 9
+      event Seen : std_msgs/Int32
+      endless statemachine M {
+        param wanted : Species = Species.THISTLE
+        var last : Species = Species.THISTLE
+        initial A
+        state A {
+          on Seen [event.data < MOST and last == wanted] / last = Species.DOCK -> A
+          after STATES -> A
+        }
+      }
+      member Robot { behavior M }
+    """)
+    text = files["weeds_behavior/weeds_behavior/m.py"].text
+
+    # A module has states of its own.
+    head = "MOST = 9\nSPECIES_DOCK = 0  # Species.DOCK\nSPECIES_THISTLE = 3  # Species.THISTLE\n"
+    assert f"\n\n{head}STATES_ = 2_000_000_000  # STATES\n\n\nclass Data:" in text
+    assert "Parameter('wanted', 'int32', SPECIES_THISTLE)" in text
+    assert "self.last = SPECIES_THISTLE" in text
+    assert "event.data.data < MOST" in text
+    assert "machine.data.last = SPECIES_DOCK" in text
+    assert text.count("STATES_") == 2

@@ -268,6 +268,15 @@ async def test_hover_shows_multiplicity_and_support_in_targets(client, editor):
     assert "event, of type `float64`" in found
 
 
+async def test_hover_shows_a_built_in_function(client, editor):
+    text = "const HALF : int32 = div(7, clamp(2, 0, 3))\n"
+    found = await hovered(client, editor, EXAMPLE / "new.swarm", "div", text)
+    assert "div(a, b) : int64" in found
+    assert "rounded down" in found
+    found = await hovered(client, editor, EXAMPLE / "new.swarm", "clamp", text)
+    assert "clamp(x, low, high)\n" in found
+
+
 async def test_hover_shows_support_in_targets_of_the_project(client, editor, folder):
     (folder / "swarm.toml").write_text("[targets.smach]\nros = 2\n[targets.yasmin]\n")
     model = folder / "lab.swarm"

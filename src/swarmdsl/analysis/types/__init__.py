@@ -1,10 +1,12 @@
 """Type inference, conversions and constants of expressions."""
 
+from swarmdsl.analysis.types.built_ins import BUILT_INS
 from swarmdsl.analysis.types.expressions import Typing, report_unknown_field
 from swarmdsl.analysis.types.fitting import fits, is_float, is_number, range_of
 from swarmdsl.analysis.types.forms import assignable, constant
 
 __all__ = [
+    "BUILT_INS",
     "Typing",
     "assignable",
     "constant",

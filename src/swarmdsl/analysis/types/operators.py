@@ -5,24 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from swarmdsl.analysis.resolve.report_unresolved import report_missing
+from swarmdsl.analysis.types.built_ins import BUILT_INS
 from swarmdsl.analysis.types.fitting import fits, is_float, is_number, is_text
 from swarmdsl.analysis.types.positions import Position
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import Call, OperatorUse, Value
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING, Array, Named, Type
-
-_FUNCTIONS = {
-    **dict.fromkeys(("min", "max", "hypot", "atan2", "div", "distance"), 2),
-    **dict.fromkeys(("abs", "sqrt", "len", "sin", "cos"), 1),
-    **dict.fromkeys(("int", "float", "round", "floor", "ceil"), 1),
-    "clamp": 3,
-}
-_MORE = ("min", "max", "hypot")
-_RESULTS = {
-    **dict.fromkeys(("sqrt", "sin", "cos", "atan2", "hypot", "float"), FLOAT),
-    **dict.fromkeys(("int", "round", "floor", "ceil"), INT),
-}
 
 
 @dataclass(frozen=True)
@@ -46,31 +35,30 @@ class Application:
 
     def _call(self, call: Call) -> Type | None:
         function, types = str(call.function), self.types
-        count = _FUNCTIONS.get(function)
-        if count is None:
+        known = BUILT_INS.get(function)
+        if known is None:
             report_missing(
-                "built-in function", function, call.function.span, _FUNCTIONS, self.report
+                "built-in function", function, call.function.span, BUILT_INS, self.report
             )
             return None
-        enough = len(types) >= count if function in _MORE else len(types) == count
+        count = len(known.parameters)
+        enough = len(types) >= count if known.more else len(types) == count
         if not enough:
             self._report(
                 f"{len(types)} value{'s' * (len(types) != 1)}: it takes {count}"
-                + (" or more" if function in _MORE else "")
+                + (" or more" if known.more else "")
             )
             return None
         if function == "len":
             self._require(lambda t: is_text(t) or isinstance(t, Array))
-            return INT
-        if function in _RESULTS:
-            self._require(is_number, self._duration_hint)
-            return _RESULTS[function]
-        if function == "div":
+        elif function == "div":
             self._require(lambda t: is_number(t) and not is_float(t), self._division_hint)
-            return INT
-        if function == "distance":
+        elif function == "distance":
             self._check_positions()
-            return FLOAT
+        elif known.result is not None:
+            self._require(is_number, self._duration_hint)
+        if known.result is not None:
+            return known.result
         if self._are_durations():
             return DURATION
         return self._widest() if self._require(is_number, self._unit_hint) else None

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
+from swarmdsl.analysis.types import BUILT_INS
 from swarmdsl.base.records import dataclass
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
@@ -28,7 +29,16 @@ from swarmdsl.ide.server.speculative_parse import (
 )
 from swarmdsl.ide.server.type_names import type_names
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Member, Node, ResultMapping, TopLevel, TypeRef, nodes_of
+from swarmdsl.syntax.ast import (
+    Assignment,
+    Member,
+    NameUse,
+    Node,
+    ResultMapping,
+    TopLevel,
+    TypeRef,
+    nodes_of,
+)
 from swarmdsl.syntax.parser import generated
 from swarmdsl.syntax.parser.failure_finder import mismatch
 from swarmdsl.syntax.recovery.statements import statement_at
@@ -44,7 +54,9 @@ _OUTCOMES = ("succeeded", "aborted", "preempted")
 
 @dataclass(frozen=True)
 class Completion:
-    """Word that fits at the cursor; `node` is its declaration, None for a keyword.
+    """Word that fits at the cursor.
+
+    `node` is its declaration, None for a keyword and for a built-in function.
 
     `text` is a snippet with fields (`${1:name}`) if the word alone is not enough.
     """
@@ -171,7 +183,8 @@ class _NameCompletion:
             return [_completion(each, f"{each.name} {sign} ${{1}}") for each in left]
         nodes = Candidates(self._workspace, self._scope, self._owner or owner, self._offset)
         for found in nodes.of(owner):
-            return [_completion(each) for each in found]
+            calls = _calls() if _is_value(owner) else ()
+            return [*(_completion(each) for each in found), *calls]
         for type_ in nodes_of(owner, TypeRef):
             if PLACEHOLDER in type_.name:
                 known = type_names(type_, owner, self._scope)
@@ -180,6 +193,24 @@ class _NameCompletion:
                     for word, detail, each in known
                 ]
         return None
+
+
+def _is_value(owner: TopLevel) -> bool:
+    """Return True if the placeholder is a value, and not what a value is assigned to."""
+    assigned: list[Assignment | ResultMapping] = [
+        *nodes_of(owner, Assignment),
+        *nodes_of(owner, ResultMapping),
+    ]
+    if any(PLACEHOLDER in each.target.span.text for each in assigned):
+        return False
+    return any(PLACEHOLDER in use.name for use in nodes_of(owner, NameUse))
+
+
+def _calls() -> Iterator[Completion]:
+    """Yield the built-in functions."""
+    for name, function in BUILT_INS.items():
+        fields = ", ".join(f"${{{n}:{each}}}" for n, each in enumerate(function.parameters, 1))
+        yield Completion(name, function.signature(name), text=f"{name}({fields})")
 
 
 def _completion(node: Node, text: str | None = None, word: str = "") -> Completion:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.analysis.node_kinds import kind_name
+from swarmdsl.analysis.types import BUILT_INS
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import occurrence_at
+from swarmdsl.ide.server.speculative_parse import declaration_at
 from swarmdsl.ide.server.support import support
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     ActionType,
+    Call,
     Documented,
     EnumType,
     MessageType,
@@ -36,10 +39,21 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
     """Return the name at an offset and its Markdown, or None if there is none."""
     found = occurrence_at(workspace, file, offset)
     if found is None:
-        return None
+        return _built_in(file, offset)
     targets = "\n".join(f"- {line}" for line in support(found.node, workspace.settings))
     text = described(found.node)
     return found.span, f"{text}\n\nIn targets:\n{targets}" if targets else text
+
+
+def _built_in(file: File, offset: int) -> tuple[Span, str] | None:
+    """Return the built-in function at an offset and its Markdown."""
+    owner = declaration_at(file, offset)
+    for call in nodes_of(owner, Call) if owner is not None else ():
+        span, name = call.function.span.absolute, str(call.function)
+        if span.start <= offset <= span.end and name in BUILT_INS:
+            known = BUILT_INS[name]
+            return span, f"```swarm\n{known.signature(name)}\n```\n\n{known.doc}"
+    return None
 
 
 def described(node: Node) -> str:

@@ -51,6 +51,8 @@ def _completion_kind(completion: Completion) -> lsp.CompletionItemKind:
         return COMPLETION_KINDS.get(type(completion.node), lsp.CompletionItemKind.Variable)
     if completion.detail == "keyword":
         return lsp.CompletionItemKind.Keyword
+    if completion.text is not None:
+        return lsp.CompletionItemKind.Function
     return lsp.CompletionItemKind.Struct
 
 

@@ -1,0 +1,55 @@
+"""Built-in functions of expressions: their parameters and what they are for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.types import FLOAT, INT, Type
+
+
+@dataclass(frozen=True)
+class BuiltIn:
+    """Function with its parameters; `more` allows further ones of the last kind.
+
+    `result` is None if it has the type of the arguments.
+    """
+
+    parameters: tuple[str, ...]
+    result: Type | None
+    doc: str
+    more: bool = False
+
+    def signature(self, name: str) -> str:
+        """Return the declaration, as the reference shows it."""
+        more = ", ..." if self.more else ""
+        result = f" : {self.result}" if self.result is not None else ""
+        return f"{name}({', '.join(self.parameters)}{more}){result}"
+
+
+_X = ("x",)
+_PAIR = ("a", "b")
+
+BUILT_INS: Mapping[str, BuiltIn] = {
+    "min": BuiltIn(_PAIR, None, "The least of numbers or durations.", more=True),
+    "max": BuiltIn(_PAIR, None, "The greatest of numbers or durations.", more=True),
+    "clamp": BuiltIn(
+        ("x", "low", "high"),
+        None,
+        "A number or duration, kept between two: min(max(x, low), high).",
+    ),
+    "abs": BuiltIn(_X, None, "A number or duration without its sign."),
+    "div": BuiltIn(_PAIR, INT, "The quotient of two integers, rounded down."),
+    "int": BuiltIn(_X, INT, "A number, rounded towards 0."),
+    "round": BuiltIn(_X, INT, "The nearest integer; of two, the even one."),
+    "floor": BuiltIn(_X, INT, "A number, rounded down."),
+    "ceil": BuiltIn(_X, INT, "A number, rounded up."),
+    "float": BuiltIn(_X, FLOAT, "A number as a floating-point number."),
+    "sqrt": BuiltIn(_X, FLOAT, "The square root."),
+    "hypot": BuiltIn(("x", "y"), FLOAT, "The square root of the sum of squares.", more=True),
+    "sin": BuiltIn(_X, FLOAT, "The sine of an angle in radians."),
+    "cos": BuiltIn(_X, FLOAT, "The cosine of an angle in radians."),
+    "atan2": BuiltIn(("y", "x"), FLOAT, "The angle of the direction (x, y), from -π to π."),
+    "distance": BuiltIn(_PAIR, FLOAT, "The distance of two messages with `x`, `y`, perhaps `z`."),
+    "len": BuiltIn(_X, INT, "The length of a string or array."),
+}
