@@ -93,7 +93,7 @@ def guard_d_4(machine, event):
 
 def guard_d_5(machine, event):
     # model.swarm:73
-    return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(3, 4)  # noqa: E501
+    return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(9, 12)  # noqa: E501
 
 
 def enter_d(machine, event):
