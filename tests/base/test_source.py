@@ -21,7 +21,7 @@ def test_lines_and_columns(text, data):
     )
 
 
-@pytest.mark.parametrize("text", ["a\tb\n", "é\u2028\ud800 😀\n", ""])
+@pytest.mark.parametrize("text", ["a\tb\n", "é\u2028 😀\n", ""])
 def test_text_without_control_characters_is_left_alone(text):
     report = Diagnostics()
     source = Source("a.swarm", text)
@@ -29,7 +29,7 @@ def test_text_without_control_characters_is_left_alone(text):
     assert not list(report)
 
 
-@pytest.mark.parametrize("character", [chr(code) for code in (1, 8, 11, 12, 14, 31, 127)])
+@pytest.mark.parametrize("character", [chr(code) for code in (1, 8, 11, 12, 14, 31, 127, 0xD800)])
 def test_control_characters_become_spaces(character):
     report = Diagnostics()
     source = without_control_characters(Source("a.swarm", f"é{character}b"), report)
