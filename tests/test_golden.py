@@ -37,8 +37,9 @@ def made(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str
 ENGINE = re.compile(r"(smach|ros2|smach_ros2|yasmin)/\w+/(src/\w+/engine/\w+|\w+/engine)\.py")
 # What else is the same in each package is looked at in one.
 SAME_IN_ALL = re.compile(
-    r"smach/\w+/src/\w+/(actions|chart|containers|node|services|states)\.py"
-    r"|ros2/\w+/(\w+/(alarms|diagnostics|functions|host|node|parameters|topics|tracing|values)\.py"
+    r"smach/\w+/src/\w+/(actions|chart|containers|identity|node|services|states)\.py"
+    r"|ros2/\w+/(\w+/(alarms|diagnostics|functions|host|identity|node|parameters|topics|tracing"
+    r"|values)\.py"
     r"|test/test_(copyright|flake8|pep257)\.py|setup\.cfg)"
     r"|(yasmin|smach_ros2)/\w+/\w+/(following|library|node|runner|states)\.py"
 )

@@ -24,8 +24,8 @@
     "controller" "do" "done" "else" "endless" "entry" "enum" "environment" "event" "exit"
     "extends" "final" "fitness" "function" "gives" "history" "import" "in" "initial" "inout"
     "member" "message" "monitor" "not" "on" "operation" "optimize" "or" "out" "package" "parallel"
-    "param" "region" "send" "sensor" "service" "state" "statemachine" "struct" "swarm" "type"
-    "var" "virtual")
+    "param" "region" "self" "send" "sensor" "service" "state" "statemachine" "struct" "swarm"
+    "type" "var" "virtual")
   "Words that cannot be names.")
 
 (defconst swarm--constants

@@ -140,6 +140,7 @@ def _dialect(data: str) -> Dialect:
         variable=name,
         param=name,
         event=f"{EVENT}.data",
+        identity=f"{data}.self.{{}}".format,
         operators={},
         functions=PYTHON_FUNCTIONS,
         division=PYTHON_DIVISION,

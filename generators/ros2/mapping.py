@@ -46,6 +46,7 @@ MAPPING = tuple(
         ("callback for a result or response", _EXACT, "`by_user(callbacks.`, in `finalize=`"),
         ("stored result or response", _EXACT, "function of the module: `finalize=`"),
         ("variable", _EXACT, "attribute of `class Data`"),
+        ("identity of the robot", _EXACT, "parameters: `self.self = parameters['self']`"),
         (
             "param",
             _EXACT,

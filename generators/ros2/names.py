@@ -10,8 +10,8 @@ from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 
 TARGET = "ros2"
 _MODULES = (
-    *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "node", "parameters"),
-    *("topics", "tracing", "values"),
+    *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "identity", "node"),
+    *("parameters", "topics", "tracing", "values"),
 )
 # A package with such a name would hide a module that the nodes import.
 _IMPORTED = (

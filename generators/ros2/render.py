@@ -25,6 +25,7 @@ _MODULES = (
     "diagnostics",
     "functions",
     "host",
+    "identity",
     "parameters",
     "topics",
     "tracing",

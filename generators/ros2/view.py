@@ -13,6 +13,7 @@ from swarmdsl.codegen.ros import (
     interfaces_to_write,
     manifest,
 )
+from swarmdsl.codegen.shared import uses_self
 from swarmdsl.ir import StateMachine, System
 
 from . import names, package
@@ -223,6 +224,10 @@ def _functions(
 def _values(machine: StateMachine, imports: Imports) -> tuple[Entry, ...]:
     """Return the initial values of params, from ROS, and of variables."""
     found = []
+    if uses_self(machine):
+        found.append(
+            Entry(("The robot: its id, role, index and count.",), "self.self = parameters['self']")
+        )
     for param in machine.params:
         text = f"self.{param.name} = parameters[{param.name!r}]"
         found.append(Entry(comments(param.origin, param.doc), text))

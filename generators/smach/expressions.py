@@ -117,6 +117,7 @@ _DIALECT = Dialect(
     variable=_key,
     param=_key,
     event=EVENT,
+    identity=f"{USERDATA}.self.{{}}".format,
     operators={},
     functions=PYTHON_FUNCTIONS,
     division=PYTHON_DIVISION,

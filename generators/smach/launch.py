@@ -30,6 +30,7 @@ def robot_launch(robot: Robot, package: str, has_values: bool) -> str:
     _arg(root, "member", "$(arg name)", "the name of the robot in the events that it sends")
     if has_values:
         _arg(root, "values", "", "a YAML file with params that the swarm sets")
+    _arg(root, "count", "0", "how many there are in its role; 0: one more than its number")
     _arg(root, "params", "", "a YAML file with params of this robot")
     _switches(root, [robot])
     if robot.components is not None:
@@ -45,6 +46,7 @@ def robot_launch(robot: Robot, package: str, has_values: bool) -> str:
         element = _node(group, package, snake_case(node.machine.name), node.name)
         _param(element, "introspection", "$(arg introspection)")
         _param(element, "member", "$(arg member)")
+        _param(element, "self/count", "$(arg count)")
         for name, topic in node.remaps:
             element.add("remap", {"from": name, "to": topic})
     if robot.bridge is not None:
@@ -70,6 +72,8 @@ def fleet_launch(fleet: Fleet, package: str) -> str:
             name = f"{team.role.name}_{number}"
             _pass(include, "name", name)
             _pass(include, "member", f"{team.role.name}[{number}]")
+            varies = team.most > team.fewest
+            _pass(include, "count", f"$(arg {_count(team)})" if varies else str(team.most))
             folder = f"$(find {package})/param/{fleet.name}"
             values = team.values_of(number)
             if values is not None:

@@ -54,6 +54,7 @@ MAPPING = tuple(
         ("callback for a result or response", _EXACT, "`result_cb=callbacks.`"),
         ("stored result or response", _EXACT, "function of userdata: `store=`"),
         ("variable", _EXACT, "`userdata.`, one for the whole machine"),
+        ("identity of the robot", _EXACT, "parameters: `userdata.self = identity()`"),
         ("param", _EXACT, "ROS parameter, checked at the start: `param(`, and userdata"),
         ("param that is a message", _EMULATED, "dictionary, converted by `message(`"),
         ("sent event", _EXACT, "published: `.send(`"),

@@ -15,8 +15,8 @@ _USERDATA = ("extract", "keys", "merge", "update")
 # ROS parameters that every node has.
 _OF_NODES = ("introspection", "timeouts")
 _MODULES = (
-    *("actions", "callbacks", "chart", "containers", "engine", "events", "node", "services"),
-    "states",
+    *("actions", "callbacks", "chart", "containers", "engine", "events", "identity", "node"),
+    *("services", "states"),
 )
 # A package with such a name would hide a module that the nodes import.
 _IMPORTED = (

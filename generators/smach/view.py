@@ -24,6 +24,7 @@ from swarmdsl.codegen.ros import (
     manifest,
     third_party_packages,
 )
+from swarmdsl.codegen.shared import uses_self
 from swarmdsl.ir import (
     DURATION,
     Array,
@@ -199,7 +200,14 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         interfaces=interfaces,
         manifest=manifest(name, doc, depends, options, format_=2),
         pictures=pictures(system, machines),
-        modules=("chart", "containers", "node", "states", *package.activity_modules(used)),
+        modules=(
+            "chart",
+            "containers",
+            "identity",
+            "node",
+            "states",
+            *package.activity_modules(used),
+        ),
         needs=tuple(needs),
         described=tuple(each for each in needs if is_fully_described(system, each)),
         timeouts=options.timeouts,
@@ -263,6 +271,9 @@ def _start(module: str, machine: StateMachine) -> Call:
 def _values(module: Module) -> tuple[Value, ...]:
     """Return the initial values of params, from ROS, and of variables."""
     found = []
+    if uses_self(module.machine):
+        text = f"{STEP}{USERDATA}.self = {module.own('identity', 'identity')}()"
+        found.append(Value(text, ("The robot: its id, role, index and count.",)))
     for param in module.machine.params:
         value = _param_value(param, module)
         statement = layout(value, 1, f"{STEP}{USERDATA}.{param.name} = ")

@@ -183,6 +183,17 @@ CHANGES = {
             ),
         ],
     ),
+    "a guard on the robot itself": (
+        "[event.x > 1.0]",
+        "[event.x > self.index]",
+        [
+            "~ statemachine Watch",
+            (
+                "    ~ transition `on Alarm` of state `Idle`: "
+                "guard is `event.x > self.index`, was `event.x > 1.0`"
+            ),
+        ],
+    ),
     "a variable renamed": (
         "tries",
         "count",

@@ -6,17 +6,19 @@ _REASONS: dict[str, dict[str, str]] = {
     "dump": {
         "follows from the parts of the expression": (
             "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type "
-            "Unary.type VariableRef.type"
+            "SelfField.type Unary.type VariableRef.type"
         ),
     },
     "printer": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type Unary.type"
+            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type SelfField.type "
+            "Unary.type"
         ),
     },
     "diff": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type Unary.type"
+            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type SelfField.type "
+            "Unary.type"
         ),
         "a name that nothing declares reads as another name of the swarm": ("Optimization.swarm"),
         "the name of the file where there is no package": ("System.name"),
@@ -40,7 +42,8 @@ _REASONS: dict[str, dict[str, str]] = {
             "Service.type System.interfaces"
         ),
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type Unary.type"
+            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type SelfField.type "
+            "Unary.type"
         ),
         "calls are drawn by the name of their function": (
             "Communication.name Communication.paradigm Communication.type "
@@ -58,7 +61,7 @@ _REASONS: dict[str, dict[str, str]] = {
     },
     "portable SCXML": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type ParamRef.type Unary.type"
+            "Binary.type Call.type EventData.type ParamRef.type SelfField.type Unary.type"
         ),
         "comments of calls are not written": ("Communication.doc"),
         "a document is about one state machine": (

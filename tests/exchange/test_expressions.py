@@ -43,7 +43,16 @@ from swarmdsl.ir.expression_printer import (
 )
 from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING, Array
 
-PYTHON = Dialect(python_literal, str, str, "event", {}, PYTHON_FUNCTIONS, division=PYTHON_DIVISION)
+PYTHON = Dialect(
+    python_literal,
+    str,
+    str,
+    "event",
+    "own.{}".format,
+    {},
+    PYTHON_FUNCTIONS,
+    division=PYTHON_DIVISION,
+)
 ECMASCRIPT = ecmascript.dialect({"n": "n", "report": "report"})
 QUICK = settings(max_examples=200)
 
@@ -276,7 +285,7 @@ def in_cpp(texts: list[str], folder: Path) -> list[Any]:
     return run.stdout.split()
 
 
-CPP = cpp.dialect(str, str, "event")
+CPP = cpp.dialect(str, str, "event", "own.{}".format)
 
 
 def test_cpp_has_the_value_of_the_language(tmp_path: Path) -> None:

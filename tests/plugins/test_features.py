@@ -21,7 +21,7 @@ statemachine M {
     on Low -> Work
   }
   state Work {
-    do work(distance = far) gives (distance => got)
+    do work(distance = far + self.index) gives (distance => got)
     on succeeded -> Decide
     on aborted   -> Decide
     on Low [event.level < 2.0] / got = event.level, send Low(level = got) -> Decide
@@ -87,6 +87,7 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.RESULT, ["distance => got"]),
         (Feature.CALLBACK, ["do work(by make_goal) gives by take_result"]),
         (Feature.EVENT_DATA, ["event", "event"]),
+        (Feature.SELF, ["self.index"]),
         (Feature.CROSS_LEVEL, ["on Low -> End"]),
         (Feature.INTO_STATE, ["internal on Low -> In"]),
         (Feature.HISTORY, ["Back"]),

@@ -88,6 +88,8 @@ def test_params_of_robots(world: World) -> None:
     assert params["/uav_1/look/name"] == "mine"
     assert params["/uav_0/look/wait"] == 7200.0
     assert params["/uav_0/left/wait"] == 10800.0
+    assert params["/uav_1/left/member"] == "uav[1]"
+    assert params["/uav_1/left/self/count"] == 2
 
 
 def test_robot_that_is_launched(world: World) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -269,12 +270,18 @@ def test_the_launch_file_starts_every_member(
         assert len(paths) == 2
         assert node["package"] == "lab_behavior"
         assert node["kind"] == ("LifecycleNode" if lifecycle == "true" else "Node")
-        members.append((node["namespace"], node["name"], values["member"]))
+        count = values["self.count"]
+        members.append((node["namespace"], node["name"], values["member"], count))
     assert members == [
-        ("/eyes/left_0", "watch", "left[0]"),
-        ("/eyes/left_1", "watch", "left[1]"),
-        ("/eyes/head_0", "eye", "head[0].eye"),
+        ("/eyes/left_0", "watch", "left[0]", 2),
+        ("/eyes/left_1", "watch", "left[1]", 2),
+        ("/eyes/head_0", "eye", "head[0].eye", 1),
     ]
+    (alone,) = launch(member="left[2]", left_count="3")
+    assert alone["namespace"] == "/eyes/left_2"
+    assert alone["parameters"][0]["self.count"] == 3
+    with pytest.raises(ValueError, match=re.escape("there is no member left[2]")):
+        launch(member="left[2]")
     with pytest.raises(ValueError, match="there cannot be 5 members in role left"):
         launch(left_count="5")
 

@@ -91,6 +91,24 @@ def test_a_swarm_event_reaches_the_others_and_not_its_sender(ros: Any) -> None:
     assert [line["event"] for line in nodes[0].trace].count("SawExit") == 0
 
 
+def test_robots_know_who_they_are(ros: Any) -> None:
+    """One is a part of a launched robot; the other was started alone, with its name."""
+    fakes = ros.fakes()
+    fakes.publisher("/lab/go", "lab_msgs/msg/Order")
+    fakes.do("subscribe", topic="/lab/named", kind="lab_msgs/msg/Order")
+    launched = {"member": "robot[1].eye", "self__count": 5}
+    ros.node("lab_behavior.roll", "/lab/robot_1", **launched).wait_in("Silent")
+    ros.node("lab_behavior.roll", "/lab/robot_2", member="robot[2]").wait_in("Silent")
+    fakes.listeners("/lab/go", count=2)
+
+    for number, (name, speed) in enumerate((("robot[1]", 6.0), ("robot[2]", 5.0)), 1):
+        fakes.publish("/lab/go", name=name)
+        said = fakes.wait("message", "/lab/named", number)["data"]
+        assert said == {"name": "robot", "speed": speed}
+    for node in ros.nodes:
+        node.wait_in("Heard")
+
+
 def _start(ros: Any, machine: str, namespace: str) -> Any:
     role, _, number = namespace.rpartition("/")[2].partition("_")
     altitude = {"altitude": 2.5} if role == "uav" else {}

@@ -13,8 +13,10 @@ from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.exchange import scxml
+from swarmdsl.codegen.exchange.scxml.ecmascript import SELF
 from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.codegen.shared.default_values import default_value
+from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.driver import pipeline
 from swarmdsl.execution.engine import Event, Instance, Machine, Observer, Run, Transition
 from swarmdsl.execution.scxml import read
@@ -240,8 +242,8 @@ def walk(
     machine: ir.StateMachine, system: System, document: Machine, dice: random.Random
 ) -> set[object]:
     """Let the same happen to both; return where the transitions stand that were taken."""
-    names = data_ids(machine)
-    ids = state_ids(machine, set(names.values()))
+    names = data_ids(machine) | ({SELF: SELF} if uses_self(machine) else {})
+    ids = state_ids(machine, {*names.values(), SELF})
     params = {
         p.name: random_value(p.type, system, dice) for p in machine.params if p.default is None
     }
@@ -258,7 +260,8 @@ def walk(
         assert [ids[state] for state in mine[0]] == its[0]
         assert (ids[mine[1]] if mine[1] else None) == its[1]
         if not durations:
-            assert {names[key]: value for key, value in mine[2].items()} == its[2]
+            held = {names[key]: value for key, value in mine[2].items() if key in names}
+            assert held == its[2]
             assert mine[3] == its[3]
             assert first.world.asked == other.world.asked
             for one, two in zip(first.world.sent, other.world.sent, strict=True):

@@ -114,6 +114,10 @@ PLACES = {
     "function or part": (work("do |", DO), {"go", "sweep", "arm"}, {"grip", "Work"}),
     "outcomes that are left": (work("on |"), {"succeeded", "preempted", "Low"}, {"aborted"}),
     "field of an event": (work("on Seen [event.|"), {"id", "place"}, {"spot", "x"}),
+    "field of self": (
+        work("on Seen [self.|"), {"id", "role", "index", "count"}, {"spot", "place"},
+    ),
+    "self": (work("on Seen [|"), {"self", "event"}, {"id"}),
     "field of a field": (work("on Seen [event.place.|] -> Over"), {"x", "y", "z"}, {"id"}),
     "field of a struct": (work("on Low / spot.|"), {"x", "y"}, {"z", "id"}),
     "field of a sent event": (work("on Low / send Seen(|)"), {"id", "place"}, {"spot"}),

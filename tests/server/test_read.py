@@ -277,6 +277,22 @@ async def test_hover_shows_a_built_in_function(client, editor):
     assert "clamp(x, low, high)\n" in found
 
 
+async def test_hover_shows_what_a_robot_knows_of_itself(client, editor):
+    text = """
+      statemachine M {
+        initial A
+        state A { after 1 s [self.index > 0] -> B }
+        final B
+      }
+    """
+    found = await hovered(client, editor, EXAMPLE / "new.swarm", "index", text)
+    assert "self.index : uint32" in found
+    assert "number of the robot in its role" in found
+    assert "The robot that runs" in await hovered(
+        client, editor, EXAMPLE / "new.swarm", "self", text
+    )
+
+
 async def test_hover_shows_support_in_targets_of_the_project(client, editor, folder):
     (folder / "swarm.toml").write_text("[targets.smach]\nros = 2\n[targets.yasmin]\n")
     model = folder / "lab.swarm"

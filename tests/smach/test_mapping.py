@@ -107,6 +107,7 @@ MODELS = {
     "variable": """
         var n : int32
         state A { on Go [n > 1] -> End  on Stop / n = 2 }""",
+    "identity of the robot": "state A { on Go [self.index == 1] -> End  on Stop -> End }",
     "param": """
         param n : int32 = 2
         state A { on Go [n > 1] -> End  on Stop -> End }""",

@@ -63,6 +63,7 @@ def test_launch_file_of_a_robot(generate: Generate) -> None:
     assert _args(root) == {
         "name": "uav_0",
         "member": "$(arg name)",
+        "count": "0",
         "params": "",
         "introspection": "false",
         "bridge": "false",

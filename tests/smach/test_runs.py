@@ -598,6 +598,38 @@ def test_send(robot: Run) -> None:
     assert (message.swarmio.name, message.swarmio.node) == ("found", "robot_7")
 
 
+@pytest.mark.parametrize(
+    ("params", "id_", "level"),
+    [
+        ({"~member": "uav[1]", "~self/count": 5}, "uav[1]", 6),
+        ({"~member": "uav[1]"}, "uav[1]", 3),
+        ({}, "robot_7", 1),
+    ],
+)
+def test_identity(robot: Run, params: dict[str, Any], id_: str, level: int) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var mine : uint32 = self.index
+          initial A
+          state A {
+            on Go [event.id == self.id and self.role != self.id] /
+              send Found(id = self.id, level = mine + self.count) -> End
+          }
+          final End
+        }""",
+        **params,
+    )
+    work.start()
+    work.wait_in("A")
+    work.world.publish("go", id="other")
+    work.world.publish("go", id=id_)
+    assert work.ended() == "End"
+    ((_, message),) = work.world.sent
+    assert (message.id, message.level) == (id_, level)
+
+
 def test_results(robot: Run) -> None:
     work = robot(
         HEADER

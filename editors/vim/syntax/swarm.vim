@@ -14,8 +14,8 @@ syn match swarmField "\%(\s\|[({,]\_s*\)\h\w*\ze\s*\%(:\|=>\|=[^=]\)"
 syn keyword swarmDeclaration action actuator behavior choice communication connect const controller
 syn keyword swarmDeclaration endless entry enum environment event exit extends final fitness
 syn keyword swarmDeclaration function history initial inout member message operation optimize out
-syn keyword swarmDeclaration parallel param region sensor service state statemachine struct swarm
-syn keyword swarmDeclaration type var virtual
+syn keyword swarmDeclaration parallel param region self sensor service state statemachine struct
+syn keyword swarmDeclaration swarm type var virtual
 syn keyword swarmInclude import package
 syn keyword swarmStatement after do done else gives in monitor on send
 syn keyword swarmOutcome aborted preempted succeeded

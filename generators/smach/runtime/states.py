@@ -9,6 +9,7 @@ import rospy
 import smach
 
 from . import engine
+from .identity import identity
 
 # Trigger of a transition without a trigger.
 AT_ONCE = ''
@@ -34,7 +35,7 @@ class Event:
     def advertise(self):
         """Create the publisher, once."""
         if self._publisher is None:
-            self._sender = rospy.get_param('~member', '') or rospy.get_namespace().strip('/')
+            self._sender = identity().id
             self._publisher = rospy.Publisher(self.sent_on, self.message_type, queue_size=10)
 
     def send(self, message):

@@ -83,7 +83,7 @@ def used_declarations(
 
 def _usage(owner: TopLevel) -> Usage:
     refs = [ref.target for _, ref in references(owner)]
-    names = [use.target for use in nodes_of(owner, NameUse) if use.name != "event"]
+    names = [use.target for use in nodes_of(owner, NameUse) if not use.is_predefined]
     owners = [activity.owner for activity in nodes_of(owner, Activity)]
     types = (ref.type for ref in nodes_of(owner, TypeRef))
     elements = (type_.element if isinstance(type_, Array) else type_ for type_ in types)

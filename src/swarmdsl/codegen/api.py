@@ -42,6 +42,7 @@ class Feature(Enum):
     RESULT = "a stored result"
     CALLBACK = "a callback"
     EVENT_DATA = "the data of an event"
+    SELF = "the identity of the robot"
     CROSS_LEVEL = "a transition out of the enclosing state"
     INTO_STATE = "a transition into a nested state"
     HISTORY = "a history"

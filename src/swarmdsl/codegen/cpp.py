@@ -21,13 +21,19 @@ _MODULO = (
 _LARGEST_INT = 2**31 - 1
 
 
-def dialect(variable: Callable[[str], str], param: Callable[[str], str], event: str) -> Dialect:
-    """Return the dialect, given the printers of variables and params and the event."""
+def dialect(
+    variable: Callable[[str], str],
+    param: Callable[[str], str],
+    event: str,
+    identity: Callable[[str], str],
+) -> Dialect:
+    """Return the dialect, given the event and the printers of variables, params and `self`."""
     return Dialect(
         literal=literal,
         variable=variable,
         param=param,
         event=event,
+        identity=identity,
         operators={"and": "&&", "or": "||", "not": "!"},
         functions={
             "sqrt": "std::sqrt",

@@ -18,6 +18,7 @@ from swarmdsl.ir import (
     EventData,
     Expression,
     FieldAccess,
+    SelfField,
     Send,
     State,
     StateKind,
@@ -41,14 +42,14 @@ _KINDS = {
 def used_features(system: System) -> Iterator[Use]:
     """Yield every use of a feature, in document order."""
     for machine in system.machines:
-        yield from _uses_in_machine(machine)
+        yield from uses_in_machine(machine)
 
 
 def unsupported(machines: Iterable[StateMachine], supports: frozenset[Feature]) -> Iterator[Use]:
     """Yield the uses that a target does not support, one for each cause."""
     for machine in machines:
         causes = _causes_of_entering(machine)
-        for feature, place in _uses_in_machine(machine):
+        for feature, place in uses_in_machine(machine):
             if feature in supports:
                 continue
             if feature is Feature.INTO_STATE and place in causes and not causes[place] <= supports:
@@ -72,11 +73,14 @@ def _causes_of_entering(machine: StateMachine) -> dict[Span | None, set[Feature]
     return found
 
 
-def _uses_in_machine(machine: StateMachine) -> Iterator[Use]:
+def uses_in_machine(machine: StateMachine) -> Iterator[Use]:
+    """Yield every use of a feature in a machine."""
     for param in machine.params:
         yield Feature.PARAM, param.origin
     for variable in machine.variables:
         yield Feature.VARIABLE, variable.origin
+        if variable.initial is not None:
+            yield from _uses_in_expression(variable.initial)
     # State id -> id of the enclosing state, None at the top.
     parents: dict[str, str | None] = {state.id: None for state in machine.states}
     for state in machine.walk():
@@ -158,6 +162,8 @@ def _uses_in_expression(expression: Expression) -> Iterator[Use]:
     match expression:
         case EventData():
             yield Feature.EVENT_DATA, expression.origin
+        case SelfField():
+            yield Feature.SELF, expression.origin
         case FieldAccess(base=base):
             yield from _uses_in_expression(base)
         case Unary(operand=operand):

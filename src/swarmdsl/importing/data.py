@@ -61,7 +61,9 @@ class MachineData:
         self.first: dict[str, Expression] = {}
         self.active: dict[PartialState, str] = {}
         self.ignores = False
-        self.expressions = Expressions(self.types, self._refer, self._field, self._is_active)
+        self.expressions = Expressions(
+            self.types, self._refer, self._field, self._is_active, described.identity
+        )
         for key, datum in described.data.items():
             self.types[key] = datum.type
             self.names.given[key] = datum.name
@@ -84,6 +86,8 @@ class MachineData:
                 known = self.described.data.get(name)
                 if known is not None and not known.initial:
                     continue
+                if name and name == self.described.identity:
+                    continue
                 if not text and data.get("src") is None:
                     continue
                 try:
@@ -91,7 +95,9 @@ class MachineData:
                         raise UnsupportedError("`src` is not supported")
                     if known is None and not is_plain(name):
                         raise UnsupportedError("it is not a valid variable name")
-                    value = constant(text, known.type if known is not None else None)
+                    value = constant(
+                        text, known.type if known is not None else None, self.described.identity
+                    )
                 except UnsupportedError as fault:
                     what = f"data `{name}`"
                     place = self.document.at(data)

@@ -11,7 +11,16 @@ from lark import Tree
 from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.execution.scxml.grammar import parse
 from swarmdsl.ir import Literal, Primitive, Type
-from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, FLOATS, INT, INTEGERS, STRING
+from swarmdsl.syntax.types import (
+    BOOL,
+    DURATION,
+    FLOAT,
+    FLOATS,
+    INT,
+    INTEGERS,
+    SELF_FIELDS,
+    STRING,
+)
 
 OPERATORS = {"===": "==", "!==": "!="}
 COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
@@ -22,8 +31,8 @@ WHOLE_TYPES = tuple(map(Primitive, INTEGERS))
 class TypeInference:
     """Infers types of expressions that do not depend on the expected type.
 
-    `data` maps variables and params to types, `field` gives the type of a field, and `event` is the
-    type of the current message.
+    `data` maps variables and params to types, `field` gives the type of a field, `event` is the
+    type of the current message, and `identity` the name of the data that is `self` in a model.
     """
 
     def __init__(
@@ -31,10 +40,12 @@ class TypeInference:
         data: Mapping[str, Type],
         field: Callable[[Type | None, str], Type | None],
         event: Type | None,
+        identity: str,
     ) -> None:
         self.data = data
         self.field = field
         self.event = event
+        self.identity = identity
 
     def common(self, *trees: Any) -> Type | None:
         """Return the common type of operands; number literals count last."""
@@ -63,6 +74,8 @@ class TypeInference:
             case "member":
                 if is_event(tree):
                     return self.event
+                if self.identity and is_name(children[0], self.identity):
+                    return SELF_FIELDS.get(str(children[1]))
                 return self.field(self.of(children[0]), str(children[1]))
             case "sign":
                 return BOOL if children[0] == "!" else self.of(children[1])

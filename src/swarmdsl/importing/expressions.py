@@ -38,12 +38,13 @@ from swarmdsl.ir import (
     Literal,
     ParamRef,
     Primitive,
+    SelfField,
     Type,
     Unary,
     VariableRef,
 )
 from swarmdsl.syntax.parser.literals import forbidden_character
-from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, SELF_FIELDS, STRING
 
 _RESERVED = {"null", "undefined", "NaN", "Infinity", "_event", "_name", "_sessionid"}
 
@@ -66,7 +67,8 @@ class Expressions:
     """Converts the expressions of one document.
 
     `refer` resolves a name for an expected type, `inside` gives the condition that a state is
-    active, and `field` the type of a field, None if it is unknown.
+    active, and `field` the type of a field, None if it is unknown. `identity` is the name of the
+    data that is `self` in a model, empty if there is none.
     """
 
     def __init__(
@@ -75,11 +77,13 @@ class Expressions:
         refer: Callable[[str, Type], VariableRef | ParamRef],
         field: Callable[[Type | None, str], Type | None],
         inside: Callable[[str], Expression],
+        identity: str = "",
     ) -> None:
         self.types = types
         self.refer = refer
         self.field = field
         self.inside = inside
+        self.identity = identity
 
     def read(self, text: str, expected: Type | None, event: Type | None = None) -> Expression:
         """Convert an expression; `event` is the current message. Raises UnsupportedError."""
@@ -95,7 +99,7 @@ class Expressions:
     def type(self, text: str) -> Type | None:
         """Type of an expression; None if it depends on the expected type."""
         try:
-            return TypeInference(self.types, self.field, None).of(parse(text))
+            return TypeInference(self.types, self.field, None, self.identity).of(parse(text))
         except Unreadable:
             return None
 
@@ -108,8 +112,8 @@ def path(text: str) -> tuple[str, ...]:
     return tuple(names)
 
 
-def constant(text: str, expected: Type | None) -> Expression:
-    """Convert a constant expression. Raises UnsupportedError."""
+def constant(text: str, expected: Type | None, identity: str = "") -> Expression:
+    """Convert a constant expression, which may read `self`. Raises UnsupportedError."""
 
     def refer(name: str, expected: Type) -> VariableRef:
         raise UnsupportedError(f"`{name}` is not a constant")
@@ -117,7 +121,7 @@ def constant(text: str, expected: Type | None) -> Expression:
     def inside(state: str) -> Expression:
         raise UnsupportedError("it depends on the active states")
 
-    return Expressions({}, refer, lambda type_, field: None, inside).read(text, expected)
+    return Expressions({}, refer, lambda type_, field: None, inside, identity).read(text, expected)
 
 
 class _ExpressionReader:
@@ -126,7 +130,7 @@ class _ExpressionReader:
     def __init__(self, known: Expressions, event: Type | None) -> None:
         self.known = known
         self.event = event
-        self.types = TypeInference(known.types, known.field, event)
+        self.types = TypeInference(known.types, known.field, event, known.identity)
 
     def expression(self, tree: Any, expected: Type | None) -> Expression:
         children = tree.children
@@ -166,6 +170,10 @@ class _ExpressionReader:
             if self.event is None:
                 raise UnsupportedError("the type of the event is unknown")
             return EventData(self.event)
+        if self.known.identity and is_name(base, self.known.identity):
+            if name not in SELF_FIELDS:
+                raise UnsupportedError(f"`self` has no `{name}`")
+            return SelfField(name, SELF_FIELDS[name])
         if base.data == "name" and str(base.children[0]) in (*_RESERVED, "Math"):
             raise UnsupportedError(f"`{base.children[0]}.{name}` is not a value")
         unknown = base.data == "name" and str(base.children[0]) not in self.known.types

@@ -53,6 +53,8 @@ class PortableDescription:
         self.payload = top.payload
         model = top.payload_node("model")
         self.package = model.get("package", "") if model is not None else ""
+        identity = top.payload_node("identity")
+        self.identity = identity.get("location", "") if identity is not None else ""
         self.endless = top.payload_node("endless") is not None
         self.doc = doc_of(top.payload)
         self.data: dict[str, DataItem] = {}

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         FieldAccess,
         Literal,
         ParamRef,
+        SelfField,
         Unary,
         VariableRef,
         reads,
@@ -112,7 +113,7 @@ else:
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
             "swarmdsl.ir.expressions": (
-                "Binary Call EventData Expression FieldAccess Literal ParamRef Unary "
+                "Binary Call EventData Expression FieldAccess Literal ParamRef SelfField Unary "
                 "VariableRef reads subexpressions"
             ),
             "swarmdsl.ir.integer_ranges": "bound_of bound_of_any",
@@ -191,6 +192,7 @@ __all__ = [
     "ResultMapping",
     "RobotValues",
     "Role",
+    "SelfField",
     "Send",
     "Service",
     "State",

@@ -105,4 +105,4 @@ def _name(name: str) -> str:
 
 
 # Expressions as in the model.
-_DIALECT = Dialect(_literal, _name, _name, "event", {}, {})
+_DIALECT = Dialect(_literal, _name, _name, "event", "self.{}".format, {}, {})

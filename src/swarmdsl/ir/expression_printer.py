@@ -19,6 +19,7 @@ from swarmdsl.ir import (
     FieldAccess,
     Literal,
     ParamRef,
+    SelfField,
     Unary,
     VariableRef,
 )
@@ -41,17 +42,19 @@ class Dialect:
     """Notation of expressions in one target.
 
     `operators` renames those that the target spells otherwise; `literal`, `variable` and
-    `param` print a leaf; `event` is the message of the triggering event; `functions`
-    renames the built-in functions, to `.name` if the target has a property instead, or
-    prints a call from its arguments. `modulo` prints `%`, whose result has the sign of the
-    divisor in the language; `quotient` prints `/`, the division of real numbers; `division`
-    prints `div`, the division of integers, if the target has an operator for it.
+    `param` print a leaf; `event` is the message of the triggering event, `identity` prints a
+    field of `self`; `functions` renames the built-in functions, to `.name` if the target has
+    a property instead, or prints a call from its arguments. `modulo` prints `%`, whose result
+    has the sign of the divisor in the language; `quotient` prints `/`, the division of real
+    numbers; `division` prints `div`, the division of integers, if the target has an operator
+    for it.
     """
 
     literal: Callable[[Literal], str]
     variable: Callable[[str], str]
     param: Callable[[str], str]
     event: str
+    identity: Callable[[str], str]
     operators: Mapping[str, str]
     functions: Mapping[str, str | Callable[[Sequence[str]], str]]
     modulo: Callable[[str, str], str] = "{} % {}".format
@@ -76,6 +79,8 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             return dialect.param(name), _PRIMARY
         case EventData():
             return dialect.event, _PRIMARY
+        case SelfField(field=field):
+            return dialect.identity(field), _PRIMARY
         case FieldAccess(base=base, field=field):
             return f"{_operand(base, _PRIMARY, dialect)}.{field}", _PRIMARY
         case Call(function="div", arguments=(left, right)) if dialect.division is not None:

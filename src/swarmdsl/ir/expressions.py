@@ -58,6 +58,15 @@ class EventData:
 
 
 @dataclass(frozen=True, slots=True)
+class SelfField:
+    """`self.field`: a fact about the robot that runs the machine, fixed when it starts."""
+
+    field: str
+    type: Type
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class FieldAccess:
     """`base.field`; `type` is None if the fields of the message are not known."""
 
@@ -101,7 +110,9 @@ class Call:
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
-Expression = Literal | VariableRef | ParamRef | EventData | FieldAccess | Unary | Binary | Call
+Expression = (
+    Literal | VariableRef | ParamRef | EventData | SelfField | FieldAccess | Unary | Binary | Call
+)
 
 
 def subexpressions(expression: Expression) -> Iterator[Expression]:

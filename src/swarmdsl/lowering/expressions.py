@@ -21,7 +21,7 @@ from swarmdsl.syntax.ast import (
     Variable,
 )
 from swarmdsl.syntax.parser.literals import nanoseconds
-from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, SELF_FIELDS, STRING
 
 _TYPES = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
 
@@ -63,6 +63,8 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
         case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
             number = context.typing.folding.numbers(enum)[str(name)]
             return ir.Literal(number, INT, tree.span, name=f"{context.declared(enum)}.{name}")
+        case FieldUse(base=NameUse(name="self"), name=name):
+            return ir.SelfField(str(name), SELF_FIELDS[name], tree.span)
         case FieldUse(base=base, name=name):
             return _field(_lower(base, context), str(name), tree.span, context)
         case Call(function="distance", arguments=points):

@@ -56,3 +56,11 @@ STRING = Primitive("string")
 DURATION = Primitive("duration")
 INT = Primitive("int64")
 FLOAT = Primitive("float64")
+
+SELF_FIELDS = {
+    "id": STRING,
+    "role": STRING,
+    "index": Primitive("uint32"),
+    "count": Primitive("uint32"),
+}
+"""Fields of `self`, the robot that runs a machine."""

@@ -48,7 +48,7 @@ def check_initialization(machine: StateMachine, context: Context) -> None:
 
 def _has_unknown(machine: StateMachine) -> bool:
     """Return True if a name that may be a variable was not resolved."""
-    return any(use.target is None and use.name != "event" for use in nodes_of(machine, NameUse))
+    return any(use.target is None and not use.is_predefined for use in nodes_of(machine, NameUse))
 
 
 def _unset(machine: StateMachine, context: Context) -> list[Variable]:

@@ -30,10 +30,12 @@ from swarmdsl.syntax.ast import (
     NameUse,
     OperatorUse,
     Param,
+    StateMachine,
     TopLevel,
     Variable,
     invalidate,
     nodes_of,
+    walk,
 )
 from swarmdsl.syntax.types import Named
 
@@ -55,7 +57,10 @@ class ValueLinker:
     def link(self, owner: TopLevel, values: Values) -> None:
         """Bind the names in the expressions of a declaration with these values."""
         unknown: list[tuple[NameUse, list[FieldUse], Expression]] = []
+        shared = _values_of_all(owner)
         for node in nodes_of(owner, Expression):
+            if shared is None or node in shared:
+                self._check_no_self(node)
             if node.tree is not None:
                 missing: Missing = []
                 node.tree = self._linked(node.tree, owner, values, missing)
@@ -63,6 +68,17 @@ class ValueLinker:
         # Hints for a name depend on the names beside it, which are bound now.
         for base, fields, node in unknown:
             report_value(base, fields, node, owner, values, _DECLARED, self.scope, self.report)
+
+    def _check_no_self(self, expression: Expression) -> None:
+        """Report `self` in a value that is the same for all robots."""
+        for use in walk(expression) if expression.tree is not None else ():
+            if isinstance(use, NameUse) and use.name == "self":
+                self.report.report(
+                    "no-self",
+                    use.span,
+                    help="use it in an expression of a state machine, such as a guard, an "
+                    "argument, or the initial value of a variable",
+                )
 
     def _linked(
         self, tree: ExpressionTree, owner: TopLevel, values: Values, missing: Missing
@@ -92,7 +108,7 @@ class ValueLinker:
         assert isinstance(base, NameUse)
         if base.name in values:
             base.target = values[base.name]
-        elif base.name != "event":
+        elif not base.is_predefined:
             names = [base.name]
             names += [dotted(base.name, fields[: n + 1]) for n in range(len(fields))]
             length = next((n for n, name in enumerate(names) if self._means_value(name)), None)
@@ -122,3 +138,11 @@ class ValueLinker:
         if enum is None and type_ is not None:
             report_type_as_value(name, at, type_, self.report)
         return enum
+
+
+def _values_of_all(owner: TopLevel) -> list[Expression] | None:
+    """Return the expressions of a machine without a robot: defaults of params; else None."""
+    if not isinstance(owner, StateMachine):
+        return None
+    items = (item for item in owner.items if isinstance(item, Param))
+    return [item.default for item in items if item.default is not None]

@@ -31,7 +31,17 @@ from swarmdsl.syntax.ast import (
     Value,
     Word,
 )
-from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING, Named, Primitive, Type
+from swarmdsl.syntax.types import (
+    BOOL,
+    DURATION,
+    FLOAT,
+    INT,
+    SELF_FIELDS,
+    STRING,
+    Named,
+    Primitive,
+    Type,
+)
 
 _FLOAT32 = Primitive("float32")
 _LONGEST = 2**31 * 10**9
@@ -66,6 +76,8 @@ class Typing:
                 return _value_type(value, unit)
             case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
                 return self._enum_value(enum, name)
+            case FieldUse(base=NameUse(name="self"), name=name):
+                return self._own(name)
             case FieldUse(base=base, name=name):
                 return self.field(self.infer(base), name, name.span)
             case OperatorUse(operands=operands) | Call(arguments=operands):
@@ -82,6 +94,15 @@ class Typing:
                     help="use it in a guard or effect of a transition on one event",
                 )
             return self.event
+        if use.name == "self":
+            self.report.report(
+                "bad-operand",
+                use.span,
+                operator="self",
+                operands="its own: name one of its fields",
+                help="write `self.id`",
+            )
+            return None
         target = use.target
         if isinstance(target, EnumType):
             self.report.report(
@@ -171,6 +192,17 @@ class Typing:
             report_unknown_field(f"`{owner}`", name, at, fields, self.report)
         elif owner is not None:
             self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
+        return None
+
+    def _own(self, name: Word) -> Type | None:
+        """Return the type of a field of `self`."""
+        if name in SELF_FIELDS:
+            return SELF_FIELDS[name]
+        help_ = None
+        if self.report.wants_hint("unknown-field"):
+            has = f"it has {listed(list(SELF_FIELDS), 'and')}"
+            help_ = did_you_mean(name, SELF_FIELDS) or has
+        self.report.report("unknown-field", name.span, owner="`self`", name=name, help=help_)
         return None
 
     def _is_enum(self, type_: Named) -> bool:

@@ -16,7 +16,10 @@ from swarmdsl.syntax.ast import (
 
 
 def constant(tree: ExpressionTree) -> bool:
-    """Return True for a constant expression. Unresolved names count as constant."""
+    """Return True for a constant expression.
+
+    Names that are reported elsewhere count as constant: unresolved ones, and `self`.
+    """
     match tree:
         case NameUse(name="event"):
             return False
@@ -35,7 +38,7 @@ def assignable(tree: ExpressionTree) -> bool:
     """Return True for a variable or a field of one."""
     match tree:
         case NameUse(target=target):
-            return isinstance(target, Variable) or (target is None and tree.name != "event")
+            return isinstance(target, Variable) or (target is None and not tree.is_predefined)
         case FieldUse(base=base):
             return assignable(base)
     return False

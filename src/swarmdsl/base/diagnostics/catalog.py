@@ -170,6 +170,7 @@ CODES: dict[str, Code] = {
     "no-event-data": Code("SW0705", "error", "`event` has no data here"),
     "constant-cycle": Code("SW0706", "error", "constant `{name}` is defined in terms of itself"),
     "no-result": Code("SW0707", "error", "`{operator}` has no result: {fault}"),
+    "no-self": Code("SW0708", "error", "`self` has no value here"),
     # ---- SCXML documents
     "not-xml": Code("SW0801", "error", "invalid XML: {reason}"),
     "xml-document-type": Code("SW0802", "error", "document type declarations are not supported"),

@@ -28,6 +28,7 @@ _DIALECT = Dialect(
     variable="values[{!r}]".format,
     param="values[{!r}]".format,
     event="",
+    identity=str,  # a run has no robot of its own
     operators={},
     functions=PYTHON_FUNCTIONS,
     division=PYTHON_DIVISION,

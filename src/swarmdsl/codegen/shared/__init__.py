@@ -23,6 +23,9 @@ if TYPE_CHECKING:
         Events,
         delays,
     )
+    from swarmdsl.codegen.shared.identity import (
+        uses_self,
+    )
     from swarmdsl.codegen.shared.nodes import (
         BehaviorNode,
         ParamValue,
@@ -59,6 +62,7 @@ else:
                 "default_fields default_result default_value field_type result_fields sent_types"
             ),
             "swarmdsl.codegen.shared.events": "Events delays",
+            "swarmdsl.codegen.shared.identity": "uses_self",
             "swarmdsl.codegen.shared.nodes": (
                 "BehaviorNode ParamValue behavior_nodes bringup_package has_node"
             ),
@@ -97,4 +101,5 @@ __all__ = [
     "region_transitions",
     "result_fields",
     "sent_types",
+    "uses_self",
 ]

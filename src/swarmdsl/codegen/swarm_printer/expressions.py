@@ -20,7 +20,10 @@ T = TypeVar("T")
 
 def expression(value: Expression, named: Callable[[str], str] = str) -> str:
     """Return an expression with minimal parentheses; `named` prints names."""
-    return translate(value, Dialect(_literal, named, named, "event", {}, {"distance": _distance}))
+    functions = {"distance": _distance}
+    return translate(
+        value, Dialect(_literal, named, named, "event", "self.{}".format, {}, functions)
+    )
 
 
 def with_names(node: T) -> T:

@@ -59,7 +59,7 @@ def actors(
                     help=f"set it in `[params]` of a scenario: `{param.name} = ...`",
                 )
             if not missing:
-                data = first_data(machine, subject.system, given)
+                data = first_data(machine, subject.system, given, robot)
                 name = robot.name if part is None else f"{robot.name}.{part.name}"
                 role = robot.role if part is None else f"{robot.role}.{part.name}"
                 made.append(Actor(name, robot, subject.table(machine), data, role))

@@ -18,10 +18,14 @@ from swarmdsl.ir import (
     FieldAccess,
     Literal,
     ParamRef,
+    SelfField,
     Unary,
     VariableRef,
 )
 from swarmdsl.ir.operations import OPERATIONS
+
+SELF = "self"
+"""Key of the identity of the robot in the data of a machine; no variable has this name."""
 
 Value = Callable[[Mapping[str, Any], Any], Any]
 """Compiled expression; takes the data of the machine and the event message."""
@@ -40,6 +44,8 @@ def function_of(expression: Expression) -> Value:
             return lambda data, message: data[name]
         case EventData():
             return lambda data, message: message
+        case SelfField(field=field):
+            return lambda data, message: data[SELF][field]
         case FieldAccess(base=base, field=field):
             return _field(function_of(base), field)
         case Unary(operator="not", operand=operand):

@@ -16,7 +16,9 @@ from swarmdsl.execution.engine import Event, Instance, InstanceLike, LoopError, 
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
+from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.table import first_data
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.simulate.trace_line import NAMES, numbers, read_line
 from swarmdsl.execution.simulate.world import LOST
@@ -64,11 +66,21 @@ def replay(
         if actor is None and len(by_member) == len(actors) == 1:
             # A single machine has no name, whoever ran it.
             (actor,) = actors.values()
+            if member is not None:
+                _impersonate(actor, member, subject)
         if actor is None:
             _report_member(member, records[0].place, actors, report)
             continue
         followed += _Replay(actor, subject, report).replay(records)
     return Replayed(followed, len(by_member))
+
+
+def _impersonate(actor: Actor, member: str, subject: Subject) -> None:
+    """Let a machine alone be that of a robot."""
+    if subject.machine is not None and subject.system is not None:
+        robot = Robot.called(member)
+        # The params keep their values; what variables begin with may depend on the robot.
+        actor.data = first_data(subject.machine, subject.system, actor.data, robot)
 
 
 def _read(place: Span, by_member: dict[str | None, list[_Record]], report: Diagnostics) -> None:

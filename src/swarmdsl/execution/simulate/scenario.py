@@ -2,29 +2,51 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from random import Random
 from typing import Any
 
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.execution.simulate.durations import AT_ONCE, ONE_SECOND, Length
+from swarmdsl.syntax.types import SELF_FIELDS
 
 EVERY_FUNCTION = "*"
+_IN_ROLE = re.compile(r"(.*)\[([0-9]+)\]")
 
 
 @dataclass(frozen=True)
 class Robot:
-    """Member of a swarm; without a name for a single machine."""
+    """Member of a swarm; without a name for a single machine.
+
+    `index` is its number in its role, `count` the number of members of the role at the start.
+    """
 
     name: str | None = None
     role: str = ""
     kind: str = ""
     index: int = 0
+    count: int = 1
+
+    @classmethod
+    def called(cls, name: str) -> Robot:
+        """Return the robot `uav[1]`, or one of its parts, as a node that knows its name only."""
+        name = name.partition(".")[0]
+        found = _IN_ROLE.fullmatch(name)
+        if found is None:
+            return cls(name)
+        return cls(name, found[1], index=int(found[2]), count=int(found[2]) + 1)
 
     @property
     def words(self) -> tuple[str, ...]:
         """Words that select it: type of member, role and name, the most specific last."""
         return (self.kind, self.role, self.name) if self.name is not None else ()
+
+    @property
+    def identity(self) -> dict[str, str | int]:
+        """Return the fields of `self`."""
+        values = (self.name or "", self.role, self.index, self.count)
+        return dict(zip(SELF_FIELDS, values, strict=True))
 
 
 @dataclass(frozen=True)

@@ -58,9 +58,10 @@ class Subject:
         if self.swarm is None:
             return [Robot()]
         members = (
-            Robot(f"{role.name}[{number}]", role.name, role.member, number)
+            Robot(f"{role.name}[{number}]", role.name, role.member, number, count)
             for role in self.swarm.roles
-            for number in range(self._number(role, counts))
+            for count in (self._number(role, counts),)
+            for number in range(count)
         )
         return list(islice(members, MOST_MEMBERS))
 

@@ -28,7 +28,8 @@ from swarmdsl.execution.engine import (
     Transition,
     bounded,
 )
-from swarmdsl.execution.simulate.expressions import Value, function_of
+from swarmdsl.execution.simulate.expressions import SELF, Value, function_of
+from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ir import (
     Assignment,
     Expression,
@@ -42,6 +43,7 @@ from swarmdsl.ir.integer_ranges import bound_of, bound_of_any
 from swarmdsl.syntax.types import DURATION
 
 _KINDS = {StateKind.PARALLEL: Kind.PARALLEL, StateKind.FINAL: Kind.FINAL}
+_ALONE = Robot()
 OUTCOMES = ("succeeded", "aborted", "preempted")
 
 
@@ -60,13 +62,13 @@ def table(machine: ir.StateMachine, system: System) -> Machine:
 
 
 def first_data(
-    machine: ir.StateMachine, system: System, params: Mapping[str, Any]
+    machine: ir.StateMachine, system: System, params: Mapping[str, Any], robot: Robot = _ALONE
 ) -> dict[str, Any]:
-    """Return the initial variables and params, given the values of some params.
+    """Return the initial variables and params on a robot, given the values of some params.
 
     Raises ValueError for a param without a value.
     """
-    data: dict[str, Any] = {}
+    data: dict[str, Any] = {SELF: robot.identity}
     for param in machine.params:
         if param.name in params:
             data[param.name] = deepcopy(params[param.name])

@@ -17,6 +17,7 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.ide.server.candidates import Candidates
 from swarmdsl.ide.server.fields import is_placeholder_name, slots
+from swarmdsl.ide.server.identity import is_own, own_fields
 from swarmdsl.ide.server.outcomes import unhandled_outcomes
 from swarmdsl.ide.server.speculative_parse import (
     ARGUMENT,
@@ -31,6 +32,7 @@ from swarmdsl.ide.server.type_names import type_names
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     Assignment,
+    FieldUse,
     Member,
     NameUse,
     Node,
@@ -181,6 +183,9 @@ class _NameCompletion:
                 else "="
             )
             return [_completion(each, f"{each.name} {sign} ${{1}}") for each in left]
+        for use in nodes_of(owner, FieldUse):
+            if use.name == PLACEHOLDER and is_own(use):
+                return [Completion(name, f"field : {kind}") for name, kind in own_fields().items()]
         nodes = Candidates(self._workspace, self._scope, self._owner or owner, self._offset)
         for found in nodes.of(owner):
             calls = _calls() if _is_value(owner) else ()

@@ -8,7 +8,8 @@ from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.types import BUILT_INS
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
-from swarmdsl.driver.workspace.references import occurrence_at
+from swarmdsl.driver.workspace.references import occurrence_at, owner_at
+from swarmdsl.ide.server.identity import described_at
 from swarmdsl.ide.server.speculative_parse import declaration_at
 from swarmdsl.ide.server.support import support
 from swarmdsl.project.loader import File
@@ -39,7 +40,9 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
     """Return the name at an offset and its Markdown, or None if there is none."""
     found = occurrence_at(workspace, file, offset)
     if found is None:
-        return _built_in(file, offset)
+        owner = owner_at(file, offset)
+        own = described_at(owner, offset) if owner is not None else None
+        return own or _built_in(file, offset)
     targets = "\n".join(f"- {line}" for line in support(found.node, workspace.settings))
     text = described(found.node)
     return found.span, f"{text}\n\nIn targets:\n{targets}" if targets else text

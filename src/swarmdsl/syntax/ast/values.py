@@ -24,12 +24,20 @@ class Value(Node):
 
 @dataclass(slots=True, eq=False)
 class NameUse(Node):
-    """Name of a value, or of an enum before one of its values; `event` is a name too."""
+    """Name of a value, or of an enum before one of its values.
+
+    `event` and `self` are names too; nothing declares them.
+    """
 
     name: str
     target: Variable | Param | Constant | EnumType | FitnessInput | None = field(
         default=None, init=False, metadata={"elsewhere": True}
     )
+
+    @property
+    def is_predefined(self) -> bool:
+        """True for a name that every machine has without a declaration."""
+        return self.name in ("event", "self")
 
 
 @dataclass(slots=True, eq=False)

@@ -50,7 +50,15 @@ _IMPLIED = {
     "a trigger": {"a name"},
     "a declaration": {"the end of the file", "`package`", "`import`"},
     "an item of a member": {"a name"},
-    "a value": {"a name", "a string in double quotes", "`true`", "`false`", "`event`", "`(`"},
+    "a value": {
+        "a name",
+        "a string in double quotes",
+        "`true`",
+        "`false`",
+        "`event`",
+        "`self`",
+        "`(`",
+    },
 }
 # Left out of a message when something more specific is expected.
 _OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"}

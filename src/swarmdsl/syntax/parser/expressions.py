@@ -237,7 +237,7 @@ class ExpressionParser:
             name.target = None
             return name, start, end, at
         match token:
-            case "event":
+            case "event" | "self":
                 return self._path(at)
             case "true" | "false":
                 return self._value(at, self._ends[at + 1], token == "true")

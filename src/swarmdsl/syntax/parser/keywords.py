@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 # Words that cannot be names.
-RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
+RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
 # Words that are keywords only where the grammar expects them, with a pattern of what follows them.
 CONTEXTUAL = {
     'abstraction': '[{]',
@@ -32,7 +32,7 @@ CONTEXTUAL = {
 FIRST = {
     'ComponentItem': frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param']),
     'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
-    'Effect': frozenset(['event', 'false', 'not', 'send', 'true']),
+    'Effect': frozenset(['event', 'false', 'not', 'self', 'send', 'true']),
     'EnvironmentItem': frozenset(['size', 'world']),
     'FitnessItem': frozenset(['in', 'maximize', 'minimize', 'param']),
     'FunctionItem': frozenset(['action', 'in', 'out', 'param', 'service']),

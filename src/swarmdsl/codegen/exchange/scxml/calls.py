@@ -141,6 +141,7 @@ def _python(value: Expression, params: Mapping[str, Param]) -> str:
             variable=lambda name: f"userdata.{name}",
             param=lambda name: f"rospy.get_param('~{name}')",
             event="event",
+            identity="self.{}".format,
             operators={},
             functions={},
         ),

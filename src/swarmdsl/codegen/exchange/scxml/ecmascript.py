@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from swarmdsl.codegen.exchange.scxml.effects import effects_of
 from swarmdsl.codegen.shared.default_values import default_value
+from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.ir import (
     Assignment,
     EventData,
@@ -25,6 +26,9 @@ from swarmdsl.ir import (
 )
 from swarmdsl.ir.expression_printer import Dialect, ecmascript_literal, points, translate
 
+SELF = "self"
+"""Id of the `<data>` with the identity of the robot."""
+
 
 def dialect(data: Mapping[str, str]) -> Dialect:
     """Return the dialect, in which variables and params have the ids of `data`."""
@@ -33,6 +37,7 @@ def dialect(data: Mapping[str, str]) -> Dialect:
         variable=data.__getitem__,
         param=data.__getitem__,
         event="_event.data",
+        identity=f"{SELF}.{{}}".format,
         operators={"and": "&&", "or": "||", "not": "!"},
         functions={
             "sqrt": _root,
@@ -133,7 +138,7 @@ def stored(expression: Expression, words: Dialect) -> str:
 
 def needs_data(machine: StateMachine) -> bool:
     """Return True if SCXML's null data model does not suffice for the machine."""
-    if machine.variables or machine.params:
+    if machine.variables or machine.params or uses_self(machine):
         return True
     if any(isinstance(effect, Assignment) or effect.arguments for effect in effects_of(machine)):
         return True
@@ -150,6 +155,15 @@ def _is_computed(trigger: Trigger) -> bool:
 
 def initial_value(type_: Type, system: System) -> str:
     """Return ROS's default for the type of a variable without initial value."""
-    value = json.dumps(default_value(type_, system))
+    return _written(default_value(type_, system))
+
+
+def robot_alone() -> str:
+    """Return the identity of a robot that nobody has named; the host may replace it."""
+    return _written({"id": "", "role": "", "index": 0, "count": 1})
+
+
+def _written(data: object) -> str:
+    value = json.dumps(data)
     # An engine that evaluates the string as a program would read the brace as a block.
     return f"({value})" if value.startswith("{") else value

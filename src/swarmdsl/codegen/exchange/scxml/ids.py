@@ -11,13 +11,13 @@ from collections import Counter
 
 from swarmdsl.ir import StateMachine
 
-# Reserved words of ECMAScript, and SCXML's own variables.
+# Reserved words of ECMAScript, SCXML's own variables, and the identity of the robot.
 _RESERVED = re.compile(
     "arguments|await|break|case|catch|class|const|continue|debugger|default|"
     "delete|do|else|enum|eval|export|extends|false|finally|for|function|"
     "if|implements|import|in|instanceof|interface|let|new|null|package|"
     "private|protected|public|return|static|super|switch|this|throw|true|"
-    "try|typeof|undefined|var|void|while|with|yield|In|Math|NaN|Infinity|_.*"
+    "try|typeof|undefined|var|void|while|with|yield|In|Math|NaN|Infinity|self|_.*"
 )
 
 

@@ -12,10 +12,12 @@ from collections.abc import Iterator, Mapping
 from lxml import etree
 
 from swarmdsl.codegen.exchange.content_policy import goal_policy, result_policy
+from swarmdsl.codegen.exchange.scxml.ecmascript import SELF
 from swarmdsl.codegen.exchange.scxml.effects import effects_of
 from swarmdsl.codegen.exchange.scxml.interfaces import describe_interfaces
 from swarmdsl.codegen.exchange.scxml.xml import add_doc, add_payload
 from swarmdsl.codegen.shared.constants import params_by_name
+from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.ir import (
     Activity,
     EventTrigger,
@@ -42,6 +44,8 @@ def describe_machine(
     _add_initial(root, machine.docs)
     if machine.endless:
         add_payload(root, "endless")
+    if uses_self(machine):
+        add_payload(root, "identity", location=SELF)
     types: list[Type] = []
     for event in system.events_of(_events(machine)):
         types.append(event.type)

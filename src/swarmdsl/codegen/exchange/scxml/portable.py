@@ -14,11 +14,19 @@ from itertools import accumulate
 from lxml import etree
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.exchange.scxml.ecmascript import dialect, initial_value, needs_data, stored
+from swarmdsl.codegen.exchange.scxml.ecmascript import (
+    SELF,
+    dialect,
+    initial_value,
+    needs_data,
+    robot_alone,
+    stored,
+)
 from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.codegen.exchange.scxml.payload import describe_machine, describe_state
 from swarmdsl.codegen.exchange.scxml.xml import PAYLOAD, SCXML, add, root
 from swarmdsl.codegen.shared.events import Events, delays
+from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.codegen.shared.parallel_transitions import entered_region, region_transitions
 from swarmdsl.codegen.xml_tree import Places, add_comment
 from swarmdsl.ir import (
@@ -50,7 +58,7 @@ def portable(machine: StateMachine, system: System, places: Places | None = None
     """Return the document of a machine; `places` gets the origins of elements."""
     places = {} if places is None else places
     data = data_ids(machine)
-    ids = state_ids(machine, set(data.values()))
+    ids = state_ids(machine, {*data.values(), SELF})
     document = root(
         {None: SCXML, "sw": PAYLOAD},
         name=machine.name,
@@ -75,10 +83,12 @@ def _add_data(
     data: Mapping[str, str],
     places: Places,
 ) -> None:
-    if not data:
+    if not data and not uses_self(machine):
         return
     model = add(document, "datamodel")
     values = dialect(data)
+    if uses_self(machine):
+        add(model, "data", id=SELF, expr=robot_alone())
     for param in machine.params:
         given = translate(param.default, values) if param.default is not None else None
         places[add(model, "data", id=data[param.name], expr=given)] = param.origin

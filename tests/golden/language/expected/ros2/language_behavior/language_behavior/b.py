@@ -28,6 +28,8 @@ class Data:
     """Data of the machine: params, which are constant after its start, and variables."""
 
     def __init__(self, parameters):
+        # The robot: its id, role, index and count.
+        self.self = parameters['self']
         # model.swarm:58
         self.n = 0
         # model.swarm:59
@@ -38,6 +40,9 @@ class Data:
         self.here = geometry_msgs.msg.Point()
         # model.swarm:62
         self.seen = geometry_msgs.msg.PoseStamped()
+        # model.swarm:64
+        # Number of the robot in its role.
+        self.mine = self.self.index
         # model.swarm:47
         self.a_k = 0
 
@@ -58,84 +63,88 @@ def goal_a_a(machine):
 
 
 def guard_d(machine, event):
-    # model.swarm:68
+    # model.swarm:70
     return event.data.mode == MODE_MANUAL
 
 
 def effect_d(machine, event):
-    # model.swarm:68
+    # model.swarm:70
     machine.data.n = 1
 
 
 def guard_d_2(machine, event):
-    # model.swarm:69
+    # model.swarm:71
     return event.data.level < 3
 
 
 def effect_d_2(machine, event):
-    # model.swarm:69
+    # model.swarm:71
     machine.data.n = 4
 
 
 def guard_d_3(machine, event):
-    # model.swarm:70
+    # model.swarm:72
     return event.data.level > 3 and event.data.header.seq > 2
 
 
 def effect_d_3(machine, event):
-    # model.swarm:70
+    # model.swarm:72
     machine.data.n = 4
 
 
 def guard_d_4(machine, event):
-    # model.swarm:71
-    return machine.data.n > 3
+    # model.swarm:73
+    return (
+        machine.data.n > 3
+        and machine.data.mine < machine.data.self.count
+        and machine.data.self.role != machine.data.self.id
+    )
 
 
 def guard_d_5(machine, event):
-    # model.swarm:73
+    # model.swarm:75
     return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(9, 12)  # noqa: E501
 
 
 def enter_d(machine, event):
-    # model.swarm:66
+    # model.swarm:68
     machine.emit(Event('X', filled(language.msg.M(), mode=MODE_AUTO)))
     machine.data.n = LIMIT
 
 
 def leave_d(machine, event):
-    # model.swarm:67
+    # model.swarm:69
     machine.data.n = bounded(min(max(machine.data.n // 2, 1), round(2.5)), 'int32')
 
 
 def wait_d_out(machine, event):
-    # model.swarm:80
+    # model.swarm:82
     machine.send_after(Event('after.D.Out.1'), math.ceil(2_000_000_000 * 2), 'after.D.Out.1')
     machine.send_after(Event('after.D.Out.2'), 3_000_000_000, 'after.D.Out.2')
 
 
 def stop_waiting_d_out(machine, event):
-    # model.swarm:80
+    # model.swarm:82
     machine.cancel('after.D.Out.1')
     machine.cancel('after.D.Out.2')
 
 
 def goal_d_out(machine):
-    # model.swarm:77
+    # model.swarm:79
     return filled(language.srv.BaseTake.Request(), mode=machine.data.mode)
 
 
 def result_d_out(machine, event):
-    # model.swarm:77
+    # model.swarm:79
     machine.data.ok = deepcopy(get(event.data, 'ok'))
 
 
 STATES = tree(
-    # model.swarm:64
+    # model.swarm:66
     State(
         'A',
         initial=('A.A',),
-        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:64'),),
+        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:66'),),
         entry=(enter_a,),
     ),
     # model.swarm:49
@@ -151,37 +160,37 @@ STATES = tree(
     ),
     # model.swarm:54
     State('A.D', Kind.FINAL),
-    # model.swarm:65
+    # model.swarm:67
     State(
         'D',
         initial=('D.In',),
         transitions=(
-            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:68'),
+            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:70'),
             Transition(
-                ('Battery',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:69'
+                ('Battery',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:71'
             ),
             Transition(
-                ('Battery',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:70'
+                ('Battery',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:72'
             ),
-            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:71'),
-            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:72'),
-            Transition(('X',), ('D.H',), guard=guard_d_5, origin='model.swarm:73'),
-            Transition(('MissionAbort',), ('Z',), origin='model.swarm:83'),
+            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:73'),
+            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:74'),
+            Transition(('X',), ('D.H',), guard=guard_d_5, origin='model.swarm:75'),
+            Transition(('MissionAbort',), ('Z',), origin='model.swarm:85'),
         ),
         entry=(enter_d,),
         exit=(leave_d,),
     ),
-    # model.swarm:75
-    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:75'),)),
-    # model.swarm:76
+    # model.swarm:77
+    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:77'),)),
+    # model.swarm:78
     State(
         'D.Out',
         transitions=(
-            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:78'),
+            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:80'),
             Transition(
-                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:79'
+                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:81'
             ),
-            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.In',), origin='model.swarm:80'),
+            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.In',), origin='model.swarm:82'),
         ),
         entry=(wait_d_out,),
         exit=(stop_waiting_d_out,),
@@ -189,16 +198,16 @@ STATES = tree(
             'cam_take', 'cam/take', outcomes('D.Out'), goal=goal_d_out, finalize=result_d_out
         ),
     ),
-    # model.swarm:82
+    # model.swarm:84
     State('D.H', Kind.DEEP_HISTORY, transitions=(Transition((), ('D.In',)),)),
-    # model.swarm:85
+    # model.swarm:87
     State('Z', Kind.FINAL),
 )
 
 TOPICS = (
     # model.swarm:40
     Topic('E', language.msg.M, 'e', heard=True, reliable=False),
-    # model.swarm:69
+    # model.swarm:71
     Topic('Battery', my_msgs.msg.Level, 'battery', heard=True, reliable=False),
     # model.swarm:41
     Topic('F', std_msgs.msg.Empty, 'f', heard=True, reliable=False),

@@ -39,9 +39,9 @@ def build():
     """Build state machine B."""
     machine = Machine(CHART, ['Z', 'preempted'])
     with machine:
-        # model.swarm:64
+        # model.swarm:66
         StateMachine.add('A', build_a(), transitions={'done': 'D', 'preempted': 'preempted'})
-        # model.swarm:65
+        # model.swarm:67
         StateMachine.add(
             'D',
             build_d(),
@@ -58,7 +58,7 @@ def build():
 
 def build_a():
     """Build state A."""
-    # model.swarm:64
+    # model.swarm:66
     machine = StateMachine(['done', 'preempted'])
     with machine:
         # model.swarm:49
@@ -79,7 +79,7 @@ def build_a():
 
 def build_d():
     """Build state D."""
-    # model.swarm:65
+    # model.swarm:67
     machine = StateMachine(['Battery', 'A', 'X', 'MissionAbort', 'preempted'])
     with machine:
         # Leads to the state that is entered first.
@@ -88,7 +88,7 @@ def build_d():
             Junction(CHART, 'D.Entry', ['In', 'Out', 'preempted']),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
-        # model.swarm:75
+        # model.swarm:77
         StateMachine.add(
             'In',
             State(CHART, 'D.In', ['Battery', 'A', 'F', 'X', 'MissionAbort', 'Out', 'preempted']),
@@ -102,7 +102,7 @@ def build_d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:76
+        # model.swarm:78
         # Calls service cam/take.
         StateMachine.add(
             'Out',

@@ -62,7 +62,7 @@ class DEntry(Junction):
 
 
 class DIn(State):
-    # model.swarm:75
+    # model.swarm:77
     """Waits for a transition."""
 
     chart = CHART
@@ -71,7 +71,7 @@ class DIn(State):
 
 
 class DOut(ServiceState):
-    # model.swarm:76
+    # model.swarm:78
     """Calls service cam/take."""
 
     chart = CHART
@@ -93,9 +93,9 @@ class DOut(ServiceState):
 def build():
     """Build state machine B."""
     machine = StateMachine({'Z', 'canceled'})
-    # model.swarm:64
+    # model.swarm:66
     machine.add_state('A', build_a(), {'done': 'D', 'canceled': 'canceled'})
-    # model.swarm:65
+    # model.swarm:67
     machine.add_state(
         'D',
         build_d(),
@@ -108,7 +108,7 @@ def build():
 
 def build_a():
     """Build state A."""
-    # model.swarm:64
+    # model.swarm:66
     machine = StateMachine({'done', 'canceled'})
     # model.swarm:49
     machine.add_state('A', AA(), {'succeeded': 'D', 'aborted': 'D', 'canceled': 'canceled'})
@@ -121,10 +121,10 @@ def build_a():
 
 def build_d():
     """Build state D."""
-    # model.swarm:65
+    # model.swarm:67
     machine = StateMachine({'Battery', 'A', 'X', 'MissionAbort', 'canceled'})
     machine.add_state('Entry', DEntry(), {'In': 'In', 'Out': 'Out', 'canceled': 'canceled'})
-    # model.swarm:75
+    # model.swarm:77
     machine.add_state(
         'In',
         DIn(),
@@ -138,7 +138,7 @@ def build_d():
             'canceled': 'canceled',
         },
     )
-    # model.swarm:76
+    # model.swarm:78
     machine.add_state(
         'Out',
         DOut(),

@@ -41,6 +41,7 @@ def generate_launch_description():
     """Describe the whole swarm."""
     arguments = [
         ('namespace', 'blinkers', 'namespace of the swarm'),
+        ('member', '', 'the robot to launch, such as blinker[0]; all when empty'),
         ('use_sim_time', 'false', 'whether time comes from the topic /clock'),
         ('log_level', 'info', 'the least level of messages that are logged'),
         ('trace_dir', '', 'folder for the trace of each node; none is written when empty'),
@@ -74,30 +75,36 @@ def has_bringup():
 def launch_members(context):
     """Return a group for each member."""
     groups = []
+    wanted = LaunchConfiguration('member').perform(context)
     for role, (_, (least, most), nodes) in ROLES.items():
         count = int(LaunchConfiguration(f'{role}_count').perform(context))
         if count < least or (most is not None and count > most):
             raise ValueError(f'there cannot be {count} members in role {role}')
         for number in range(count):
+            if wanted not in ('', f'{role}[{number}]'):
+                continue
             groups.append(
                 GroupAction(
                     [
                         PushRosNamespace(LaunchConfiguration('namespace')),
                         PushRosNamespace(f'{role}_{number}'),
-                        *(launch_node(context, role, number, *node) for node in nodes),
+                        *(launch_node(context, role, number, count, *node) for node in nodes),
                         *launch_components(context, role, number),
                     ]
                 )
             )
+    if wanted and not groups:
+        raise ValueError(f'there is no member {wanted}')
     return groups
 
 
-def launch_node(context, role, number, executable, name, part):
+def launch_node(context, role, number, count, executable, name, part):
     """Return a node of a member, with the parameters of its role and its own."""
     member = f'{role}[{number}]' + (f'.{part}' if part else '')
     parameters = [
         {
             'member': member,
+            'self.count': count,
             'use_sim_time': LaunchConfiguration('use_sim_time').perform(context) == 'true',
         }
     ]

@@ -16,6 +16,7 @@ from . import engine, parameters
 from .alarms import Alarms, Pauses
 from .diagnostics import Diagnostics
 from .engine import Event, ExecutionError, Instance, LoopError, Machine, Servers
+from .identity import identity, SETTINGS
 from .parameters import Parameter, StartError
 from .topics import Topics
 from .tracing import Output, Trace
@@ -25,7 +26,7 @@ from .values import from_json
 engine.FAILURES = (*engine.FAILURES, AttributeError, TypeError)
 
 _SETTINGS = (
-    Parameter('member', 'string', '', 'Who this is, in traces: `uav[0]`.'),
+    *SETTINGS,
     Parameter('swarm', 'string', '', 'Namespace of the swarm; empty for the one around the own.'),
     Parameter('timeouts.server', 'duration', 5.0, 'How long a server may be missing, in s.'),
     Parameter('timeouts.cancel', 'duration', 5.0, 'How long a server may take to stop, in s.'),
@@ -102,8 +103,9 @@ class Host:
         if behavior.missing_callbacks:
             missing = ', '.join(behavior.missing_callbacks)
             raise StartError(f'the module `callbacks` has no {missing}')
-        self._values = parameters.values(node, behavior.parameters)
         settings = parameters.values(node, _SETTINGS)
+        robot = identity(settings, node.get_namespace())
+        self._values = {**parameters.values(node, behavior.parameters), 'self': robot}
         self.server_timeout = settings['timeouts.server']
         self.cancel_timeout = settings['timeouts.cancel']
         self._member = settings['member'] or None
@@ -120,8 +122,7 @@ class Host:
             node,
             behavior.topics,
             swarm,
-            # A part sends in the name of its robot.
-            (self._member or node.get_namespace().strip('/')).partition('.')[0],
+            robot.id,
             self._group,
             lambda: self.now,
             self._receive,

@@ -14,6 +14,7 @@ from language_behavior import events
 from language_behavior.actions import ActionState
 from language_behavior.containers import Machine, StateMachine
 from language_behavior.engine import bounded
+from language_behavior.identity import identity
 from language_behavior.services import ServiceState
 from language_behavior.states import AT_ONCE, Final, History, On, State
 
@@ -28,9 +29,9 @@ def build():
     userdata = initial_userdata()
     machine = Machine(['Z'], userdata)
     with machine:
-        # model.swarm:64
+        # model.swarm:66
         StateMachine.add('A', _a(), transitions={'done': 'D', 'preempted': 'preempted'})
-        # model.swarm:65
+        # model.swarm:67
         StateMachine.add(
             'D',
             _d(),
@@ -48,6 +49,8 @@ def build():
 def initial_userdata():
     """Return userdata with params from ROS, and the initial values of variables."""
     userdata = smach.UserData()
+    # The robot: its id, role, index and count.
+    userdata.self = identity()
     # model.swarm:58
     userdata.n = 0
     # model.swarm:59
@@ -58,6 +61,9 @@ def initial_userdata():
     userdata.here = Point()
     # model.swarm:62
     userdata.seen = PoseStamped()
+    # model.swarm:64
+    # Number of the robot in its role.
+    userdata.mine = userdata.self.index
     # model.swarm:47
     userdata.a_k = 0
     return userdata
@@ -103,7 +109,7 @@ def _d():
                 guard=lambda userdata, event: event.level > 3 and event.header.seq > 2,
                 effect=_d_battery_effect_2,
             ),
-            On(AT_ONCE, 'A', guard=lambda userdata, event: userdata.n > 3),
+            On(AT_ONCE, 'A', guard=_d_a_guard),
             On(events.F, 'D_F', internal=True),
             On(events.X, guard=_d_x_guard, into='H'),
             On(events.MISSION_ABORT),
@@ -112,13 +118,13 @@ def _d():
         on_exit=_d_exit,
     )
     with machine:
-        # model.swarm:75
+        # model.swarm:77
         StateMachine.add(
             'In',
             State(on=[On(AT_ONCE, 'Out')], outcomes=['D_F']),
             transitions={'Out': 'Out', 'D_F': 'In', 'preempted': 'preempted'},
         )
-        # model.swarm:76
+        # model.swarm:78
         StateMachine.add(
             'Out',
             ServiceState(
@@ -142,7 +148,7 @@ def _d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:82
+        # model.swarm:84
         StateMachine.add(
             'H',
             History('In', ['In', 'Out'], deep=True),
@@ -162,41 +168,46 @@ def _a_entry(userdata):
 
 
 def _d_e_effect(userdata, event):
-    # model.swarm:68
+    # model.swarm:70
     userdata.n = 1
 
 
 def _d_battery_effect(userdata, event):
-    # model.swarm:69
+    # model.swarm:71
     userdata.n = 4
 
 
 def _d_battery_effect_2(userdata, event):
-    # model.swarm:70
+    # model.swarm:72
     userdata.n = 4
 
 
-def _d_x_guard(userdata, event):
+def _d_a_guard(userdata, event):
     # model.swarm:73
+    return userdata.n > 3 and userdata.mine < userdata.self.count and userdata.self.role != userdata.self.id
+
+
+def _d_x_guard(userdata, event):
+    # model.swarm:75
     return math.hypot(userdata.here.x - userdata.seen.pose.position.x, userdata.here.y - userdata.seen.pose.position.y, userdata.here.z - userdata.seen.pose.position.z) < math.hypot(9, 12)
 
 
 def _d_out_request(userdata, request):
-    # model.swarm:77
+    # model.swarm:79
     return BaseTakeRequest(mode=userdata.mode)
 
 
 def _d_out_response(userdata, response):
-    # model.swarm:77
+    # model.swarm:79
     userdata.ok = response.ok
 
 
 def _d_entry(userdata):
-    # model.swarm:66
+    # model.swarm:68
     events.X.send(M(mode=MODE_AUTO))
     userdata.n = LIMIT
 
 
 def _d_exit(userdata):
-    # model.swarm:67
+    # model.swarm:69
     userdata.n = bounded(min(max(userdata.n // 2, 1), round(2.5)), 'int32')

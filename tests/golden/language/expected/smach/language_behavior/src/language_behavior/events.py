@@ -14,7 +14,7 @@ X = Event('X', M, 'bridge/events/x', 'x')
 # model.swarm:40
 E = Event('E', M, 'e', 'e')
 
-# model.swarm:69
+# model.swarm:71
 BATTERY = Event('Battery', Level, 'battery', 'battery')
 
 # model.swarm:41
