@@ -27,7 +27,7 @@ class Alarms:
 
     @property
     def now(self):
-        """The time of the clock, in nanoseconds."""
+        """Return the time of the clock, in nanoseconds."""
         return self._clock.now().nanoseconds
 
     def schedule(self, delay, action):

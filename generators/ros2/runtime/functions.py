@@ -92,7 +92,7 @@ class _Call:
 
     @property
     def is_waiting(self):
-        """True while the server is missing."""
+        """Return True while the server is missing."""
         return self._missing_since is not None
 
     @property

@@ -171,7 +171,7 @@ class Host:
 
     @property
     def now(self):
-        """The time of a steady clock, in nanoseconds."""
+        """Return the time of a steady clock, in nanoseconds."""
         return self._alarms.now
 
     def later(self, delay, action):

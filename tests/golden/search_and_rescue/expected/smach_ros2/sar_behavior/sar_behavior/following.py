@@ -110,7 +110,7 @@ class Chart:
 
     @property
     def is_wanted(self):
-        """True unless the machine has been stopped before the engine begins."""
+        """Return True unless the machine has been stopped before the engine begins."""
         return not (self.is_closed or self._is_stopped)
 
     def begun(self):
