@@ -330,6 +330,26 @@ def test_roslaunch_reads_the_launch_files(launch: Callable[..., Any]) -> None:
     assert together["params"]["/uav_1/right/rate"] == 4.0
 
 
+def test_roslaunch_without_the_package_of_the_components(
+    graph: Any, built: Callable[[int], Path]
+) -> None:
+    if not Path("/usr/bin/roslaunch").exists():
+        pytest.skip("no roslaunch: apt-get install python3-roslaunch")
+    environment = graph.environment([], ROS_PACKAGE_PATH=str(built(1) / "smach"))
+    command = [graph.python, "/usr/bin/roslaunch", "--nodes", "lab_behavior", "search.launch"]
+
+    def nodes(*words: str) -> tuple[int, list[str], str]:
+        run = subprocess.run(
+            [*command, *words], env=environment, capture_output=True, text=True, check=False
+        )
+        return run.returncode, run.stdout.split(), run.stderr
+
+    code, _, said = nodes()
+    assert (code, "Resource not found: lab_bringup" in said) == (1, True)
+    wanted = [f"/uav_{n}/{each}" for n in (0, 1) for each in ("fly", "memory_behavior")]
+    assert nodes("components:=false")[:2] == (0, wanted)
+
+
 def test_a_message_goes_through_connectors(graph: Any, launch: Callable[..., Any]) -> None:
     """Each camera's messages reach one port, and the result leaves the robot."""
     started = launch(
