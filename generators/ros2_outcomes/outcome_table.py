@@ -49,6 +49,7 @@ class OutcomeTable:
         self._known = {state.id: state for state in machine.walk()}
         self._report = report
         self._known_inside: dict[str, tuple[str, ...]] = {}
+        self._known_finals: dict[str, list[State]] = {}
         # By the id of a state: the names of the states directly inside.
         self._names: dict[str, set[str]] = {}
         for state in machine.walk():
@@ -187,11 +188,16 @@ class OutcomeTable:
 
     def _completed(self, state: State, final: str | None) -> list[State]:
         """Return the final states in which a state is complete; empty where it never is."""
-        if state.kind is not StateKind.PARALLEL:
-            finals = [each for each in self.reach.inside(state) if each.kind is StateKind.FINAL]
-            return [each for each in finals if final in (None, each.id)]
-        regions = [self._completed(region, None) for region in self.reach.inside(state)]
-        return [each for region in regions for each in region] if all(regions) else []
+        if final is not None and state.kind is not StateKind.PARALLEL:
+            return [self._known[final]] if final in self.reach.states else []
+        if state.id not in self._known_finals:
+            inside = list(self.reach.inside(state))
+            finals = [each for each in inside if each.kind is StateKind.FINAL]
+            if state.kind is StateKind.PARALLEL:
+                regions = [self._completed(region, None) for region in inside]
+                finals = [each for region in regions for each in region] if all(regions) else []
+            self._known_finals[state.id] = finals
+        return self._known_finals[state.id]
 
 
 def _around(state: str) -> str:

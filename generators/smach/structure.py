@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from swarmdsl.codegen import fresh
+from swarmdsl.codegen import FreshNames
 from swarmdsl.codegen.python import Call, Source, comments, layout
 from swarmdsl.ir import State, StateKind, doc_of
 
@@ -81,12 +81,13 @@ class _Structure:
         function = self.module.function_name(state.id)
         scope = ContainerOutcomes(state.id, set())
         targets: dict[str, Target] = {}
+        names = FreshNames([*transitions.targets, *further, PREEMPTED])
         outcome_map: dict[str, dict[str, str]] = {}
         for region in state.states:
             region_transitions = self.maker.of(region, ())
             call, exits = self._composite(region, region_transitions, [])
             for outcome, target in exits.items():
-                name = fresh(outcome, targets, transitions.targets, {*further, PREEMPTED})
+                name = names.new(outcome)
                 targets[name] = target
                 outcome_map[name] = {region.name: outcome}
             add = Call("Concurrence.add", (region.name, call))
