@@ -7,8 +7,7 @@ taken from the side that changed it. A chunk that both sides changed differently
 
 from __future__ import annotations
 
-from difflib import SequenceMatcher
-
+from swarmdsl.base.line_matching import line_matcher
 from swarmdsl.base.records import dataclass
 
 
@@ -64,5 +63,5 @@ def _shorter(one: bytes, other: bytes) -> int:
 
 def matches(before: list[bytes], after: list[bytes]) -> dict[int, int]:
     """Map lines of one version to equal lines of the other, in the same order."""
-    blocks = SequenceMatcher(None, before, after, autojunk=False).get_matching_blocks()
+    blocks = line_matcher(before, after, autojunk=False).get_matching_blocks()
     return {block.a + number: block.b + number for block in blocks for number in range(block.size)}

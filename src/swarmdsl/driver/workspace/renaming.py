@@ -12,6 +12,7 @@ from pathlib import Path
 from swarmdsl.analysis.node_kinds import KINDS, kind_of
 from swarmdsl.base.diagnostics.collector import Severity
 from swarmdsl.base.source import Span
+from swarmdsl.base.text_edits import Edits
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
 from swarmdsl.project.loader import File
@@ -88,12 +89,8 @@ def _errors(workspace: Workspace) -> Counter[str]:
 
 def replaced(spans: list[Span], name: str) -> dict[Path, str]:
     """Return the contents of files with spans replaced by `name`."""
-    texts = {span.source.path: span.source.text for span in spans if span.source.path is not None}
-    return {path: _replaced(text, spans, path, name) for path, text in texts.items()}
-
-
-def _replaced(text: str, spans: list[Span], path: Path, name: str) -> str:
-    for span in sorted(spans, key=lambda span: span.start, reverse=True):
-        if span.source.path == path:
-            text = text[: span.start] + name + text[span.end :]
-    return text
+    edits: dict[Path, Edits] = {}
+    for span in spans:
+        if span.source.path is not None:
+            edits.setdefault(span.source.path, Edits(span.source)).replace(span, name)
+    return {path: made.text() for path, made in edits.items()}

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from difflib import SequenceMatcher
 
+from swarmdsl.base.line_matching import line_matcher
 from swarmdsl.base.source import Source, Span
 
 # With more changed lines, a diff takes longer than replacing them all.
@@ -25,7 +25,7 @@ def line_changes(source: Source, text: str, within: Span) -> Iterator[tuple[Span
     middle, replacement = old[before : len(old) - after], new[before : len(new) - after]
     blocks = [(0, len(middle), 0, len(replacement))]
     if len(middle) + len(replacement) <= _MAX_CHANGED_LINES:
-        matcher = SequenceMatcher(None, middle, replacement, autojunk=False)
+        matcher = line_matcher(middle, replacement, autojunk=False)
         blocks = [each[1:] for each in matcher.get_opcodes() if each[0] != "equal"]
     starts = [*source.line_starts, len(source.text)]
     for first, last, begin, end in blocks:

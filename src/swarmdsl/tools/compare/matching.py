@@ -79,23 +79,59 @@ def _match_siblings(
     before: Iterable[Element], after: Iterable[Element], matching: Matching
 ) -> None:
     """Pair elements with the same name in order, then renamed ones."""
-    known: dict[tuple[str, Value], list[Element]] = defaultdict(list)
+    known: dict[tuple[str, Value], _Namesakes] = defaultdict(_Namesakes)
     for new in after:
-        known[new.kind, new.name].append(new)
+        known[new.kind, new.name].add(new)
     left = []
     for old in before:
-        candidates = known[old.kind, matching.update_names(old.name)]
-        if candidates:
-            same = _features(old, matching)
-            equal = (new for new in candidates if _features(new, _IDENTITY) == same)
-            new = next(equal, candidates[0]) if len(candidates) > 1 else candidates[0]
-            candidates.remove(new)
-            matching.pair(old, new)
+        found = known[old.kind, matching.update_names(old.name)].take(old, matching)
+        if found is not None:
+            matching.pair(old, found)
         else:
             left.append(old)
-    rest = [new for candidates in known.values() for new in candidates]
+    rest = [new for candidates in known.values() for new in candidates.left]
     for old, new in _similar_pairs(left, rest, matching):
         matching.pair(old, new)
+
+
+class _Namesakes:
+    """Siblings of one name, in order, that are paired one by one."""
+
+    def __init__(self) -> None:
+        self._all: list[Element] = []
+        self._taken: set[Element] = set()
+        self._first = 0
+        # By their content, in reverse; made when two of them are to be told apart.
+        self._alike: dict[Hashable, list[Element]] = {}
+
+    @property
+    def left(self) -> list[Element]:
+        """Those that are not paired."""
+        return [each for each in self._all if each not in self._taken]
+
+    def add(self, element: Element) -> None:
+        """Add a sibling."""
+        self._all.append(element)
+
+    def take(self, old: Element, matching: Matching) -> Element | None:
+        """Return the first with the same content as `old`, else the first that is left."""
+        while self._first < len(self._all) and self._all[self._first] in self._taken:
+            self._first += 1
+        if self._first == len(self._all):
+            return None
+        found = self._all[self._first]
+        if len(self._all) - len(self._taken) > 1:
+            if not self._alike:
+                for each in reversed(self._all):
+                    if each not in self._taken:
+                        content = frozenset(_features(each, _IDENTITY).items())
+                        self._alike.setdefault(content, []).append(each)
+            alike = self._alike.get(frozenset(_features(old, matching).items()), [])
+            while alike and alike[-1] in self._taken:
+                alike.pop()
+            found = alike[-1] if alike else found
+        self._taken.add(found)
+        return found
 
 
 def _match_states(before: Element, after: Element, matching: Matching) -> None:
@@ -180,12 +216,14 @@ def _similar_of_kind(
     if len(before) * len(after) > _MAX_PAIRS:
         return
     old_features = [_features(old, matching) for old in before]
+    old_totals = [features.total() for features in old_features]
     scored = []
     for column, new in enumerate(after):
         new_features = _features(new, _IDENTITY)
+        counts, total = new_features.get, new_features.total()
         for row, features in enumerate(old_features):
-            common = (features & new_features).total()
-            share = 2 * common / ((features.total() + new_features.total()) or 1)
+            common = sum([min(count, counts(each, 0)) for each, count in features.items()])
+            share = 2 * common / ((old_totals[row] + total) or 1)
             if common >= 2 and share >= _MIN_SIMILARITY:
                 scored.append((-share, row, column))
     rows: set[int] = set()

@@ -35,12 +35,13 @@ def _merge_block(base: Item, ours: Item, theirs: Item) -> Merged:
         *_merge_items(base.inner, ours.inner, theirs.inner),
         _merge_text(base.tail, ours.tail, theirs.tail),
     ]
-    text = ""
-    for part in parts:
+    text: list[str] = []
+    for part in filter(lambda part: part.text, parts):
         # The last line of a file can lack a line end.
-        text += "\n" if text and part.text and not text.endswith("\n") else ""
-        text += part.text
-    return Merged(text, sum(part.conflicts for part in parts))
+        if text and not text[-1].endswith("\n"):
+            text.append("\n")
+        text.append(part.text)
+    return Merged("".join(text), sum(part.conflicts for part in parts))
 
 
 def _merge_items(
@@ -102,13 +103,16 @@ def _merged_order(base: list[Key], ours: list[Key], theirs: list[Key]) -> list[K
     common = set(base) & set(ours) & set(theirs)
     was, now = ([key for key in side if key in common] for side in (base, ours))
     first, second = (theirs, ours) if was == now else (ours, theirs)
-    merged = list(first)
     known = set(first)
-    index = 0
+    # By key of the first side, None for the beginning: what follows it on the other side only.
+    following: dict[Key | None, list[Key]] = {}
+    before: Key | None = None
     for key in second:
         if key in known:
-            index = merged.index(key) + 1
+            before = key
         else:
-            merged.insert(index, key)
-            index += 1
+            following.setdefault(before, []).append(key)
+    merged = following.get(None, [])
+    for key in first:
+        merged += (key, *following.get(key, ()))
     return merged
