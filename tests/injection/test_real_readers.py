@@ -76,7 +76,7 @@ def files(make: Make) -> Callable[..., Mapping[str, str]]:
 
 def numbered(found: Mapping[str, str]) -> dict[int, str]:
     """Values by the number at the end of their names."""
-    matches = ((re.search(r"\D(\d+)$", name), text) for name, text in found.items())
+    matches = ((re.search(r"(?:^|/)[Cpv](\d+)$", name), text) for name, text in found.items())
     return {int(name[1]): text for name, text in matches if name}
 
 

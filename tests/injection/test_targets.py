@@ -27,7 +27,13 @@ VARIANTS: list[Variant] = [
     ("adf", {"form": "schema"}),
 ]
 # The places of strings that are not safe in every target.
-PLACES = ("message constant", "param of a member", "param of a machine")
+PLACES = (
+    "message constant",
+    "param of a member",
+    "param of a machine",
+    "value of a role",
+    "value of a robot",
+)
 ROS1 = {"smach", "skeleton python 1", "skeleton cpp 1"}
 ROS2 = {"ros2", "yasmin", "smach 2", "skeleton python 2", "skeleton cpp 2"}
 # What people read, and what they write; all others are read by programs.
@@ -44,7 +50,7 @@ def is_rejected(name: str, place: str, text: str) -> bool:
     if place == "message constant" and name in ROS1 | ROS2:
         changed = text != text.strip() if name in ROS1 else "#" in text
         return "\\" in text or not text.isprintable() or changed
-    if place in ("param of a member", "param of a machine") and name == "composition":
+    if place != "message constant" and name == "composition":
         return "$(" in text or text != text.strip()
     return False
 
