@@ -280,7 +280,7 @@ def _run(kind: str, given: dict[str, Any]) -> int:
         places = CREATORS[kind](given)
     except UsageError as error:
         raise click.UsageError(str(error)) from error
-    done = added(given["paths"], places, dry_run=given["dry_run"])
+    done = added(given["paths"], places, given_file=given.get("file"), dry_run=given["dry_run"])
     render(done.report, given["format_"], sys.stderr)
     for layout in done.layouts:
         click.echo(layout.diff() if given["dry_run"] else layout.name, nl=not given["dry_run"])

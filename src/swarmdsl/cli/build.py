@@ -82,6 +82,7 @@ def build(
     from swarmdsl.cli.output_options import writing
     from swarmdsl.driver import pipeline
     from swarmdsl.driver.config.command_line import requests, run_settings
+    from swarmdsl.driver.write_bounds import may_write_output
 
     mode = writing(locals())
     levels = {Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny}
@@ -94,7 +95,10 @@ def build(
 
         def build_again(checked: Result, settings: Settings) -> Concluded:
             wanted = requests(targets, given, settings)
-            result = pipeline.generate(checked, wanted, out or settings.out, how)
+            if out or may_write_output(settings, checked.report):
+                result = pipeline.generate(checked, wanted, out or settings.out, how)
+            else:
+                result = replace(checked, valid=None)
 
             def say() -> str:
                 if not how.dry:
@@ -109,6 +113,8 @@ def build(
     if report.has_errors:
         return conclude(pipeline.Result(report, files=1), format_, stream)
     folder = out or settings.out
+    if not (out or dump_ir or may_write_output(settings, report)):
+        return conclude(pipeline.Result(report, files=0), format_, stream)
     if clean:
         from swarmdsl.output.clean import clean as clean_folder
 

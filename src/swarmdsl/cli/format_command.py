@@ -13,6 +13,7 @@ from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.rewriting import Layout
 from swarmdsl.driver.format_files import STDIN, layout_of, layouts_of, write
+from swarmdsl.driver.write_bounds import may_write_models
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,8 @@ def rewrite(paths: Sequence[Path], report: Diagnostics) -> Outcome:
             click.echo(layout.after, nl=False)
         return Outcome(not wrong)
     changed = [layout for layout in layouts if layout.changed]
-    if not write(changed, report):
+    names = [layout.name for layout in changed]
+    if not (may_write_models(names, paths, report) and write(changed, report)):
         return Outcome(False)
     return Outcome(True, _summary("formatted", len(changed), len(layouts) - len(changed), wrong))
 

@@ -12,6 +12,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.rewriting import Layout
 from swarmdsl.driver.format_files import write as write_layouts
+from swarmdsl.driver.write_bounds import may_write_models
 from swarmdsl.importing.files import package_of, read_files
 from swarmdsl.importing.ros import import_ros, library_functions
 from swarmdsl.importing.text import check_model, model_text
@@ -71,7 +72,9 @@ def run(
         layouts = update_files(
             existing, text, guesses, report, complete=format_ == "ros", force=force
         )
-        if not (report.has_errors or dry_run):
+        names = [layout.name for layout in layouts]
+        may_write = not report.has_errors and may_write_models(names, [existing.path], report)
+        if may_write and not dry_run:
             write_layouts(layouts, report)
         made = [] if report.has_errors else layouts
         return ImportResult(report, files, text, made, is_new=False)

@@ -63,6 +63,8 @@ class _Reader:
             places={target: self._places(target, options) for target, options in targets.items()},
             levels=self._levels(),
             out=self._path(("build", "out")) or Path() if "out" in build else self._folder / "out",
+            folder=self._folder,
+            out_place=self._value_place(("build", "out")) if "out" in build else None,
         )
 
     def _name(self) -> str | None:

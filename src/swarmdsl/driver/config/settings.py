@@ -18,7 +18,8 @@ class Settings:
 
     `sources` are compiled if no file is named, `libraries` are searched for packages. `targets`,
     with their options, are built if none is named; if empty, all default targets. `places` has the
-    spans of the options.
+    spans of the options. `folder` is that of the project file, the current one without it, and
+    `out_place` the span of `out` in it.
     """
 
     name: str | None = None
@@ -28,3 +29,5 @@ class Settings:
     places: Mapping[str, Mapping[str, Span]] = field(default_factory=dict)
     levels: Mapping[str, Level] = field(default_factory=dict)
     out: Path = Path("out")
+    folder: Path = Path()
+    out_place: Span | None = None

@@ -14,6 +14,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.driver.config import find_settings
 from swarmdsl.driver.format_files import write
 from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.write_bounds import may_write_models
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     Declaration,
@@ -51,10 +52,15 @@ class AddResult:
 
 
 def add(
-    paths: Sequence[Path], insertions: Sequence[FindInsertion], *, dry_run: bool = False
+    paths: Sequence[Path],
+    insertions: Sequence[FindInsertion],
+    *,
+    given_file: Path | None = None,
+    dry_run: bool = False,
 ) -> AddResult:
     """Add elements one after the other to the given files or to the project.
 
+    `given_file` is the one that the user names for them, which can be outside of the project.
     Nothing is written if an element has no place or causes an error.
     """
     report = Diagnostics()
@@ -85,7 +91,10 @@ def add(
         workspace.update({path: whole[:start] + text + whole[end:]})
     report.include(_new_diagnostics(before, workspace.report))
     layouts = [Layout(str(path), path.read_bytes(), text) for path, text in contents.items()]
-    if report.has_errors or not (dry_run or write(layouts, report)):
+    names, named = [layout.name for layout in layouts], [given_file] if given_file else []
+    if report.has_errors or not may_write_models(names, paths, report, named):
+        return AddResult(report, workspace.files)
+    if not (dry_run or write(layouts, report)):
         return AddResult(report, workspace.files)
     return AddResult(report, workspace.files, layouts)
 

@@ -17,6 +17,7 @@ from swarmdsl.driver.format_files import write
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.renaming import RefusedError, replaced
 from swarmdsl.driver.workspace.renaming import rename as places_of
+from swarmdsl.driver.write_bounds import may_write_models
 from swarmdsl.project.read_source import read_source
 from swarmdsl.tools.refactor.names import NamedElement, all_elements, find_elements, suggest_path
 from swarmdsl.tools.scaffold.names import command_line_span
@@ -67,7 +68,8 @@ def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) 
     )
     layouts = [rewritten(str(path), path.read_bytes(), made) for path, made in changes.items()]
     _check_style(workspace, spans, new, report)
-    if not dry_run and not write(layouts, report):
+    names = [layout.name for layout in layouts]
+    if not may_write_models(names, paths, report) or not (dry_run or write(layouts, report)):
         return RenameResult(report, workspace.files)
     return RenameResult(report, workspace.files, layouts, sum(map(len, changes.values())))
 
