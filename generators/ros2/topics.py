@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from swarmdsl.codegen import Diagnostics, incoming_topic
 from swarmdsl.codegen.python import Call, Source
 from swarmdsl.ir import Event, Named, StateMachine, System
@@ -19,7 +17,6 @@ _INCOMING = incoming_topic("", swarm=True)
 def topics(
     machine: StateMachine,
     system: System,
-    sent_by_any: Iterable[str],
     imports: Imports,
     report: Diagnostics,
 ) -> list[tuple[Event, Call]]:
@@ -31,8 +28,7 @@ def topics(
         event = system.event(name)
         assert isinstance(event.type, Named)
         topic, of_swarm = _place(event, name in is_sent)
-        is_feedback = event.type in imports.messages_of_actions
-        if is_feedback:
+        if event.type in imports.messages_of_actions:
             topic = feedback_topic(event, name in is_sent, report)
         check_topic(topic, event.origin, report, of_swarm=of_swarm)
         arguments = (name, Source(imports.interface(event.type, "msg")), topic)
@@ -40,9 +36,6 @@ def topics(
         keywords += [("swarm", True)] if of_swarm else []
         keywords += [("heard", True)] if name in is_heard else []
         keywords += [("sent", True)] if name in is_sent else []
-        # Action servers publish feedback reliably.
-        if not of_swarm and name not in sent_by_any and not is_feedback:
-            keywords.append(("reliable", False))
         if event.swarm and name in is_sent and _is_heard_here(event, system):
             keywords.append(("local", event.topic))
         found.append((event, Call("Topic", arguments, tuple(keywords))))

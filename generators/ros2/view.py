@@ -104,7 +104,6 @@ def package_view(
     interfaces = group_by_package(map(ported, interfaces_to_write(system, options.interfaces)), 2)
     check_described(system, options.interfaces, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
-    sent = {event for machine in machines for event in package.sent_events(machine)}
     of_actions = messages_of_actions(system)
     callbacks: dict[str, str] = {}
     for machine in machines:
@@ -116,7 +115,6 @@ def package_view(
             system,
             machine,
             modules[machine.name],
-            sent,
             Imports(of_actions),
             callbacks,
             variant,
@@ -158,7 +156,6 @@ def _machine_view(
     system: System,
     machine: StateMachine,
     module: str,
-    sent: Iterable[str],
     imports: Imports,
     callbacks: dict[str, str],
     variant: Variant,
@@ -176,7 +173,7 @@ def _machine_view(
     declared = parameters(machine, imports, report)
     if declared:
         imports.own("parameters", "Parameter")
-    heard = topics(machine, system, sent, imports, report)
+    heard = topics(machine, system, imports, report)
     check_feedback(machine, imports.messages_of_actions, report)
     if heard:
         imports.own("topics", "Topic")

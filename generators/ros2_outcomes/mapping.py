@@ -55,7 +55,11 @@ def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, 
         ("param", _EXACT, f"ROS parameter, `Parameter(`, and key of the {memory}"),
         ("sent event", _EXACT, "published by the chart: `machine.emit(`"),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
-        ("monitored topic", _EXACT, "subscribed by the chart: `Topic(` with `reliable=False`"),
+        (
+            "monitored topic",
+            _EXACT,
+            "subscribed by the chart, reliable if its publishers are: `heard=True`",
+        ),
         (
             "monitored feedback of an action",
             _EXACT,

@@ -121,7 +121,7 @@ class Service(Server):
 class Publisher:
     def __init__(self, topic, type_):
         self._class = class_of(type_, "msg")
-        self._publisher = rospy.Publisher(topic, self._class, queue_size=10)
+        self._publisher = rospy.Publisher(topic, self._class, queue_size=1000)
 
     def publish(self, fields, others):
         """Publish when there are more connections than those of `others`: the node listens.

@@ -15,7 +15,7 @@ from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import MultiThreadedExecutor
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rosgraph_msgs.msg import Clock
 
@@ -128,12 +128,23 @@ class Fakes(Node):
         else:
             self.destroy_service(server)
 
-    def do_publisher(self, topic, kind):
-        self.topics[topic] = self.create_publisher(interface(kind), topic, 10)
+    def do_publisher(self, topic, kind, depth=10, reliable=True):
+        reliability = ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT
+        qos = QoSProfile(depth=depth, reliability=reliability)
+        self.topics[topic] = self.create_publisher(interface(kind), topic, qos)
 
     def do_publish(self, topic, data, number=None):
         publisher = self.topics[topic]
         publisher.publish(fill(vary(publisher.msg_type(), number), data))
+
+    def do_burst(self, topic, field, count, size):
+        """Publish lists one right after the other, each with its number and zeros after it."""
+        publisher = self.topics[topic]
+        for number in range(count):
+            message = publisher.msg_type()
+            setattr(message, field, [number] + [0] * (size - 1))
+            publisher.publish(message)
+        self.tell(burst=topic)
 
     def do_clock(self, time):
         if "/clock" not in self.topics:

@@ -109,9 +109,9 @@ class Fakes:
         plans = [_plan(each) for each in script or ("succeeded",)]
         self.do("service", name=name, kind=type_, script=plans)
 
-    def publisher(self, topic: str, type_: str) -> None:
+    def publisher(self, topic: str, type_: str, **qos: Any) -> None:
         """Begin to publish on a topic."""
-        self.do("publisher", topic=topic, kind=type_)
+        self.do("publisher", topic=topic, kind=type_, **qos)
 
     def publish(self, topic: str, **data: Any) -> None:
         """Publish a message."""

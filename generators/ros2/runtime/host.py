@@ -13,11 +13,11 @@ from std_msgs.msg import String
 
 from . import engine, parameters
 from .alarms import Alarms, Pauses
-from .diagnostics import Diagnostics
+from .diagnostics import Diagnostics, Losses
 from .engine import Event, ExecutionError, Instance, LoopError, Machine, Servers
 from .identity import identity, SETTINGS
 from .parameters import Parameter, StartError
-from .topics import Topics
+from .topics import reliable, Topics
 from .tracing import Output, Trace
 from .values import from_json
 
@@ -33,7 +33,6 @@ _SETTINGS = (
     Parameter('trace.file', 'string', '', 'Where the trace is written to, as lines of JSON.'),
     Parameter('debug.inject', 'bool', False, 'Whether events are taken from `~/events`.'),
 )
-_DEPTH = 100
 
 
 class Behavior(NamedTuple):
@@ -116,6 +115,7 @@ class Host:
             name: function.client(node, self._group)
             for name, function in behavior.functions.items()
         }
+        self._losses = Losses(self, self._tell_lost)
         swarm = settings['swarm'] or node.get_namespace().rpartition('/')[0]
         self._topics = Topics(
             node,
@@ -125,17 +125,18 @@ class Host:
             self._group,
             lambda: self.now,
             self._receive,
+            self._losses.add,
         )
         self._types = {topic.event: topic.interface for topic in behavior.topics}
         self._injected = None
         if settings['debug.inject']:
             self._injected = node.create_subscription(
-                String, '~/events', self._inject, _DEPTH, callback_group=self._group
+                String, '~/events', self._inject, reliable(), callback_group=self._group
             )
         self._servers = Servers()
         self._pauses = Pauses()
         self._period = settings['diagnostics.period']
-        self._diagnostics = Diagnostics(node, behavior.machine.name, self._member)
+        self._diagnostics = Diagnostics(node, behavior.machine.name, self._member, self._losses)
         self._output = Output(node, behavior.machine.name, self._member, settings['trace.file'])
         self._is_configured = True
         if self._period > 0:
@@ -329,6 +330,10 @@ class Host:
         if self._instance is not None and self._instance.running:
             self._trace.begin(self._instance, event)
             self._instance.receive(event)
+
+    def _tell_lost(self, counts):
+        if self._instance is not None and self._instance.running:
+            self._trace.begin(self._instance, Event('node.lost', counts))
 
     def _inject(self, message):
         """Process an event in the format of `swarmc simulate --events`: a line of JSON."""

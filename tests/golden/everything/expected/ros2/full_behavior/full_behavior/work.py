@@ -253,7 +253,7 @@ TOPICS = (
     # model.swarm:11
     Topic('Seen', full.msg.Found, 'seen', swarm=True, heard=True, sent=True),
     # model.swarm:10
-    Topic('Low', sensor_msgs.msg.BatteryState, 'battery', heard=True, reliable=False),
+    Topic('Low', sensor_msgs.msg.BatteryState, 'battery', heard=True),
 )
 
 FUNCTIONS = {

@@ -205,11 +205,11 @@ STATES = tree(
 
 TOPICS = (
     # model.swarm:40
-    Topic('E', language.msg.M, 'e', heard=True, reliable=False),
+    Topic('E', language.msg.M, 'e', heard=True),
     # model.swarm:71
-    Topic('Battery', my_msgs.msg.Level, 'battery', heard=True, reliable=False),
+    Topic('Battery', my_msgs.msg.Level, 'battery', heard=True),
     # model.swarm:41
-    Topic('F', std_msgs.msg.Empty, 'f', heard=True, reliable=False),
+    Topic('F', std_msgs.msg.Empty, 'f', heard=True),
     # model.swarm:39
     Topic('X', language.msg.M, 'x', swarm=True, heard=True, sent=True),
     # events.swarm:16

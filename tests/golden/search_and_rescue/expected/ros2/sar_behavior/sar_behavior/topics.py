@@ -10,7 +10,13 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 from .engine import Event
 from .values import SECOND, to_json
 
-_DEPTH = 10
+try:
+    from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
+except ImportError:  # humble
+    from rclpy.qos_event import SubscriptionEventCallbacks, UnsupportedEventTypeError
+
+DEPTH = 10_000
+"""Number of messages of an event that may wait; a burst is heard whole, as in ROS 1."""
 _OF_ROS, _OF_BRIDGE = 'std_msgs/Header', 'swarmros/EventHeader'
 _ECHO = 2 * SECOND
 """Time in which an event of the node itself may arrive on its topic, in nanoseconds."""
@@ -21,8 +27,7 @@ class Topic(NamedTuple):
     An event and its topic.
 
     The topic of a swarm event is in the namespace of the swarm; `local` is a topic of the robot on
-    which it is sent too. `reliable` events are sent again until they arrive; subscriptions to
-    sensors are best effort and match any publisher.
+    which it is sent too.
     """
 
     event: str
@@ -31,14 +36,18 @@ class Topic(NamedTuple):
     swarm: bool = False
     heard: bool = False
     sent: bool = False
-    reliable: bool = True
     local: str = ''
 
 
 class Topics:
-    """The publishers and subscriptions of a node."""
+    """
+    The publishers and subscriptions of a node.
 
-    def __init__(self, node, topics, swarm, member, group, clock, hear):
+    `hear` is called with each event, `drop` with the name of an event, the number of its messages
+    that were lost, and whether they were sent reliably.
+    """
+
+    def __init__(self, node, topics, swarm, member, group, clock, hear, drop):
         self._node = node
         self._member = member
         self._clock = clock
@@ -59,15 +68,9 @@ class Topics:
             if topic.heard:
                 if topic.swarm and topic.sent:
                     self._echoes[topic.event] = []
+                hear_event = self._listener(topic.event)
                 self._subscriptions.append(
-                    node.create_subscription(
-                        topic.interface,
-                        name,
-                        self._listener(topic.event),
-                        _qos(topic),
-                        callback_group=group,
-                        qos_overriding_options=QoSOverridingOptions.with_default_policies(),
-                    )
+                    _Subscription(node, topic, name, group, hear_event, drop)
                 )
 
     def send(self, event):
@@ -90,7 +93,7 @@ class Topics:
     def release(self):
         """Destroy all publishers and subscriptions."""
         for each in self._subscriptions:
-            self._node.destroy_subscription(each)
+            each.destroy()
         for publishers in self._publishers.values():
             for each in publishers:
                 self._node.destroy_publisher(each)
@@ -99,7 +102,7 @@ class Topics:
         return self._node.create_publisher(
             topic.interface,
             name,
-            _qos(topic),
+            reliable(),
             callback_group=group,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
@@ -125,16 +128,70 @@ class Topics:
         return False
 
 
+class _Subscription:
+    """
+    A subscription to an event, which matches every publisher.
+
+    It is reliable, and a message that the network drops is sent again, until a publisher comes
+    that is best effort, such as many sensors; then it is best effort.
+    """
+
+    def __init__(self, node, topic, name, group, hear, drop):
+        self._node = node
+        self._topic = topic
+        self._name = name
+        self._group = group
+        self._hear = hear
+        self._drop = drop
+        overriding = QoSOverridingOptions.with_default_policies()
+        self._made = self._subscribe(reliable(), qos_overriding_options=overriding)
+
+    def destroy(self):
+        """End the subscription."""
+        self._node.destroy_subscription(self._made)
+
+    @property
+    def _is_reliable(self):
+        return self._made.qos_profile.reliability is not ReliabilityPolicy.BEST_EFFORT
+
+    def _subscribe(self, qos, **options):
+        options.update(callback_group=self._group)
+        arguments = (self._topic.interface, self._name, self._hear, qos)
+        events = SubscriptionEventCallbacks(incompatible_qos=self._match, message_lost=self._lose)
+        try:
+            return self._node.create_subscription(*arguments, **options, event_callbacks=events)
+        except UnsupportedEventTypeError:
+            # The middleware does not tell what it loses; it matches all publishers.
+            return self._node.create_subscription(*arguments, **options)
+
+    def _match(self, _):
+        """Match a publisher that is best effort."""
+        if not self._is_reliable:
+            return
+        self._node.get_logger().info(f'{self._name} has a publisher that is best effort')
+        earlier = self._made
+        with earlier.handle:
+            while (taken := earlier.handle.take_message(earlier.msg_type, False)) is not None:
+                self._hear(taken[0])
+        self.destroy()
+        qos = earlier.qos_profile
+        qos.reliability = ReliabilityPolicy.BEST_EFFORT
+        self._made = self._subscribe(qos)
+
+    def _lose(self, lost):
+        self._drop(self._topic.event, lost.total_count_change, self._is_reliable)
+
+
+def reliable():
+    """Return the QoS of events."""
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST,
+        depth=DEPTH,
+        reliability=ReliabilityPolicy.RELIABLE,
+    )
+
+
 def _headers(interface):
     """Return the header fields of a message, which have its time or its sender."""
     fields = interface.get_fields_and_field_types().items()
     return [(field, kind) for field, kind in fields if kind in (_OF_ROS, _OF_BRIDGE)]
-
-
-def _qos(topic):
-    reliable = topic.reliable
-    return QoSProfile(
-        history=HistoryPolicy.KEEP_LAST,
-        depth=_DEPTH,
-        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
-    )

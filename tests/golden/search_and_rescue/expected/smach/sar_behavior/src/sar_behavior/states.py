@@ -16,6 +16,8 @@ from .identity import identity
 AT_ONCE = ''
 _SAME = object()
 _OUTCOMES = ('succeeded', 'aborted', 'preempted')
+# Number of sent messages that may wait for a slow connection; rospy drops the oldest of more.
+_QUEUE = 10000
 
 
 class Event:
@@ -37,7 +39,7 @@ class Event:
         """Create the publisher, once."""
         if self._publisher is None:
             self._sender = identity().id
-            self._publisher = rospy.Publisher(self.sent_on, self.message_type, queue_size=10)
+            self._publisher = rospy.Publisher(self.sent_on, self.message_type, queue_size=_QUEUE)
 
     def send(self, message):
         """Publish a message, with its time and sender in empty headers."""
