@@ -47,9 +47,17 @@ class Source:
 
     def line_text(self, line: int) -> str:
         """Return the text of a line (counted from 1) without its end."""
-        start = self.line_starts[line - 1]
-        end = self.text.find("\n", start)
-        return self.text[start : end if end >= 0 else len(self.text)].rstrip("\r")
+        start, end = self.line_range(line)
+        return self.text[start:end]
+
+    def line_range(self, line: int) -> tuple[int, int]:
+        """Offsets of a line (counted from 1) without its end. A line can be the whole file."""
+        starts = self.line_starts
+        start = starts[line - 1]
+        end = starts[line] - 1 if line < len(starts) else len(self.text)
+        while end > start and self.text[end - 1] == "\r":
+            end -= 1
+        return start, end
 
 
 @dataclass(eq=False)
@@ -69,6 +77,10 @@ class Piece(Source):
     def line_text(self, line: int) -> str:
         """Return the text of a line of the file."""
         return self.whole.line_text(line)
+
+    def line_range(self, line: int) -> tuple[int, int]:
+        """Offsets of a line of the file, in the file."""
+        return self.whole.line_range(line)
 
 
 class Span(NamedTuple):

@@ -100,7 +100,7 @@ class Positions:
         if model is None:
             return None
         line, column = source.line_column(start)
-        room = len(source.line_text(line)) - column + 1
+        room = source.line_range(line)[1] - start
         return Position(model, line, column, max(1, min(end - start, room)))
 
     def _model(self, source: Source) -> Model | None:

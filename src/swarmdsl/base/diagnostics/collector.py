@@ -89,12 +89,14 @@ class Diagnostics:
     """
 
     # In an editor there are many, most of them empty.
-    __slots__ = ("_counts", "_found", "_levels")
+    __slots__ = ("_counts", "_found", "_levels", "has_errors")
 
     def __init__(self, levels: Mapping[str, Level] | None = None) -> None:
         self._found: dict[Diagnostic, None] = _NOTHING
         self._counts: dict[str, int] = _NO_COUNTS
         self._levels = levels or _NO_LEVELS
+        # True if a diagnostic stops the build.
+        self.has_errors = False
 
     def report(
         self,
@@ -140,6 +142,7 @@ class Diagnostics:
         if self._found is _NOTHING:
             self._found, self._counts = {}, {}
         self._found.setdefault(found)
+        self.has_errors = self.has_errors or found.severity is Severity.ERROR
         self._counts[found.name] = self.count_of(found.name) + 1
 
     def wants(self, silent: str) -> bool:
@@ -162,11 +165,6 @@ class Diagnostics:
     def count_of(self, name: str) -> int:
         """Return the number of reports with this name."""
         return self._counts.get(name, 0)
-
-    @property
-    def has_errors(self) -> bool:
-        """Return True if a diagnostic stops the build."""
-        return any(found.severity is Severity.ERROR for found in self._found)
 
     def count(self, severity: Severity) -> int:
         """Return the number of diagnostics of a severity."""

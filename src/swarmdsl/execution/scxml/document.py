@@ -14,9 +14,13 @@ SCXML = "http://www.w3.org/2005/07/scxml"
 
 _ATTRIBUTE = re.compile(r"""\s+([^\s=/>]+)\s*=\s*("[^"]*"|'[^']*')""")
 _NAME = re.compile(r"[^\s/>]+")
+_WORD = re.compile(r"\S+")
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 _DOCTYPE = "<!DOCTYPE"
 _DEEPEST = 250
+
+
+Place = tuple[int, int]
 
 
 class Node:
@@ -62,6 +66,9 @@ class Document:
         self.root = root
         # Ends of multi-byte characters.
         self.wide = [] if source.text.isascii() else list(_wide(source.text))
+        # By the offset of an element: its attributes, and the words in those that were asked for.
+        self._attributes: dict[int, dict[str, Place]] = {}
+        self._words: dict[tuple[int, str], dict[str, Place]] = {}
 
     def at(self, node: Node, attribute: str = "", word: str = "") -> Span:
         """Return the span of an element name, attribute value or word in the value."""
@@ -69,15 +76,34 @@ class Document:
         start = node.start - bisect_right(self.wide, node.start) + 1
         named = _NAME.match(text, start)
         assert named is not None
-        end = named.end()
-        given = _ATTRIBUTE.match(text, end) if attribute else None
-        while given is not None:
-            if given[1].rpartition(":")[2] == attribute:
-                start, end = given.start(2) + 1, given.end(2) - 1
-                found = re.compile(rf"(?<!\S){re.escape(word)}(?!\S)").search(text, start, end)
-                return Span(self.source, *(found.span() if word and found else (start, end)))
-            given = _ATTRIBUTE.match(text, given.end())
-        return Span(self.source, named.start(), end)
+        place = self._attributes_at(named.end()).get(attribute) if attribute else None
+        if place is None:
+            return Span(self.source, *named.span())
+        if word:
+            place = self._words_in(named.end(), attribute, place).get(word, place)
+        return Span(self.source, *place)
+
+    def _attributes_at(self, start: int) -> dict[str, Place]:
+        """Return the values of the attributes behind the name of an element; the first counts."""
+        if start not in self._attributes:
+            found: dict[str, Place] = {}
+            given = _ATTRIBUTE.match(self.source.text, start)
+            while given is not None:
+                name = given[1].rpartition(":")[2]
+                found.setdefault(name, (given.start(2) + 1, given.end(2) - 1))
+                given = _ATTRIBUTE.match(self.source.text, given.end())
+            self._attributes[start] = found
+        return self._attributes[start]
+
+    def _words_in(self, start: int, attribute: str, place: Place) -> dict[str, Place]:
+        """Return the words of a value, which can be thousands; of equal ones the first counts."""
+        key = (start, attribute)
+        if key not in self._words:
+            found: dict[str, Place] = {}
+            for word in _WORD.finditer(self.source.text, *place):
+                found.setdefault(word[0], word.span())
+            self._words[key] = found
+        return self._words[key]
 
 
 def parse(

@@ -16,6 +16,8 @@ Position = tuple[int, int]
 def position(source: Source, offset: int, encoding: str = UTF_16) -> Position:
     """Return line and character of an offset."""
     line, column = source.line_column(offset)
+    if source.text.isascii():  # known without reading it, and a line can be long
+        return line - 1, column - 1
     return line - 1, units(source.text[offset - column + 1 : offset], encoding)
 
 
@@ -32,9 +34,11 @@ def offset(source: Source, at: Position, encoding: str = UTF_16) -> int:
         return 0
     if line >= len(source.line_starts):
         return len(source.text)
-    start = source.line_starts[line]
-    text = source.line_text(line + 1)
-    if encoding == "utf-32" or text.isascii():
+    start, end = source.line_range(line + 1)
+    if encoding == "utf-32" or source.text.isascii():
+        return min(start + max(character, 0), end)
+    text = source.text[start:end]
+    if text.isascii():
         return start + min(max(character, 0), len(text))
     count = 0
     for index, each in enumerate(text):

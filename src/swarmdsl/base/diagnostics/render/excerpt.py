@@ -27,18 +27,19 @@ def excerpt(span: Span, width: int = WIDTH) -> Excerpt:
 
     Marks of a longer span end with its first line; an empty span has one cell.
     """
-    line, column = span.source.line_column(span.start)
-    text = span.source.line_text(line)
-    first = min(column - 1, len(text))
-    last = min(first + max(span.end - span.start, 0), len(text.rstrip()))
+    source, start, end = span.absolute
+    text = source.text
+    begin, stop = source.line_range(source.line_column(start)[0])
+    first = min(start, stop)
+    last = min(first + max(end - start, 0), _end_without_blanks(text, begin, stop))
     # Of a very long line only what is near can be shown: most characters take a cell or more.
     near = _NEAR * width
     parts = (
-        text[max(0, first - near) : first],
+        text[max(begin, first - near) : first],
         text[first : min(last, first + near)],
-        text[last : last + near],
+        text[last : min(stop, last + near)],
     )
-    before, marked, after = ("".join(map(_shown, part)) for part in parts)
+    before, marked, after = map(_shown, parts)
     if cell_len(before + marked + after) > width:
         before = _last_cells(before, max(_CONTEXT, width - cell_len(marked + after) - 1))
         marked = _first_cells(marked, width - cell_len(before))
@@ -46,8 +47,21 @@ def excerpt(span: Span, width: int = WIDTH) -> Excerpt:
     return Excerpt((before + marked + after).rstrip(), cell_len(before), max(cell_len(marked), 1))
 
 
-def _shown(character: str) -> str:
-    return _TAB if character == "\t" else printable(character)
+def _end_without_blanks(text: str, begin: int, stop: int) -> int:
+    """Return where a line ends without the blanks at its end, which are read alone."""
+    size = 64
+    while stop > begin:
+        piece = text[max(begin, stop - size) : stop]
+        blanks = len(piece) - len(piece.rstrip())
+        stop -= blanks
+        if blanks < len(piece):
+            break
+        size *= 2
+    return stop
+
+
+def _shown(text: str) -> str:
+    return _TAB.join(map(printable, text.split("\t")))
 
 
 def cell_len(text: str) -> int:
