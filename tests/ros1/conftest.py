@@ -1,6 +1,6 @@
 """Generated packages as nodes in a graph of ROS 1, with real servers around them.
 
-They run twice: on the stand-in for smach of tests/smach, and on the real one where there is one.
+They run on the real smach where there is one, as in tests/smach, and on the stand-in elsewhere.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ _LIBRARY = ROOT / "src" / "swarmdsl" / "project" / "library" / "cpswarm"
 _DEBIAN = Path("/usr/lib/python3/dist-packages")
 
 
-def _load(name: str) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"ros1_{name}", HERE / f"{name}.py")
+def _load(name: str, folder: Path = HERE) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(f"ros1_{name}", folder / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -46,6 +46,7 @@ def _load(name: str) -> ModuleType:
     return module
 
 
+environment_module = _load("environment", HERE.parent / "smach")
 graph_module = _load("graph")
 world_module = _load("world")
 
@@ -61,21 +62,16 @@ def graph() -> Iterator[Any]:
     made.stop()
 
 
-@pytest.fixture(scope="session", params=["stand-in", "real"])
-def smach_path(request: pytest.FixtureRequest) -> tuple[Path, ...]:
-    """The folders of the smach to run on: the stand-in, then the real one where there is one."""
-    if request.param == "stand-in":
-        return (STAND_IN,)
-    if "SWARMDSL_SMACH_PATH" in os.environ:
-        return tuple(map(Path, os.environ["SWARMDSL_SMACH_PATH"].split(os.pathsep)))
-    code = "import smach, smach_ros"
+@pytest.fixture(scope="session")
+def smach_path() -> tuple[Path, ...]:
+    """The folders of the smach to run on: the real one where there is one, else the stand-in."""
     python = graph_module.PYTHON
-    if (
-        not python.exists()
-        or subprocess.run([python, "-c", code], stderr=subprocess.DEVNULL, check=False).returncode
-    ):
-        pytest.skip("no real smach here; SWARMDSL_SMACH_PATH names the folders of it")
-    return ()
+    if "SWARMDSL_SMACH_PATH" not in os.environ and python.exists():
+        command = [python, "-c", "import smach, smach_ros"]
+        if subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode == 0:
+            return ()
+    found: tuple[Path, ...] = environment_module.installed(STAND_IN)
+    return found or (STAND_IN,)
 
 
 class Workspace:

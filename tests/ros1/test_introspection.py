@@ -11,7 +11,7 @@ TOPIC = "smach_server/smach/container_status"
 
 def test_status_of_the_containers(world: World, smach_path: tuple[Any, ...]) -> None:
     if any(folder.name == "stand_in" for folder in smach_path):
-        pytest.skip("the stand-in shows nothing")
+        pytest.skip("no real smach_ros: SWARMDSL_SMACH_PATH names the folders of it")
     uav = world(example="search_and_rescue")
     uav.serve()
     uav.peers.order("listen", TOPIC, type="smach_msgs/SmachContainerStatus")

@@ -29,15 +29,16 @@ from .domains import free_domain
 HERE = Path(__file__).parent
 
 
-def load_module(name: str) -> ModuleType:
-    """A module beside this file."""
-    if f"ros2_{name}" in sys.modules:
-        return sys.modules[f"ros2_{name}"]
-    spec = importlib.util.spec_from_file_location(f"ros2_{name}", HERE / f"{name}.py")
+def load_module(name: str, folder: Path = HERE) -> ModuleType:
+    """A module beside this file, or in another folder."""
+    key = f"{folder.name}_{name}"
+    if key in sys.modules:
+        return sys.modules[key]
+    spec = importlib.util.spec_from_file_location(key, folder / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    sys.modules[f"ros2_{name}"] = module
+    sys.modules[key] = module
     spec.loader.exec_module(module)
     return module
 

@@ -1,7 +1,8 @@
 """Generated nodes that run their machines in a library: what they do is what the engine does.
 
-They run on stand-ins for YASMIN and SMACH, and on the real ones where SWARMDSL_YASMIN_PATH and
-SWARMDSL_SMACH_PATH name the folders of their packages for ROS 2. As for all nodes here, their
+They run on a stand-in for YASMIN, and on the real one where SWARMDSL_YASMIN_PATH names the folders
+of its packages; on the real SMACH where there is one, as in tests/smach, and on the stand-in
+elsewhere. As for all nodes here, their
 traces are those of the model.
 """
 
@@ -9,12 +10,14 @@ from __future__ import annotations
 
 import os
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from .conftest import load_module
 
 HERE = Path(__file__).resolve().parent
 TAKE_OFF = ("/sar/uav_0/cmd/takeoff", "uav_mavros_takeoff/action/TakeOff")
@@ -203,17 +206,30 @@ SMACH = Library(
 )
 
 
+def real(library: Library) -> Sequence[Path]:
+    """The folders of a real library, those to prefer last; none if there is none."""
+    if library is SMACH:
+        environment = load_module("environment", HERE.parent / "smach")
+        return tuple(reversed(environment.installed(HERE / "smach_stand_in")))
+    return [Path(each) for each in os.environ.get(library.real, "").split(os.pathsep) if each]
+
+
+# Where the real SMACH is installed, the stand-in would only cost time.
+KINDS = [(YASMIN, False), (YASMIN, True), (SMACH, False), (SMACH, True)]
+if real(SMACH):
+    KINDS.remove((SMACH, False))
+
+
 @pytest.fixture(
-    params=[(each, is_real) for each in (YASMIN, SMACH) for is_real in (False, True)],
-    ids=lambda each: f"{each[0].name}-{'real' if each[1] else 'stand-in'}",
+    params=KINDS, ids=lambda each: f"{each[0].name}-{'real' if each[1] else 'stand-in'}"
 )
 def library(request: pytest.FixtureRequest, ros: Any) -> Library:
     """A library that nodes can import."""
     found, is_real = request.param
-    if is_real and found.real not in os.environ:
-        pytest.skip(f"no real {found.name} here; {found.real} names the folders of it")
-    real = map(Path, os.environ.get(found.real, "").split(os.pathsep))
-    for place in real if is_real else found.stand_in:
+    places = real(found) if is_real else found.stand_in
+    if not places:
+        pytest.skip(f"no real {found.name}: {found.real} names the folders of it")
+    for place in places:
         ros.prefer(place)
     made: Library = found
     return made

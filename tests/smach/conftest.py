@@ -1,8 +1,8 @@
 """Generated packages, built and run in this process against a ROS of one process.
 
-The machines run twice: on the stand-in for smach beside this file, and on the real smach and
-smach_ros where SWARMDSL_SMACH_PATH names the folders they are in, or Python's or the system's
-modules have them.
+The machines run twice: on the stand-in for smach beside this file, and on the real smach where the
+system has it, where SWARMDSL_SMACH_PATH names its folders, or where `environment.py` has installed
+it.
 """
 
 from __future__ import annotations
@@ -43,6 +43,7 @@ def _load(name: str) -> ModuleType:
     return module
 
 
+environment = _load("environment")
 fake_ros = _load("fake_ros")
 active = _load("active")
 
@@ -88,19 +89,20 @@ def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str,
 
 @functools.cache
 def _real_smach() -> tuple[str, ...]:
-    """The folders that the real smach and smach_ros are imported from."""
+    """The folders that the real smach and smach_ros are imported from, those to prefer last."""
     if "SWARMDSL_SMACH_PATH" in os.environ:
-        return tuple(os.environ["SWARMDSL_SMACH_PATH"].split(os.pathsep))
+        return tuple(map(str, reversed(environment.installed(STAND_IN))))
     code = (
         "import importlib.util, pathlib\n"
         "for name in ('smach', 'smach_ros'):\n"
         "    print(pathlib.Path(importlib.util.find_spec(name).origin).parents[1])"
     )
     python = Path("/usr/bin/python3")
-    if not python.exists():
-        return ()
-    found = subprocess.run([python, "-c", code], capture_output=True, text=True, check=False)
-    return tuple(found.stdout.split()) if found.returncode == 0 else ()
+    if python.exists():
+        found = subprocess.run([python, "-c", code], capture_output=True, text=True, check=False)
+        if found.returncode == 0:
+            return tuple(found.stdout.split())
+    return tuple(map(str, reversed(environment.installed(STAND_IN))))
 
 
 @pytest.fixture(params=["stand-in", "real"])
@@ -109,7 +111,7 @@ def smach_path(request: pytest.FixtureRequest) -> tuple[str, ...]:
     if request.param == "stand-in":
         return (str(STAND_IN),)
     if not _real_smach():
-        pytest.skip("no real smach here; SWARMDSL_SMACH_PATH names the folders of it")
+        pytest.skip("no real SMACH: `python tests/smach/environment.py .smach`")
     return _real_smach()
 
 

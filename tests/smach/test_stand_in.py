@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 import sys
 import threading
 import time
@@ -192,7 +193,9 @@ def test_a_concurrence_passes_a_preempt_on(smach: Any) -> None:
     time.sleep(0.05)
     made.request_preempt()
     thread.join(60)
-    assert outcomes == ["preempted"]
+    # Before 2.5.1, which has constants too, the real one looks at the outcomes of the children.
+    is_older = "constants" not in inspect.signature(smach.StateMachine.add).parameters
+    assert outcomes == ["other" if is_real(smach) and is_older else "preempted"]
 
 
 def test_a_preempt_that_comes_too_early_is_lost(

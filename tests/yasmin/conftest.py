@@ -61,7 +61,7 @@ def yasmin_path(request: pytest.FixtureRequest) -> tuple[str, ...]:
         return (str(STAND_IN),)
     found = _real_yasmin()
     if found is None:
-        pytest.skip("no real YASMIN here; SWARMDSL_YASMIN_PATH names the folder of it")
+        pytest.skip("no real YASMIN: SWARMDSL_YASMIN_PATH names the folders of it")
     return found
 
 

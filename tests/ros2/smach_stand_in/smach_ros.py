@@ -9,6 +9,9 @@ import rclpy  # type: ignore[import-not-found]
 import smach  # type: ignore[import-not-found]
 
 smach.set_shutdown_check(lambda: not rclpy.ok())
+if hasattr(smach, "set_loggers"):  # not in the stand-in
+    logger = rclpy.logging.get_logger("smach")
+    smach.set_loggers(logger.info, logger.warning, logger.debug, logger.error)
 
 
 class IntrospectionServer:
