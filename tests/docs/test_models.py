@@ -7,13 +7,14 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.base import resources
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import render
 from swarmdsl.base.source import Source
 from swarmdsl.codegen import registry
 from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
-from swarmdsl.syntax.ast import NODES, Node, walk
+from swarmdsl.syntax.ast import NODES, MessageType, Node, walk
 from swarmdsl.syntax.parse import parse
 
 from .pages import LANGUAGE, Block, blocks
@@ -82,3 +83,27 @@ def test_the_reference_shows_every_element() -> None:
     missing = set(NODES.values()) - shown
 
     assert missing == set()
+
+
+def test_interfaces_of_the_library_are_described_as_it_does() -> None:
+    """A message of CPSwarm in the documentation has the fields that it has in the library."""
+
+    def fields(text: str) -> dict[str, list[tuple[str, str]]]:
+        model = parse(Source("a.swarm", text), Diagnostics()).model
+        return {
+            str(each.name): [(str(field.name), str(field.type.name)) for field in each.fields]
+            for each in model.declarations
+            if isinstance(each, MessageType) and "/" in str(each.name)
+        }
+
+    library: dict[str, list[tuple[str, str]]] = {}
+    for path in sorted((resources.library() / "cpswarm").rglob("*.swarm")):
+        library |= fields(path.read_text(encoding="utf-8"))
+    described = [
+        (str(block), name, found, library[name])
+        for block in MODELS
+        for name, found in fields(block.text).items()
+        if name in library
+    ]
+    assert len(described) >= 2
+    assert [each for each in described if each[2] != each[3]] == []

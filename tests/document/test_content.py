@@ -116,6 +116,52 @@ def test_a_swarm_and_its_members(sar: Page) -> None:
     assert sar.fact("Autopilot", "used by") == "Uav.pilot, Rover.pilot"
 
 
+def test_a_state_is_reached_by_transitions_only(tmp_path: Path) -> None:
+    """A trigger that waits for its end names a state, too."""
+    model = tmp_path / "model.swarm"
+    model.write_text("""
+      event Go : std_msgs/Empty
+      statemachine Land {
+        initial Down
+        state Down { on Go -> Ok  after 5 s -> Bad }
+        final Ok
+        final Bad
+      }
+      statemachine Work {
+        var n : int32 = 1
+        initial Landing
+        state Landing = Land { on done.Ok -> Next  on done.Bad -> Landing }
+        state Next {
+          initial In
+          state In { after 1 s -> Out  on Go -> Pick }
+          final Out
+          on done.Out -> Pick
+        }
+        choice Pick { [n < 2] -> Next.In  else -> Stop }
+        final Stop
+      }
+    """)
+    shown = page_of(model)
+    assert {
+        name: shown.fact(name, "reached from")
+        for name in (
+            "Land.Ok",
+            "Land.Bad",
+            "Work.Next",
+            "Work.Next.In",
+            "Work.Next.Out",
+            "Work.Stop",
+        )
+    } == {
+        "Land.Ok": "Land.Down",
+        "Land.Bad": "Land.Down",
+        "Work.Next": "Work.Landing, Work.Pick",
+        "Work.Next.In": "Work.Next, Work.Pick",
+        "Work.Next.Out": "Work.Next.In",
+        "Work.Stop": "Work.Pick",
+    }
+
+
 def test_a_state_machine(sar: Page) -> None:
     assert sar.fact("UavSearch", "initial state") == "Mission"
     assert sar.fact("UavSearch", "outcomes") == "none (endless)"

@@ -6,6 +6,7 @@ import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import Phase, given, settings
@@ -410,3 +411,74 @@ def test_random_things_in_random_models(example, added, ends, tmp_path_factory) 
             assert len(re.findall(rb"(?<!\r)\n", after[file])) == 0 or ends == "\n"
             assert (b"\r\n" in after[file]) == (ends == "\r\n")
         assert not pipeline.check([folder]).report.has_errors
+
+
+PARTS = "package parts\n\nsensor Eye { out seen : std_msgs/Empty }\n"
+ROBOTS = "/// About robots.\nmember Bot { }\n"
+MACHINES = """import "parts.swarm"
+
+event Go : std_msgs/Empty
+
+statemachine Old {
+  initial A
+  state A { on Go -> B }
+  final B
+}
+"""
+MAIN = """import "robots.swarm"
+import "machines.swarm"
+
+swarm Team { bot : Bot }
+"""
+
+
+@pytest.fixture
+def files(folder: Path) -> Path:
+    """A model of several files, of which one has robots only and imports nothing."""
+    for name, text in (
+        ("parts", PARTS),
+        ("robots", ROBOTS),
+        ("machines", MACHINES),
+        ("main", MAIN),
+    ):
+        (folder / f"{name}.swarm").write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.mark.parametrize("machine", ["New", "Old"])
+def test_what_an_element_needs_is_imported(
+    files: Path, swarmc: Callable[..., Any], machine: str
+) -> None:
+    words = ["--part", "eye:Eye", "--behavior", machine, "--to", "Team=2"]
+    ran = swarmc("add", "member", "Scout", *words)
+
+    assert (ran.code, ran.err) == (0, "")
+    imports = 'import "machines.swarm"\nimport "parts.swarm"\n'
+    robots = (files / "robots.swarm").read_text(encoding="utf-8")
+    assert robots.startswith(f"{imports}\n{ROBOTS}\nmember Scout {{\n  behavior {machine}\n")
+    machines = (files / "machines.swarm").read_text(encoding="utf-8")
+    assert ("statemachine New" in machines) is (machine == "New")
+    assert "scout : Scout[2]" in (files / "main.swarm").read_text(encoding="utf-8")
+    assert swarmc("check", "--allow", "warnings").code == 0
+
+
+def test_a_machine_goes_where_it_can_be_imported_from(
+    files: Path, swarmc: Callable[..., Any]
+) -> None:
+    """The file with the machines imports that of the robots, which thus cannot import it."""
+    path = files / "machines.swarm"
+    path.write_text(f'import "robots.swarm"\n{MACHINES}', encoding="utf-8")
+    ran = swarmc("add", "member", "Scout", "--behavior", "New")
+
+    assert (ran.code, ran.err) == (0, "")
+    assert "statemachine New" in (files / "robots.swarm").read_text(encoding="utf-8")
+    assert swarmc("check", "--allow", "warnings").code == 0
+
+
+def test_documentation_stays_above_its_declaration(
+    folder: Path, swarmc: Callable[..., Any]
+) -> None:
+    path = folder / "robots.swarm"
+    path.write_text(ROBOTS, encoding="utf-8")
+    assert swarmc("add", "event", "Go", "std_msgs/Empty").code == 0
+    assert path.read_text(encoding="utf-8") == f"event Go : std_msgs/Empty\n\n{ROBOTS}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -279,6 +280,28 @@ def test_a_param_needs_a_value(simulate: Simulate) -> None:
 
     assert (ran.code, ran.out) == (1, "")
     assert "error[SW1005]: param `limit` of `M` has no value" in ran.err
+    assert "set it in `[params]` of a scenario: `limit = ...`" in ran.err
+    assert simulate(text, scenario="[params]\nlimit = 2\n").code == 0
+
+
+def test_a_param_of_a_swarm_needs_a_value_of_its_role(simulate: Simulate) -> None:
+    """What the help says is what a scenario takes."""
+    text = """
+      endless statemachine M { param limit : float64[] initial A
+        state A { on Start [len(limit) > 1] -> A } }
+      sensor Eye { param rate : float64[] behavior N }
+      endless statemachine N { param rate : float64[] initial A
+        state A { on Start [len(rate) > 1] -> A } }
+      member Bot { param limit : float64[] behavior M eye : Eye }
+      swarm Team { bot : Bot[2] }
+    """
+    ran = simulate(text)
+
+    assert ran.code == 1
+    tables = re.findall(r"set it in `(.*)` of a scenario: `(\w+) = ...`", ran.err)
+    assert tables == [("[params.bot]", "limit"), ('[params."bot.eye"]', "rate")]
+    scenario = "".join(f"{table}\n{name} = [1.0, 2.0]\n" for table, name in tables)
+    assert simulate(text, scenario=scenario).code == 0
 
 
 @pytest.mark.parametrize(

@@ -293,3 +293,10 @@ def test_durations(written: str, length: int | None, again: str) -> None:
     assert duration(written) == length
     if length is not None:
         assert format_duration(length) == again
+
+
+def test_no_trace_and_a_file_for_it(simulate: Simulate) -> None:
+    ran = simulate(SWARM, "--trace", "none", "--trace-file", "run.jsonl", scenario=SCENARIO)
+
+    assert ran.code == 2
+    assert "`--trace none` and `--trace-file` conflict: omit one of them" in ran.err

@@ -98,6 +98,8 @@ def simulate(
     for name, value in (("events", events), ("trace", trace), ("trace-file", trace_file)):
         if replay and value is not None:
             raise click.UsageError(f"`--replay` and `--{name}` conflict")
+    if trace == "none" and trace_file is not None:
+        raise click.UsageError("`--trace none` and `--trace-file` conflict: omit one of them")
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
     request = Request(

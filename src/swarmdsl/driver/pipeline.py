@@ -53,8 +53,8 @@ def check(paths: Sequence[Path], settings: Settings = _DEFAULTS) -> Result:
     link(project, report)
     validate(project, report)
     if report.has_errors:
-        return Result(report, len(project.files))
-    return Result(report, len(project.files), project, settings.name)
+        return Result(report, project.size)
+    return Result(report, project.size, project, settings.name)
 
 
 def build(

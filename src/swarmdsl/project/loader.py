@@ -78,6 +78,11 @@ class Project:
 
     files: list[File] = field(default_factory=list)
 
+    @property
+    def size(self) -> int:
+        """Number of files, without those of libraries unless there are no others."""
+        return sum(not file.library for file in self.files) or len(self.files)
+
     def declarations(self) -> Iterator[tuple[File, Declaration]]:
         """Yield all top-level declarations with their files."""
         for file in self.files:

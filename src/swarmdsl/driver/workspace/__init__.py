@@ -122,8 +122,8 @@ class Workspace:
 
     @property
     def files(self) -> int:
-        """Number of files."""
-        return len(self.project.files)
+        """Number of files, without those of libraries."""
+        return self.project.size
 
     def file(self, path: Path) -> File | None:
         """Return a file of the model or of its imports, else None."""

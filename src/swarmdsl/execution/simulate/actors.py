@@ -56,7 +56,7 @@ def actors(
                     param.origin,
                     name=param.name,
                     machine=machine.name,
-                    help=f"set it in `[params]` of a scenario: `{param.name} = ...`",
+                    help=f"set it in `{_table(robot, part)}` of a scenario: `{param.name} = ...`",
                 )
             if not missing:
                 data = first_data(machine, subject.system, given, robot)
@@ -66,6 +66,13 @@ def actors(
     if not made and not report.has_errors:
         report.report("nothing-to-simulate", help=f"give a member of `{subject.name}` a `behavior`")
     return made
+
+
+def _table(robot: Robot, part: ir.Part | None) -> str:
+    """Return the table of a scenario with the params of a role, or of a machine alone."""
+    if not robot.role:
+        return "[params]"
+    return f"[params.{robot.role}]" if part is None else f'[params."{robot.role}.{part.name}"]'
 
 
 def params(

@@ -84,7 +84,7 @@ def _state(element: Element, builder: EntryBuilder) -> Entry:
         case History():
             facts.append(("default", (builder.names.code(node.target.span, element),)))
     facts.append(("regions" if isinstance(node, Parallel) else "states", links(inside)))
-    facts.append(("reached from", builder.used_by(element)))
+    facts.append(("reached from", links(builder.names.sources(element))))
     tables = (Table("Transitions", _COLUMNS, tuple(rows)),)
     return builder.entry(element, facts, tables, has_code=False)
 

@@ -11,7 +11,19 @@ from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.references import occurrences
 from swarmdsl.project.loader import File, Project
-from swarmdsl.syntax.ast import Documented, Interface, Node, TopLevel, TypeRef, nodes_of
+from swarmdsl.syntax.ast import (
+    Branch,
+    Documented,
+    History,
+    Initial,
+    Interface,
+    Node,
+    StateMachine,
+    TopLevel,
+    Transition,
+    TypeRef,
+    nodes_of,
+)
 from swarmdsl.syntax.types import Array, Named, Type
 from swarmdsl.tools.document.elements import Element, Elements
 from swarmdsl.tools.document.page import Code, Fragment
@@ -31,11 +43,17 @@ class NameResolver:
         for top in elements.tops:
             if isinstance(top.node, Interface):
                 self._by_type.setdefault(interface_name(top.file, top.name), top)
-        self._users = self._find_users()
+        self._users: dict[Element, dict[Element, None]] = {}
+        self._sources: dict[Element, dict[Element, None]] = {}
+        self._find_users()
 
     def users(self, element: Element) -> list[Element]:
         """Elements that refer to an element, without duplicates, in source order."""
         return list(self._users.get(element, ()))
+
+    def sources(self, state: Element) -> list[Element]:
+        """Elements from which a transition, a branch or an initial state leads to a state."""
+        return list(self._sources.get(state, ()))
 
     def type(self, type_: Type | None) -> Element | None:
         """Element of the interface that a type or its array element names, if documented."""
@@ -84,15 +102,27 @@ class NameResolver:
             if target is not None and not each.declares:
                 yield each.span.start, each.span.end, target
 
-    def _find_users(self) -> dict[Element, dict[Element, None]]:
-        users: dict[Element, dict[Element, None]] = {}
+    def _find_users(self) -> None:
         for top in self.elements.tops:
             source = top.node.span.source
+            targets = {at for place in _targets(top.node) for at in range(place.start, place.end)}
             for start, end, target in self._links_of(top):
                 user = self.elements.at(Span(source, start, end))
                 if user is not None and user is not target:
-                    users.setdefault(target, {})[user] = None
-        return users
+                    self._users.setdefault(target, {})[user] = None
+                    if start in targets:
+                        self._sources.setdefault(target, {})[user] = None
+
+
+def _targets(node: Node) -> Iterator[Span]:
+    """Yield the places in a declaration that name a state to go to."""
+    if not isinstance(node, StateMachine):
+        return
+    ways: list[Transition | Branch | Initial | History] = [*nodes_of(node, Transition)]
+    ways += nodes_of(node, Branch)
+    ways += nodes_of(node, Initial)
+    ways += nodes_of(node, History)
+    yield from (way.target.span for way in ways if way.target is not None)
 
 
 def doc_of(node: Node) -> str:

@@ -31,8 +31,12 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.formatter import format_source
 from swarmdsl.syntax.parse import parse
 from swarmdsl.tools.refactor import insertion_point
+from swarmdsl.tools.refactor.imports import importable_files, missing_import
 from swarmdsl.tools.refactor.names import NamedElement, all_elements, find_elements, suggest_path
 from swarmdsl.tools.scaffold.names import command_line_span
+
+# One element names few others.
+_MOST_IMPORTS = 10
 
 Insertion = tuple[File, Change]
 FindInsertion = Callable[[Workspace, Diagnostics], Insertion | None]
@@ -80,15 +84,13 @@ def add(
         found = find_insertion(workspace, report)
         if report.has_errors:
             return AddResult(report, workspace.files)
-        if found is None:
-            continue
-        file, change = found
-        path = Path(file.source.name)
-        start, end, text = change = _align(file, change)
-        layout = rewritten(str(path), contents.get(path, path.read_bytes()), [change])
-        contents[path] = layout.after
-        whole = file.source.text
-        workspace.update({path: whole[:start] + text + whole[end:]})
+        if found is not None:
+            _insert(*found, workspace, contents)
+    for _ in range(_MOST_IMPORTS):
+        missing = missing_import(workspace, _new_diagnostics(before, workspace.report))
+        if missing is None:
+            break
+        _insert(*missing, workspace, contents)
     report.include(_new_diagnostics(before, workspace.report))
     layouts = [Layout(str(path), path.read_bytes(), text) for path, text in contents.items()]
     names, named = [layout.name for layout in layouts], [given_file] if given_file else []
@@ -97,6 +99,16 @@ def add(
     if not (dry_run or write(layouts, report)):
         return AddResult(report, workspace.files)
     return AddResult(report, workspace.files, layouts)
+
+
+def _insert(file: File, change: Change, workspace: Workspace, contents: dict[Path, bytes]) -> None:
+    """Apply a change to the workspace, and to the contents that are written."""
+    path = Path(file.source.name)
+    start, end, text = change = _align(file, change)
+    layout = rewritten(str(path), contents.get(path, path.read_bytes()), [change])
+    contents[path] = layout.after
+    whole = file.source.text
+    workspace.update({path: whole[:start] + text + whole[end:]})
 
 
 def _align(file: File, change: Change) -> Change:
@@ -147,9 +159,14 @@ def declaration(name: str, text: str, to: Path | None = None) -> FindInsertion:
     return find_insertion
 
 
-def insert_if_absent(name: str, text: str) -> FindInsertion:
-    """Insert a declaration unless some file declares the name."""
-    insert = declaration(name, text)
+def machine_if_absent(
+    name: str, text: str, user: type[Declaration], to: Path | None
+) -> FindInsertion:
+    """Insert a state machine unless some file declares the name.
+
+    The file of a new declaration of kind `user`, which is `to` or the one that fits best, can
+    import its file.
+    """
 
     def find_insertion(workspace: Workspace, report: Diagnostics) -> Insertion | None:
         declared = any(
@@ -157,7 +174,13 @@ def insert_if_absent(name: str, text: str) -> FindInsertion:
             for file in workspace.project.files
             for known in file.model.declarations
         )
-        return None if declared else insert(workspace, report)
+        if declared:
+            return None
+        files = [file for file in workspace.project.files if not file.library]
+        home = _model_file(workspace, name, to, report) if to is not None else None
+        home = home or insertion_point.best_file(files, user)
+        file = insertion_point.best_file(importable_files(files, home), StateMachine)
+        return declaration(name, text, Path(file.source.name))(workspace, report)
 
     return find_insertion
 

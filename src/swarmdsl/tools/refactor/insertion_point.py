@@ -86,8 +86,20 @@ def declaration(file: File, kind: type, text: str) -> Change:
         return _below(file, max(each.span.absolute.end for each in top), f"\n{lines}")
     if declared:
         first = min(each.span.absolute.start for each in declared)
-        return _above(file, first, f"{lines}\n")
+        return _above(file, _with_documentation(file, first), f"{lines}\n")
     return _below(file, len(file.source.text), lines)
+
+
+def import_statement(file: File, line: str) -> Change:
+    """Insert an import below the others, or above the declarations and their documentation."""
+    model = file.model
+    if model.imports:
+        return _below(file, max(each.span.absolute.end for each in model.imports), line)
+    if model.package is not None:
+        return _below(file, model.package.span.absolute.end, f"\n{line}")
+    starts = (each.span.absolute.start for each in model.declarations)
+    first = min(starts, default=len(file.source.text))
+    return _above(file, _with_documentation(file, first), f"{line}\n")
 
 
 def line_in(file: File, owner: Node, items: Sequence[Node], text: str) -> Change:
@@ -121,6 +133,17 @@ def state(file: File, container: Container, name: str, text: str) -> Change:
     if neighbors:
         return _below(file, max(each.span.absolute.end for each in neighbors), lines)
     return _below(file, _brace(file, container) + 1, lines)
+
+
+def _with_documentation(file: File, at: int) -> int:
+    """Return the start of the comments that document a declaration, or its own."""
+    text = file.source.text
+    start = text.rfind("\n", 0, at) + 1
+    while (above := text.rfind("\n", 0, max(start - 1, 0)) + 1) < start:
+        if not text[above:start].lstrip().startswith("///"):
+            break
+        at = start = above
+    return at
 
 
 def _is_separated(file: File, states: Sequence[Node]) -> bool:

@@ -11,12 +11,12 @@ from typing import Any
 from swarmdsl.base.errors import UsageError
 from swarmdsl.base.naming import snake_case
 from swarmdsl.importing.update.merging import doc_comment
-from swarmdsl.syntax.ast import Member, Swarm
+from swarmdsl.syntax.ast import Component, Member, Swarm
 from swarmdsl.tools.refactor import element_text
 from swarmdsl.tools.refactor.add import (
     FindInsertion,
     declaration,
-    insert_if_absent,
+    machine_if_absent,
     part_of,
     transition,
 )
@@ -35,7 +35,7 @@ def component(options: Options) -> list[FindInsertion]:
         *_behaviour(options),
     ]
     text = element_text.block(options["doc"], f"{options['kind']} {name}{_base(options)}", lines)
-    insertions = [*_machine(options), declaration(name, text, options["file"])]
+    insertions = [*_machine(options, Component), declaration(name, text, options["file"])]
     if options["to"]:
         owner, _, part = options["to"].partition(".")
         part = part or snake_case(name)
@@ -54,7 +54,7 @@ def member(options: Options) -> list[FindInsertion]:
     groups = [group for group in (head, list(parts), list(connectors)) if group]
     lines = [line for group in groups for line in ("", *group)][1:]
     text = element_text.block(options["doc"], f"member {name}{_base(options)}", lines)
-    insertions = [*_machine(options), declaration(name, text, options["file"])]
+    insertions = [*_machine(options, Member), declaration(name, text, options["file"])]
     if options["to"]:
         swarm_name, _, count = options["to"].partition("=")
         (line,) = element_text.roles([f"{name}={count}" if count else name])
@@ -135,13 +135,16 @@ def _behaviour(options: Options) -> list[str]:
     return [f"behavior {options['behavior']}"] if options["behavior"] else []
 
 
-def _machine(options: Options) -> Sequence[FindInsertion]:
+def _machine(options: Options, user: type[Component] | type[Member]) -> Sequence[FindInsertion]:
     """State machine of a new element, unless it exists."""
     name = options["behavior"]
     if not name:
         return ()
     return (
-        insert_if_absent(
-            name, element_text.machine(name, f"The behaviour of `{options['name']}`.")
+        machine_if_absent(
+            name,
+            element_text.machine(name, f"The behaviour of `{options['name']}`."),
+            user,
+            options["file"],
         ),
     )
