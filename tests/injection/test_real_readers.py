@@ -80,7 +80,7 @@ def numbered(found: Mapping[str, str]) -> dict[int, str]:
     return {int(name[1]): text for name, text in matches if name}
 
 
-def same(found: Mapping[int, str], at_least: int) -> None:
+def check_same(found: Mapping[int, str], at_least: int) -> None:
     """Expect the hostile strings under their numbers."""
     assert found == {number: HOSTILE[number] for number in found}
     assert len(found) >= at_least
@@ -100,7 +100,7 @@ found = [{each.name: getattr(made, each.name) for each in spec.constants}, made.
 
 def test_messages_of_ros_1(files: Any, ros1: Any) -> None:
     constants, _ = ros1(_MESSAGE_1, files("smach")["hostile/msg/Found.msg"])
-    same(numbered(constants), len(HOSTILE) - 20)
+    check_same(numbered(constants), len(HOSTILE) - 20)
 
 
 def test_comments_of_messages_of_ros_1(make: Make, ros1: Any) -> None:
@@ -133,7 +133,7 @@ with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.Stri
 
 def test_messages_of_ros_2(files: Any, ros2: Any) -> None:
     constants, _ = ros2(_MESSAGE_2, files("ros2")["hostile/msg/Found.msg"])
-    same(numbered(constants), len(HOSTILE) - 20)
+    check_same(numbered(constants), len(HOSTILE) - 20)
 
 
 def test_comments_of_messages_of_ros_2(make: Make, ros2: Any) -> None:
@@ -157,7 +157,7 @@ with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
 
 def test_parameters_of_ros_2(files: Any, ros2: Any) -> None:
     text = files("ros2")["hostile_behavior/config/team/bot.yaml"]
-    same(numbered(ros2(_PARAMETERS_2, text)), len(HOSTILE))
+    check_same(numbered(ros2(_PARAMETERS_2, text)), len(HOSTILE))
 
 
 _LAUNCH = """
@@ -173,7 +173,7 @@ found = {name: each.value for name, each in config.params.items()}
 
 def test_launch_files_of_ros_1(files: Any, ros1: Any) -> None:
     found = ros1(_LAUNCH, files("composition")["team/launch/bot.launch"])
-    same(numbered(found), len(HOSTILE) - 6)
+    check_same(numbered(found), len(HOSTILE) - 6)
 
 
 @pytest.fixture(scope="session")
@@ -205,7 +205,7 @@ def test_strings_of_cpp(files: Any, compiler: str, standard: str, ros: str, tmp_
         size, _, out = out.partition(b"\n")
         found.append(out[: int(size)].decode())
         out = out[int(size) :]
-    same(numbered(dict(zip(literals, found, strict=True))), len(HOSTILE))
+    check_same(numbered(dict(zip(literals, found, strict=True))), len(HOSTILE))
 
 
 @pytest.mark.parametrize("ros", ["1", "2"])
@@ -250,4 +250,4 @@ def test_expressions_of_scxml(files: Any) -> None:
             [node, "-e", script],
             input=json.dumps(texts), capture_output=True, text=True, check=True,
         )  # fmt: skip
-        same(numbered(json.loads(ran.stdout)), len(HOSTILE))
+        check_same(numbered(json.loads(ran.stdout)), len(HOSTILE))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import is_dataclass
 from math import isfinite
 from typing import Any, TypeVar, cast
 
@@ -32,10 +31,15 @@ def with_names(node: T) -> T:
         return cast("T", VariableRef(node.name, node.type)) if node.name else node
     if isinstance(node, tuple):
         return cast("T", tuple(map(with_names, node)))
-    if isinstance(node, (Primitive, Named, Array, Span)) or not is_dataclass(node):
+    if isinstance(node, (Primitive, Named, Array, Span)) or not _is_record(node):
         return node
     changed = {name: with_names(getattr(node, name)) for name in fields_of(type(node))}
     return cast("T", replace(cast("Any", node), **changed))
+
+
+def _is_record(value: object) -> bool:
+    """Return True for a dataclass; its module is slow to import."""
+    return hasattr(type(value), "__dataclass_fields__")
 
 
 def _distance(coordinates: Sequence[str]) -> str:
