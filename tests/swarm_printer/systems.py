@@ -67,7 +67,7 @@ docs = st.sampled_from(
         "Two\n\n  lines",
         "/ // x",
         'a "b" {',
-        "a*/ /* \u2028b\x85c\\",
+        "a*/ /* \u2028b\\",
         "\\u0041",
     ]
 )
