@@ -7,7 +7,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import NamedTuple
 
-from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.naming import snake_case
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
@@ -177,4 +176,8 @@ def file_name(origin: Span) -> str:
 @cache
 def _last_name(path: str) -> str:
     name = " ".join(path.replace("\\", "/").rsplit("/", 1)[-1].split())
-    return _ENCODING.sub("_", printable(name))
+    if not name.isprintable():
+        from swarmdsl.base.diagnostics.render.printable import printable  # few names need it
+
+        name = printable(name)
+    return _ENCODING.sub("_", name)
