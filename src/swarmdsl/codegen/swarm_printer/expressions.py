@@ -39,7 +39,7 @@ def with_names(node: T) -> T:
 
 def _is_record(value: object) -> bool:
     """Return True for a dataclass; its module is slow to import."""
-    return hasattr(type(value), "__dataclass_fields__")
+    return "__parts__" in vars(type(value))
 
 
 def _distance(coordinates: Sequence[str]) -> str:
