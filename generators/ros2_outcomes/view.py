@@ -14,7 +14,7 @@ from .structure import Kind, Node, Structure
 
 STEP = "    "
 _OWN = (
-    *(("following", "Chart"), ("following", "Way"), ("node", "run")),
+    *(("following", "Chart"), ("node", "run")),
     *(("runner", "Fsm"), ("runner", "in_node_of_its_own")),
 )
 
@@ -45,11 +45,13 @@ class ChartView:
     ways: str
 
 
-def imports_of(chart: str) -> Imports:
+def imports_of(chart: str, structure: Structure) -> Imports:
     """Return the imports of a module whose chart is in the module of that name."""
     imports = Imports({})
     for own, name in _OWN:
         imports.own(own, name)
+    if any(each for found in structure.transitions.values() for each in found):
+        imports.own("following", "Way")
     imports.own(chart, "BEHAVIOR")
     return imports
 

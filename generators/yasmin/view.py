@@ -59,7 +59,7 @@ def fsm_view(
     """Return the view of a machine whose chart is in the module `chart`."""
     structure = Structure(machine, YASMIN, report)
     module = f"{chart}{YASMIN.suffix}"
-    imports = imports_of(chart)
+    imports = imports_of(chart, structure)
     states = []
     for node in structure.root.walk():
         if node.kind in _CONTAINERS:

@@ -39,7 +39,7 @@ class SmachView:
 def smach_view(machine: StateMachine, chart: str, system: System, report: Diagnostics) -> SmachView:
     """Return the view of a machine whose chart is in the module `chart`."""
     structure = Structure(machine, SMACH, report)
-    imports = imports_of(chart)
+    imports = imports_of(chart, structure)
     imports.own("states", "Machine")
     imports.name("smach", "StateMachine")
     for node in structure.root.walk():
