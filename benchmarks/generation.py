@@ -67,6 +67,6 @@ def machine(states: int) -> str:
         "  initial S0",
     ]
     for number in range(states):
-        after = f"on succeeded -> S{(number + 1) % states}  on aborted -> S{number}"
+        after = f"on succeeded -> S{(number + 1) % states}; on aborted -> S{number}"
         lines.append(f"  state S{number} {{ do go(x = {number}.5)  {after} }}")
     return "\n".join([*lines, "}", ""])

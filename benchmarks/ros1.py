@@ -27,7 +27,7 @@ event Said : std_msgs/Empty
 endless statemachine Work {
   initial Waiting
   state Waiting { on Go / send Said() -> Moving }
-  state Moving { do move(x = 1.0)  on succeeded, aborted -> Waiting  on Go -> Waiting }
+  state Moving { do move(x = 1.0); on succeeded, aborted -> Waiting; on Go -> Waiting }
 }
 """
 

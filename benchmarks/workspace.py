@@ -117,7 +117,7 @@ def _head(number: int, earlier: list[int]) -> str:
 /// Area {number} of the site.
 package site.area{number}
 
-import "interfaces.swarm"
+import; "interfaces.swarm";
 {imports}
 swarm event Start{number} : std_msgs/Empty
 swarm event Stop{number}  : std_msgs/Empty
@@ -126,7 +126,7 @@ swarm event Found{number} : site_msgs/Finding
 const LIMIT_{number} : int32 = {number + 3}
 const REACH_{number} : float64 = 2.5 * LIMIT_{number}
 
-enum Mode{number} {{ IDLE BUSY FAULT }}
+enum Mode{number} {{ IDLE, BUSY, FAULT }}
 
 /// What is to be done in the area.
 struct Job{number} {{
@@ -343,7 +343,7 @@ member Robot{name} {{
   behavior {name}
 
   camera : Camera{used} {{ rate = 10.0 }}
-  pilot  : CarefulPilot{number} {{ margin = 1.0 max_speed = 2.0 }}
+  pilot  : CarefulPilot{number} {{ margin = 1.0, max_speed = 2.0 }}
   drive  : Drive{number}
 
   connect camera.finding -> pilot.finding

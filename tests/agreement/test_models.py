@@ -25,7 +25,7 @@ FILES = [
 ]
 # Transitions that no script takes, because they cannot be.
 NEVER = {
-    ("everything", "Work"): ["on done -> Stop"],
+    ("everything", "Work"): ["on done   -> Stop"],
     ("language", "B"): ["[n > 3 and mine < self.count and self.role != self.id] -> A"],
 }
 

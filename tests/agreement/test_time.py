@@ -24,7 +24,7 @@ statemachine M {
   initial A
   state A {
     initial Inner
-    state Inner { after 200 ms * n / n = n + 1 -> Inner after 300 ms -> Other }
+    state Inner { after 200 ms * n / n = n + 1 -> Inner; after 300 ms -> Other }
     state Other { after 1 s -> A }
     after 900 ms -> B
   }
@@ -32,7 +32,7 @@ statemachine M {
     after 10 s -> A
     after 100 ms -> C
   }
-  state C { initial D state D { after 100 ms -> E } final E on done -> End }
+  state C { initial D; state D { after 100 ms -> E } final E; on done -> End }
   final End
 }
 """

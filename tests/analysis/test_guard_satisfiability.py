@@ -11,8 +11,8 @@ from swarmdsl.driver import pipeline
 
 MODEL = """
 event Go : std_msgs/Empty
-enum Mode {{ MANUAL AUTO }}
-enum Late {{ FIRST = 1 SECOND = 2 }}
+enum Mode {{ MANUAL, AUTO }}
+enum Late {{ FIRST = 1, SECOND = 2 }}
 
 statemachine M {{
   param other : int32 = 1

@@ -25,13 +25,13 @@ def typed(linked: Callable[..., Project]) -> Typed:
 
     def expression(text: str) -> tuple[ExpressionTree, Typing]:
         project = linked(f"""
-          message Status {{ level : float32  pose : geometry_msgs/Pose  path : float64[3] }}
+          message Status {{ level : float32, pose : geometry_msgs/Pose, path : float64[3] }}
           event Low : Status
           statemachine M {{
             param p : float64 = 1.0
-            var i : int32  var u : uint8  var f : float32  var b : bool  var s : string
-            var d : duration  var m : Status  var e : other_msgs/Pose
-            var a : float64[]  var t : time
+            var i : int32; var u : uint8; var f : float32; var b : bool; var s : string
+            var d : duration; var m : Status; var e : other_msgs/Pose
+            var a : float64[]; var t : time
             initial A
             state A {{ on Low / i = {text} -> F }}
             final F

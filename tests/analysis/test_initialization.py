@@ -79,14 +79,14 @@ WRITTEN = {
   initial A
   state A {{ on Go / v = 1 -> Both }}
   parallel state Both {{
-    region One {{ initial Read {READ} }}
-    region Two {{ initial Rest state Rest }}
+    region One {{ initial Read; {READ} }}
+    region Two {{ initial Rest; state Rest }}
   }}""",
     "by the region that ends last or first": f"""
   initial Both
   parallel state Both {{
-    region One {{ initial X state X {{ on Go / v = 1 -> Over }} final Over }}
-    region Two {{ initial Y state Y {{ on Go -> End }} final End }}
+    region One {{ initial X; state X {{ on Go / v = 1 -> Over }} final Over }}
+    region Two {{ initial Y; state Y {{ on Go -> End }} final End }}
     on done -> Read
   }}
   {READ}""",
@@ -165,8 +165,8 @@ UNWRITTEN = {
     "from one region, whatever the other does": f"""
   initial Both
   parallel state Both {{
-    region One {{ initial X state X {{ on Go / v = 1 }} }}
-    region Two {{ initial Read {READ} }}
+    region One {{ initial X; state X {{ on Go / v = 1 }} }}
+    region Two {{ initial Read; {READ} }}
   }}""",
     "in a goal": """
   initial A
@@ -210,7 +210,7 @@ UNWRITTEN = {
       }}
       final Over
     }}
-    region Two {{ initial Y state Y {{ on Go -> End }} final End }}
+    region Two {{ initial Y; state Y {{ on Go -> End }} final End }}
     on done -> Read
   }}
   {READ}""",

@@ -50,7 +50,7 @@ def targets(project: Project) -> list[str]:
 def test_an_own_declaration_wins_over_an_imported_one(linked: Linked) -> None:
     project = linked(
         'import "other.swarm"\nevent Go : std_msgs/Int32\nstatemachine M { initial A '
-        "state A { on Go -> F on other.Go -> F } final F }",
+        "state A { on Go -> F; on other.Go -> F } final F }",
         other="event Go : std_msgs/Empty",
     )
     events = [node.event.target for node in nodes(project) if isinstance(node, EventTrigger)]
@@ -61,7 +61,7 @@ def test_an_own_declaration_wins_over_an_imported_one(linked: Linked) -> None:
 def test_a_qualified_name_means_the_files_own_package_too(linked: Linked) -> None:
     project = linked(
         "package a.b\nevent Go : std_msgs/Empty\n"
-        "statemachine M { initial A state A { on a.b.Go -> F } final F }"
+        "statemachine M { initial A; state A { on a.b.Go -> F } final F }"
     )
     (trigger,) = [node for node in nodes(project) if isinstance(node, EventTrigger)]
 
@@ -99,7 +99,7 @@ statemachine M {{
   initial A
   state A {{
     initial B
-    state B {{ on Go -> C on Go -> D on Go -> A on Go -> A.C.E on Go -> Out }}
+    state B {{ on Go -> C; on Go -> D; on Go -> A; on Go -> A.C.E; on Go -> Out }}
     state C {{
       initial E
       state E {{ on Go -> E }}
@@ -135,7 +135,7 @@ statemachine M {{
   parallel state P {{
     region Left {{
       initial On
-      state On {{ on Go -> Off on Go -> End }}
+      state On {{ on Go -> Off; on Go -> End }}
       final Off
     }}
     region Right {{
@@ -166,8 +166,8 @@ def test_done_of_a_region(linked: Linked) -> None:
 
 def test_done_of_a_submachine(linked: Linked) -> None:
     project = linked(
-        "statemachine M { initial A state A = N { on done.Lost -> F } final F }\n"
-        "statemachine N { initial Lost final Lost }"
+        "statemachine M { initial A; state A = N { on done.Lost -> F } final F }\n"
+        "statemachine N { initial Lost; final Lost }"
     )
     trigger = next(node for node in nodes(project) if isinstance(node, DoneTrigger))
     state = next(node for node in nodes(project) if isinstance(node, State))
@@ -183,9 +183,9 @@ def test_done_of_a_submachine(linked: Linked) -> None:
 
 def test_values_are_those_of_the_machine_and_of_the_members_that_behave_so(linked: Linked) -> None:
     project = linked(
-        f"{EVENT}statemachine M {{ var x : int8 param y : int8 = 1 initial A\n"
+        f"{EVENT}statemachine M {{ var x : int8; param y : int8 = 1; initial A\n"
         "state A { on Go [x < y and y < z] -> F } final F }\n"
-        "member R { behavior M param z : int8 = 3 param y : int8 = 2 }"
+        "member R { behavior M; param z : int8 = 3; param y : int8 = 2 }"
     )
     uses = {node.name: node.target for node in nodes(project) if isinstance(node, NameUse)}
 

@@ -16,13 +16,13 @@ Checked = Callable[[str], pipeline.Result]
 
 SAR = """
   package sar.modes
-  enum Mode { OFF ON }
+  enum Mode { OFF, ON }
   const K : int32 = 3
   type Usual = Mode
 """
 AIR = """
   package air
-  enum Mode { NO = 5 YES }
+  enum Mode { NO = 5, YES }
   const K : int32 = 4
   const ONLY : int32 = 7
   struct Pose { x : int32 }
@@ -49,7 +49,7 @@ def machine(values: str = "", guard: str = "true") -> str:
       type Alias = air.Mode
       type Chain = Alias
       const OWN : int32 = sar.modes.K - air.K
-      enum Level {{ LOW HIGH }}
+      enum Level {{ LOW, HIGH }}
       statemachine M {{
         {values}
         initial A
@@ -84,8 +84,8 @@ def guard_of(result: pipeline.Result) -> str:
     ],
 )
 def test_resolved_names(checked: Checked, guard: str, meant: str) -> None:
-    own = "var air : air.Pose  param K : int32 = 1" if "air.x" in guard else ""
-    values = f"var n : int32  var a : sar.modes.Mode  var b : Chain = Chain.NO  var l : Level {own}"
+    own = "; var air : air.Pose; param K : int32 = 1" if "air.x" in guard else ""
+    values = f"var n : int32; var a : sar.modes.Mode; var b : Chain = Chain.NO; var l : Level{own}"
 
     assert guard_of(checked(machine(values, guard))) == meant
 

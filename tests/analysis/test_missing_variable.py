@@ -9,7 +9,7 @@ from swarmdsl.driver import pipeline
 MODEL = """\
 package {package}
 {imports}
-enum Mode : uint8 {{ A B }}
+enum Mode : uint8 {{ A, B }}
 event Go : std_msgs/Empty
 statemachine M {{
   var m : Mode = Mode.A
@@ -93,7 +93,7 @@ def test_where_only_a_constant_can_stand(tmp_path, kind):
 def test_an_import_is_of_the_library_that_is_used(tmp_path):
     path = tmp_path / "model.swarm"
     model = (
-        "package p\n{}statemachine M {{ initial S state S {{ on TargetFound -> F }} final F }}\n"
+        "package p\n{}statemachine M {{ initial S; state S {{ on TargetFound -> F }} final F }}\n"
     )
     declared = "declare it: `event TargetFound : std_msgs/Empty`"
     for imports, expected in [
@@ -109,6 +109,6 @@ def test_what_a_library_has_comes_before_what_is_only_similar(tmp_path):
     path = tmp_path / "model.swarm"
     path.write_text(
         "package p\nimport cpswarm.interfaces.*\nevent MissionStarted : std_msgs/Empty\n"
-        "statemachine M { initial S state S { on MissionStart -> F } final F }\n"
+        "statemachine M { initial S; state S { on MissionStart -> F } final F }\n"
     )
     assert helps(path) == ["add `import cpswarm.events.MissionStart`"]

@@ -10,9 +10,9 @@ from swarmdsl.driver import pipeline
 
 MACHINE = """
 event Go : std_msgs/Empty
-enum Gear {{ SLOW FAST }}
+enum Gear {{ SLOW, FAST }}
 function land : abstraction {{ action "land" : uav_msgs/Land }}
-enum Mode {{ SLOW FAST }}
+enum Mode {{ SLOW, FAST }}
 statemachine M {{
   var gear : Gear = Gear.SLOW
   initial Look
@@ -31,11 +31,11 @@ statemachine M {{
     ("transitions", "wanted"),
     [
         ("on done.Found -> Done", ["SW0202"]),
-        ("on done.Found -> Done on done.Found -> Done", ["SW0202", "SW0202"]),
+        ("on done.Found -> Done; on done.Found -> Done", ["SW0202", "SW0202"]),
         ("on done -> Done", ["SW0508"]),
         ("on Go [gear == Mode.SLOW] -> Done", ["SW0702"]),
-        ("on Go [gear == Mode.SLOW] -> Done on Go [gear == Mode.SLOW] -> Near", ["SW0702"] * 2),
-        ("on Go [gear == 5] -> Done on Go [gear < Gear.FAST] -> Near", ["SW0702"] * 2),
+        ("on Go [gear == Mode.SLOW] -> Done; on Go [gear == Mode.SLOW] -> Near", ["SW0702"] * 2),
+        ("on Go [gear == 5] -> Done; on Go [gear < Gear.FAST] -> Near", ["SW0702"] * 2),
     ],
 )
 def test_in_transitions(transitions: str, wanted: list[str], tmp_path: Path) -> None:
@@ -45,9 +45,9 @@ def test_in_transitions(transitions: str, wanted: list[str], tmp_path: Path) -> 
 @pytest.mark.parametrize(
     ("values", "wanted"),
     [
-        ("A D = 300 A", ["SW0609", "SW0201"]),
-        ("A = 300 B = 1 A = 400", ["SW0609", "SW0201"]),
-        ("A B = 7 A C = 8", ["SW0201"]),
+        ("A, D = 300, A", ["SW0609", "SW0201"]),
+        ("A = 300, B = 1, A = 400", ["SW0609", "SW0201"]),
+        ("A, B = 7, A, C = 8", ["SW0201"]),
     ],
 )
 def test_in_values_of_an_enum(values: str, wanted: list[str], tmp_path: Path) -> None:

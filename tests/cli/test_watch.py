@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 
 RIGHT = "package a\nevent Start : std_msgs/Empty\n"
 WRONG = "package a\nevent Start : std_msgs/Emty\n"
-MACHINE = "statemachine Work { initial A state A { after 1 s -> B } final B }\n"
+MACHINE = "statemachine Work { initial A; state A { after 1 s -> B } final B }\n"
 SECONDS = 60
 
 
@@ -168,7 +168,7 @@ def test_what_a_target_cannot_express_is_told_at_its_place(model: Path, tmp_path
     try:
         said = watching.run()
         assert "cannot express a transition after a time" in said
-        assert f" --> {model}:3:41\n" in said
+        assert f" --> {model}:3:42\n" in said
     finally:
         watching.stop()
 

@@ -11,7 +11,7 @@ from swarmdsl.cli import run
 
 MODEL = """package p
 event E : std_msgs/Empty
-endless statemachine M { initial A state A { on E -> A } }
+endless statemachine M { initial A; state A { on E -> A } }
 member Bot { behavior M }
 swarm Team { bot : Bot }
 """

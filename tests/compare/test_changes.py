@@ -289,7 +289,7 @@ def test_what_is_inherited_is_told_once(tmp_path: Path) -> None:
 
 
 def test_a_submachine_is_compared_where_it_is_declared(tmp_path: Path) -> None:
-    model = MODEL + "statemachine Twice { initial A state A = Watch { on done -> B } final B }\n"
+    model = MODEL + "statemachine Twice { initial A; state A = Watch { on done -> B } final B }\n"
     before = system(model, tmp_path)
     after = system(model.replace("after 5 s", "after 7 s"), tmp_path)
 

@@ -10,9 +10,8 @@ import pytest
 
 from swarmdsl.cli import run
 
-BEFORE = (
-    "swarm event Go : std_msgs/Empty\nstatemachine M { initial A state A { on Go -> B } final B }\n"
-)
+BEFORE = "swarm event Go : std_msgs/Empty\n"
+    "statemachine M { initial A; state A { on Go -> B } final B }\n"
 AFTER = BEFORE.replace("Empty", "String")
 
 
@@ -74,7 +73,7 @@ def test_a_revision_in_the_place_of_a_model(
 def test_a_new_transition_has_its_target(
     models: tuple[str, str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    Path(models[1]).write_text(BEFORE.replace("on Go", "after 1 s -> B on Go"), encoding="utf-8")
+    Path(models[1]).write_text(BEFORE.replace("on Go", "after 1 s -> B; on Go"), encoding="utf-8")
     for format_, line in (("text", "+ {} ("), ("markdown", "- {} added (")):
         assert run(["diff", *models, "--format", format_]) == 1
         line = line.format("transition `after 1 s -> B` of state `A`")

@@ -57,8 +57,8 @@ def test_edges_that_look_the_same_are_one(tmp_path: Path) -> None:
           initial Go
           state Go {
             initial Left
-            state Left { on Stop -> End after 1 s -> Right }
-            state Right { on Stop -> End after 1 s -> Left }
+            state Left { on Stop -> End; after 1 s -> Right }
+            state Right { on Stop -> End; after 1 s -> Left }
           }
           final End
         }

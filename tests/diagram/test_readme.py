@@ -57,7 +57,7 @@ def test_what_mermaid_does_not_draw_is_left_out(tmp_path: Path) -> None:
     def shown(states: int) -> bool:
         path = tmp_path / f"large{states}.swarm"
         inside = (f"state S{at} {{ after 1 s -> S{(at + 1) % states} }}" for at in range(states))
-        path.write_text(f"endless statemachine M {{ initial S0 {' '.join(inside)} }}\n")
+        path.write_text(f"endless statemachine M {{ initial S0; {' '.join(inside)} }}\n")
         system = system_of(path)
         return bool(pictures(system, system.machines))
 

@@ -130,7 +130,7 @@ def test_values_have_their_names(tmp_path: Path) -> None:
     model = tmp_path / "model.swarm"
     model.write_text(
         """
-        enum Species { DOCK THISTLE }
+        enum Species { DOCK, THISTLE }
         const PATIENCE : duration = 2 * 30 s
         endless statemachine Spray {
           param wanted : Species = Species.THISTLE

@@ -14,7 +14,7 @@ from swarmdsl.cli import run
 from .conftest import SAR
 
 MODEL = (
-    "package work\nendless statemachine Work { initial Busy state Busy { after 1 s -> Busy } }\n"
+    "package work\nendless statemachine Work { initial Busy; state Busy { after 1 s -> Busy } }\n"
 )
 
 
@@ -105,7 +105,7 @@ def test_nothing_is_written_of_a_model_with_errors(
 
 
 def test_warnings_are_told(model: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    model.write_text(MODEL + "statemachine never { initial A state A final B }\n")
+    model.write_text(MODEL + "statemachine never { initial A; state A; final B }\n")
     assert run(["doc", model.name]) == 0
     told = capsys.readouterr().err
     assert "warning[SW0503]" in told

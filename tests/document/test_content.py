@@ -123,21 +123,21 @@ def test_a_state_is_reached_by_transitions_only(tmp_path: Path) -> None:
       event Go : std_msgs/Empty
       statemachine Land {
         initial Down
-        state Down { on Go -> Ok  after 5 s -> Bad }
+        state Down { on Go -> Ok; after 5 s -> Bad }
         final Ok
         final Bad
       }
       statemachine Work {
         var n : int32 = 1
         initial Landing
-        state Landing = Land { on done.Ok -> Next  on done.Bad -> Landing }
+        state Landing = Land { on done.Ok -> Next; on done.Bad -> Landing }
         state Next {
           initial In
-          state In { after 1 s -> Out  on Go -> Pick }
+          state In { after 1 s -> Out; on Go -> Pick }
           final Out
           on done.Out -> Pick
         }
-        choice Pick { [n < 2] -> Next.In  else -> Stop }
+        choice Pick { [n < 2] -> Next.In; else -> Stop }
         final Stop
       }
     """)
@@ -278,7 +278,7 @@ def test_of_libraries_what_is_used(tmp_path: Path) -> None:
     path = tmp_path / "mine.swarm"
     path.write_text(
         "package mine\nimport cpswarm.functions.*\n"
-        "statemachine M { initial Up state Up { do uav_mavros_takeoff(altitude = 2.0)\n"
+        "statemachine M { initial Up; state Up { do uav_mavros_takeoff(altitude = 2.0)\n"
         "on succeeded, aborted -> Done } final Done }\n"
     )
     used, all_of_it = page_of(path), page_of(path, libraries=True)

@@ -120,16 +120,16 @@ def test_every_keyword_can_be_the_name_of_a_field(language: Any, tokenize: Any) 
 def test_contextual_keywords_can_be_names(language: Any, tokenize: Any) -> None:
     model = """
     package {0}
-    import "{0}" import ros "{0}" import {0}.* import {0}.{0} import {0}
+    import "{0}"; import ros "{0}"; import {0}.*; import {0}.{0}; import {0}
     const {0} : {0} = {0} + {0}
-    enum {0} : {0} {{ {0} = -1 {0} }}
-    message {0} {{ const {0} : {0} = {0} {0} : {0}[<=3] }}
+    enum {0} : {0} {{ {0} = -1, {0} }}
+    message {0} {{ const {0} : {0} = {0}, {0} : {0}[<=3] }}
     struct {0} {{ {0} : {0} }}
     type {0} = {0}[3]
     event {0} : {0}/{0}
     function {0} : abstraction {{ param {0} : {0} = {0} }}
     sensor {0} extends {0} {{
-      in {0} : {0} param {0} : {0} = {0} operation {0}(in {0} : {0}, {0} : {0}) behavior {0}
+      in {0} : {0}; param {0} : {0} = {0}; operation {0}(in {0} : {0}, {0} : {0}); behavior {0}
     }}
     member {0} extends {0} {{
       behavior {0}
@@ -157,17 +157,18 @@ def test_contextual_keywords_can_be_names(language: Any, tokenize: Any) -> None:
         on done.{0} -> {0}
         after {0} -> {0}
       }}
-      parallel state {0} {{ region {0} {{ initial {0} final {0} }} on {0}.done -> {0} }}
-      choice {0} {{ [{0}] / send {0}({0} = {0}) -> {0} else -> {0} }}
+      parallel state {0} {{ region {0} {{ initial {0}; final {0} }} on {0}.done -> {0} }}
+      choice {0} {{ [{0}] / send {0}({0} = {0}) -> {0}; else -> {0} }}
     }}
-    swarm {0} {{ {0} : {0}[1..*] environment {0} fitness {0} }}
-    environment {0} {{ world "w" size 1 m x 1 m }}
+    swarm {0} {{ {0} : {0}[1..*]; environment {0}; fitness {0} }}
+    environment {0} {{ world "w"; size 1 m x 1 m }}
     fitness {0} {{
-      in {0} : {0} param {0} : {0} = {0} + {0}
+      in {0} : {0}; param {0} : {0} = {0} + {0}
       maximize {0} * {0}
     }}
     optimize {0} {{
-      {0}.{0} in {0} .. {0} step {0} count of {0} in {0} .. {0} steps {0} seed {0} evaluations {0}
+      {0}.{0} in {0} .. {0} step {0}; count of {0} in {0} .. {0}
+      steps {0}; seed {0}; evaluations {0}
     }}
     """
     for word in sorted(language.contextual):

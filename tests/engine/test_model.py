@@ -15,8 +15,8 @@ from .world import StillWorld, Trace
 
 PRELUDE = """
 package test
-action Go { goal { speed : float64 } result { reached : bool  count : int32 } }
-message Report { id : string  level : int32 }
+action Go { goal { speed : float64 } result { reached : bool, count : int32 } }
+message Report { id : string, level : int32 }
 function go : abstraction { action "cmd/go" : Go }
 function land : abstraction { service "cmd/land" : std_srvs/Empty }
 service std_srvs/Empty { }
@@ -92,7 +92,7 @@ def test_outcomes_go_their_ways(run: Start) -> None:
     text = """
       statemachine M {
         initial Busy
-        state Busy { do land on succeeded -> Good on aborted -> Bad %s }
+        state Busy { do land; on succeeded -> Good; on aborted -> Bad; %s }
         state Good { on Stop -> End }
         state Bad { on Stop -> End }
         final End
@@ -194,7 +194,7 @@ def test_events_with_messages(run: Start) -> None:
         var last : Report
         initial Wait
         state Wait { on Found [event.level > 3] / last = event, last.id = "x" -> Tell }
-        state Tell { entry / send Found(level = last.level + 1) on Found -> Wait }
+        state Tell { entry / send Found(level = last.level + 1); on Found -> Wait }
       }
     """)
     message = {"id": "a", "level": 4}
@@ -230,7 +230,7 @@ def test_delays(run: Start) -> None:
       endless statemachine M {
         var patience : duration = 2 s
         initial A
-        state A { after 2 * patience + 500 ms -> B on Start / patience = patience / 3 -> A }
+        state A { after 2 * patience + 500 ms -> B; on Start / patience = patience / 3 -> A }
         state B { after patience -> A }
       }
     """)
@@ -265,7 +265,7 @@ def test_done_tells_final_states_apart(run: Start) -> None:
         initial Work
         state Work {
           initial A
-          state A { on Start -> Found on Stop -> Lost }
+          state A { on Start -> Found; on Stop -> Lost }
           final Found
           final Lost
           on done.Found -> Good
@@ -311,8 +311,8 @@ def test_regions(run: Start) -> None:
       statemachine M {
         initial Both
         parallel state Both {
-          region L { initial A state A { on Start -> E } final E }
-          region R { initial A state A { on Stop -> E on Found -> F } final E final F }
+          region L { initial A; state A { on Start -> E } final E }
+          region R { initial A; state A { on Stop -> E; on Found -> F } final E; final F }
           on L.done / send Found
           on R.done.F -> Out
           on done -> Good
@@ -335,8 +335,8 @@ def test_an_internal_transition_of_a_parallel_state_leaves_the_other_regions_alo
         var n : int32 = 0
         initial Both
         parallel state Both {
-          region L { initial A state A { on Start -> B } state B { on Found / n = n + 1 } }
-          region R { initial C state C { on Start -> D } state D { on Start -> C } }
+          region L { initial A; state A { on Start -> B } state B { on Found / n = n + 1 } }
+          region R { initial C; state C { on Start -> D } state D { on Start -> C } }
           internal on Stop / n = n + 10 -> Both.A
           internal on Found [n > 0] -> Both.A
           on Found -> Both
@@ -370,7 +370,7 @@ def test_submachines_have_variables_and_parameters_of_their_own(run: Start) -> N
       statemachine M {
         var most : int32 = 0
         initial First
-        state First = Try(most = most) { on done.Ok -> Good on done / most = most + 1 -> First }
+        state First = Try(most = most) { on done.Ok -> Good; on done / most = most + 1 -> First }
         final Good
       }
     """)
@@ -388,7 +388,7 @@ def test_choices_take_the_first_branch_that_holds(run: Start) -> None:
         var n : int32 = 0
         initial Wait
         state Wait { on Found / n = event.level -> Fork }
-        choice Fork { [n < 1] -> A [n < 2] / n = 7 -> B else -> C }
+        choice Fork { [n < 1] -> A; [n < 2] / n = 7 -> B; else -> C }
         final A
         final B
         final C
@@ -407,12 +407,12 @@ def test_histories(run: Start) -> None:
         state Work {
           initial A
           state A { on Start -> B }
-          state B { initial C state C { on Start -> D } state D { on Start -> C } }
+          state B { initial C; state C { on Start -> D } state D { on Start -> C } }
           history Near -> A
           deep history Far -> A
           on Stop -> Out
         }
-        state Out { on Start -> Work.Far on Stop -> Work.Near }
+        state Out { on Start -> Work.Far; on Stop -> Work.Near }
       }
     """)
     m.hear("Start")
@@ -428,7 +428,7 @@ def test_a_guard_without_a_value_does_not_hold(run: Start) -> None:
       endless statemachine M {
         var n : int32 = 0
         initial A
-        state A { on Start [1 / n > 2] -> B on Start / n = 0 -> C }
+        state A { on Start [1 / n > 2] -> B; on Start / n = 0 -> C }
         state B { on Start -> A }
         state C { on Start -> A }
       }
@@ -489,7 +489,7 @@ def test_a_result_that_is_too_large_is_not_stored(run: Start) -> None:
       statemachine M {
         var n : int32 = 1
         initial A
-        state A { do go(speed = 1.0) gives (count => n)  on succeeded, aborted -> B }
+        state A { do go(speed = 1.0) gives (count => n); on succeeded, aborted -> B }
         final B
       }
     """)
@@ -500,7 +500,7 @@ def test_a_result_that_is_too_large_is_not_stored(run: Start) -> None:
 
 
 def test_a_trace_leads_back_to_the_model(run: Start) -> None:
-    m = run("statemachine M { initial A state A { on Start -> B } final B }")
+    m = run("statemachine M { initial A; state A { on Start -> B } final B }")
     state = m.instance.machine.states[1]
 
     assert state.origin.name == "A"  # type: ignore[attr-defined]

@@ -25,12 +25,12 @@ Walk = Callable[[str, Iterable[Event]], list[set[str]]]
 # What the machines of the tests can do and hear.
 PRELUDE = """
 package test
-action Go { result { reached : bool  count : int32 } }
-action Drive { goal { speed : float64  name : string } result { count : int32  name : string } }
+action Go { result { reached : bool, count : int32 } }
+action Drive { goal { speed : float64, name : string } result { count : int32, name : string } }
 service Ask { request { times : uint8 } response { answer : bool } }
-message Report { id : string  level : int32 }
+message Report { id : string, level : int32 }
 function go : abstraction { action "cmd/go" : Go }
-function drive : abstraction { action "cmd/drive" : Drive  in "pose" : geometry_msgs/Pose }
+function drive : abstraction { action "cmd/drive" : Drive; in "pose" : geometry_msgs/Pose }
 function ask : abstraction { service "cmd/ask" : Ask }
 function land : abstraction { service "cmd/land" : std_srvs/Empty }
 service std_srvs/Empty { }

@@ -235,7 +235,7 @@ def test_each_component_and_part_has_servers_of_its_own(compiled: Compile) -> No
         """
         sensor Camera { operation snap() }
         sensor ThermalCamera extends Camera {}
-        member Uav { left : ThermalCamera  camera : Camera }
+        member Uav { left : ThermalCamera; camera : Camera }
         """
     )
     _, content = emitted(system)
@@ -252,10 +252,10 @@ def test_each_component_and_part_has_servers_of_its_own(compiled: Compile) -> No
 
 SENSORS = """
 /// Sees.
-sensor Eye { out seen : Report on "seen"  inout light : float32  param rate : float64 = 2.0 }
+sensor Eye { out seen : Report on "seen"; inout light : float32; param rate : float64 = 2.0 }
 controller Mind { in seen : Report }
 actuator Wheel { in turn : Report }
-function find : swarm { action "find" : Drive  param far : float64 = 3.0 }
+function find : swarm { action "find" : Drive; param far : float64 = 3.0 }
 """
 
 
@@ -315,8 +315,8 @@ def test_the_functions_that_no_library_has(tmp_path: Path) -> None:
         function mine : swarm { service "mine" : std_srvs/Empty }
         endless statemachine M {
           initial A
-          state A { do uav_mavros_land on succeeded, aborted -> B }
-          state B { do mine on succeeded, aborted -> A }
+          state A { do uav_mavros_land; on succeeded, aborted -> B }
+          state B { do mine; on succeeded, aborted -> A }
         }
         """,
         encoding="utf-8",

@@ -23,9 +23,9 @@ message Pose {
   /// To the east.
   x : float64
 }
-function find : swarm { action "find" : Drive  in "pose" : Pose  out "near" : Pose }
+function find : swarm { action "find" : Drive; in "pose" : Pose; out "near" : Pose }
 /// Ask all.
-function ask_all : swarm { service "ask_all" : Ask  param wait : duration = 3 s }
+function ask_all : swarm { service "ask_all" : Ask; param wait : duration = 3 s }
 """
 
 

@@ -29,12 +29,12 @@ S = "{http://www.w3.org/2005/07/scxml}"
 EVERYTHING = """
 statemachine Insist {
   initial Try
-  state Try { do land on succeeded -> Ok on aborted -> Try }
+  state Try { do land; on succeeded -> Ok; on aborted -> Try }
   final Ok
 }
 statemachine M {
   param speed : float64 = 1.5
-  var who : string  var count : int32
+  var who : string; var count : int32
   initial Ready
 
   final Stop
@@ -56,7 +56,7 @@ statemachine M {
       on aborted   -> Home
     }
     /// Wait -- for a while.
-    state Wait { on Start -> Go on Abort -> Nested }
+    state Wait { on Start -> Go; on Abort -> Nested }
     state Nested = Insist { on done -> Good }
     final Good
     final Broken
@@ -67,7 +67,7 @@ statemachine M {
   parallel state Both {
     region Left {
       initial Go
-      state Go { do ask(by make) gives by answer on succeeded -> Go on aborted -> Lost }
+      state Go { do ask(by make) gives by answer; on succeeded -> Go; on aborted -> Lost }
       final Lost
     }
     region Right {
@@ -273,10 +273,10 @@ def test_a_way_out_to_a_final_state_further_out(dialect: Any) -> None:
         initial Out
         state Out { initial In
           state In { initial Go
-            state Go { do land on succeeded -> There on aborted -> Stop }
+            state Go { do land; on succeeded -> There; on aborted -> Stop }
             final There
             on done -> Next }
-          state Next { do land on succeeded -> Next on aborted -> Stop } }
+          state Next { do land; on succeeded -> Next; on aborted -> Stop } }
         final Stop
         """
     )
@@ -290,7 +290,7 @@ def test_a_state_of_a_real_file(dialect: Any) -> None:
     """A state of `head_action_mapping1.xml` that runs while an event is awaited."""
     tree = dialect(
         """
-        var what : string  var how_many : int32
+        var what : string; var how_many : int32
         initial Coverage
         state Coverage {
           do drive(speed = 0.0, name = what) gives (name => what, count => how_many)
@@ -298,7 +298,7 @@ def test_a_state_of_a_real_file(dialect: Any) -> None:
           on aborted   -> Coverage
           on Abort     -> Stop2
         }
-        state Stop2 { do land on succeeded, aborted -> Stop }
+        state Stop2 { do land; on succeeded, aborted -> Stop }
         final Stop
         """
     )
@@ -354,44 +354,44 @@ UNSUPPORTED = {
     "a choice": "state A { on Start -> C } choice C { else -> B }",
     "an assignment": "state A { on Found / n = event.level -> B }",
     "the sending of an event": 'state A { on Start / send Found(id = "", level = 1) -> B }',
-    "a transition after a time": "state A { on Start -> B after 2 s -> B }",
+    "a transition after a time": "state A { on Start -> B; after 2 s -> B }",
     "a history": """
-        state A { initial I state I { on Start -> J } state J { on Start -> I }
-                  history H -> I  on Abort -> B  on Low -> Away }
+        state A { initial I; state I { on Start -> J } state J { on Start -> I }
+                  history H -> I; on Abort -> B; on Low -> Away }
         state Away { on Start -> A.H }
     """,
-    "an effect on entry": "state A { entry / n = 1 on Start -> B }",
-    "an effect on exit": "state A { exit / n = 1 on Start -> B }",
+    "an effect on entry": "state A { entry / n = 1; on Start -> B }",
+    "an effect on exit": "state A { exit / n = 1; on Start -> B }",
     "an internal transition": """
-        state A { initial I state I { on Start -> E } final E internal on Low -> I on done -> B }
+        state A { initial I; state I { on Start -> E } final E; internal on Low -> I; on done -> B }
     """,
-    "a transition without a target": "state A { on Low / n = 1 on Start -> B }",
-    "a transition without a trigger": "state A { [n > 3] -> B on Start -> B }",
+    "a transition without a target": "state A { on Low / n = 1; on Start -> B }",
+    "a transition without a trigger": "state A { [n > 3] -> B; on Start -> B }",
     "a transition into a nested state": """
         state A { on Start -> W.I }
-        state W { initial I state I { on Abort -> E } final E on done -> B }
+        state W { initial I; state I { on Abort -> E } final E; on done -> B }
     """,
     "a result stored in a field of a variable": """
-        state A { do go gives (count => r.level) on succeeded, aborted -> B }
+        state A { do go gives (count => r.level); on succeeded, aborted -> B }
     """,
     "a callback for the result of an action": """
-        state A { do go gives by answer on succeeded, aborted -> B }
+        state A { do go gives by answer; on succeeded, aborted -> B }
     """,
     "the end of all regions": """
-        parallel state A { region X { initial I state I { on Start -> E } final E } on done -> B }
+        parallel state A { region X { initial I; state I { on Start -> E } final E } on done -> B }
     """,
     "a final state that nothing follows": """
         parallel state A {
-          region X { initial I state I { on Start -> E } final E }
-          region Y { initial J state J { on Abort -> F } final F }
+          region X { initial I; state I { on Start -> E } final E }
+          region Y { initial J; state J { on Abort -> F } final F }
           on X.done -> B
         }
     """,
     "`aborted` leading to two places": """
         state A {
           initial I
-          state I { do land on succeeded -> J on aborted -> E }
-          state J { do land on succeeded -> I on aborted -> F }
+          state I { do land; on succeeded -> J; on aborted -> E }
+          state J { do land; on succeeded -> I; on aborted -> F }
           final E
           final F
           on done.E -> B
@@ -401,7 +401,7 @@ UNSUPPORTED = {
     "a second exit from a state that waits for an event": """
         state A {
           initial I
-          state I { do land on succeeded -> E on aborted -> I on Start -> I }
+          state I { do land; on succeeded -> E; on aborted -> I; on Start -> I }
           final E
           on done -> B
         }
@@ -409,7 +409,7 @@ UNSUPPORTED = {
     "an event awaited on two levels": """
         state A {
           initial I
-          state I { do land on succeeded -> E on aborted -> I on Start -> I }
+          state I { do land; on succeeded -> E; on aborted -> I; on Start -> I }
           final E
           on done, Start -> B
         }
@@ -422,7 +422,7 @@ def test_what_the_dialect_cannot_say(
     compiled: Compile, findings: Findings, emit: Emit, construct: str
 ) -> None:
     system = compiled(
-        "statemachine M { var n : int32 var r : Report initial A"
+        "statemachine M { var n : int32; var r : Report; initial A;"
         f" {UNSUPPORTED[construct]} final B }}"
     )
     found = findings(system, "cpswarm")
@@ -437,7 +437,7 @@ def test_what_the_dialect_cannot_say(
 def test_by_way_of_which_state_a_construct_comes_in(compiled: Compile, findings: Findings) -> None:
     system = compiled(
         """
-        statemachine Inner { initial A state A { after 1 s -> B } final B }
+        statemachine Inner { initial A; state A { after 1 s -> B } final B }
         statemachine M {
           initial First
           state First { on Start -> Second }
@@ -463,7 +463,7 @@ def test_variables_of_a_reused_machine(compiled: Compile, findings: Findings) ->
         statemachine Inner {
           var name : string = "x"
           initial A
-          state A { do drive(speed = 0.0, name = name) on succeeded, aborted -> B }
+          state A { do drive(speed = 0.0, name = name); on succeeded, aborted -> B }
           final B
         }
         statemachine M {
@@ -482,7 +482,7 @@ def test_variables_of_a_reused_machine(compiled: Compile, findings: Findings) ->
 
 
 def test_a_machine_that_waits_for_nothing(compiled: Compile, findings: Findings) -> None:
-    system = compiled("endless statemachine M { initial A state A { on Start -> B } state B { } }")
+    system = compiled("endless statemachine M { initial A; state A { on Start -> B } state B { } }")
     (found,) = findings(system, "cpswarm")
 
     assert found.name == "unsupported-construct"
@@ -493,7 +493,7 @@ def test_a_machine_that_waits_for_nothing(compiled: Compile, findings: Findings)
 
 def test_one_warning_for_a_file_that_is_left_out(compiled: Compile, findings: Findings) -> None:
     system = compiled(
-        "statemachine M { initial A state A { after 1 s -> B after 2 s -> B } final B }"
+        "statemachine M { initial A; state A { after 1 s -> B; after 2 s -> B } final B }"
     )
     (found,) = findings(system, "both")
 
@@ -512,12 +512,12 @@ def test_a_constant_beside_a_variable_is_work_for_a_person(
     system = compiled(
         """
         statemachine M {
-          param speed : float64 = 1.5  param given : float64
+          param speed : float64 = 1.5; param given : float64
           var who : string
           initial A
           state A { do drive(speed = speed, name = who) gives (name => who)
-                    on succeeded -> A on aborted -> B }
-          state B { do drive(speed = given, name = "x") on succeeded -> C on aborted -> B }
+                    on succeeded -> A; on aborted -> B }
+          state B { do drive(speed = given, name = "x"); on succeeded -> C; on aborted -> B }
           final C
         }
         """
@@ -548,7 +548,8 @@ def test_what_a_person_has_to_add(
     compiled: Compile, findings: Findings, variables: str, state: str, what: str | None
 ) -> None:
     system = compiled(
-        f"statemachine M {{ {variables} initial A state A {{ {state} on succeeded, aborted -> B }}"
+        f"statemachine M {{ {variables}\n initial A\n"
+        f"state A {{ {state}; on succeeded, aborted -> B }}"
         " final B }"
     )
     found = findings(system, "cpswarm")
@@ -568,7 +569,7 @@ def test_names_that_the_dialect_cannot_take(
     compiled: Compile, findings: Findings, declaration: str, event: str
 ) -> None:
     system = compiled(
-        f"{declaration} statemachine M {{ initial A state A {{ on {event} -> B }} final B }}"
+        f"{declaration}; statemachine M {{ initial A; state A {{ on {event} -> B }} final B }}"
     )
 
     assert [found.name for found in findings(system, "cpswarm")] == ["bad-identifier"]
@@ -578,11 +579,11 @@ def test_ids_differ_in_more_than_case(dialect: Any) -> None:
     tree = dialect(
         """
         initial top
-        state top { initial Go state Go { do land on succeeded -> GO on aborted -> Go }
-                    state GO { do land on succeeded -> E on aborted -> GO } final E
+        state top { initial Go; state Go { do land; on succeeded -> GO; on aborted -> Go }
+                    state GO { do land; on succeeded -> E; on aborted -> GO } final E
                     on done -> Top }
-        state Top { do land on succeeded -> GoThreads on aborted -> Top }
-        state GoThreads { do land on succeeded -> Z on aborted -> Top }
+        state Top { do land; on succeeded -> GoThreads; on aborted -> Top }
+        state GoThreads { do land; on succeeded -> Z; on aborted -> Top }
         final Z
         """
     )

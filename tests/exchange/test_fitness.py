@@ -95,7 +95,7 @@ def test_the_last_message_counts(run: Run) -> None:
 
 def test_what_is_to_be_small_has_its_sign_changed(run: Run) -> None:
     model = """
-    fitness GoodRun { in max : float64  in hops : int32[]  minimize min(max, 2) - len(hops) }
+    fitness GoodRun { in max : float64; in hops : int32[]; minimize min(max, 2) - len(hops) }
     """
     ran = run(model, "('/max', 4.5)", "('/hops', [1, 2, 3])")
 

@@ -23,8 +23,8 @@ BEGIN, END = "<!-- what formats carry -->\n", "<!-- end of what formats carry --
 
 MODEL = """/// Of the package.
 package shop
-struct Place { x : float64  y : float64 }
-message Order { id : string  level : int32  where : Place }
+struct Place { x : float64, y : float64 }
+message Order { id : string, level : int32, where : Place }
 action Lift { goal { height : float64 } result { count : int32 } }
 /// Lifts boxes.
 function lift : abstraction {
@@ -93,10 +93,10 @@ endless statemachine Rich {
     after 30 s -> Fork
     on Start -> Inside.Back
   }
-  choice Fork { [n > most] -> Ask  else -> Both }
+  choice Fork { [n > most] -> Ask; else -> Both }
   parallel state Both {
-    region L { initial L1  state L1 { on Start -> L2 }  final L2 }
-    region R { initial R1  state R1 { on Low -> R2 }  final R2 }
+    region L { initial L1; state L1 { on Start -> L2 }  final L2 }
+    region R { initial R1; state R1 { on Low -> R2 }  final R2 }
     on done -> Inside
     internal on Ordered -> R1
   }
@@ -109,13 +109,13 @@ endless statemachine Rich {
   }
   state Sub = Part { on done -> Ask }
 }
-statemachine Part { param wait : duration = 1 s  initial P1  state P1 { after wait -> P2 }  final P2 }
+statemachine Part { param wait : duration = 1 s; initial P1; state P1 { after wait -> P2 }  final P2 }
 /// The hall.
-environment Hall { world "hall.world"  size 20 m x 10 m }
-swarm Team { worker : Worker[2..8]  boss : Boss  environment Hall  fitness Quick }
+environment Hall { world "hall.world"; size 20 m x 10 m }
+swarm Team { worker : Worker[2..8]; boss : Boss; environment Hall; fitness Quick }
 /// The sooner the better.
-fitness Quick { in out_of_it : float64  param limit : float64 = 100.0  maximize limit - out_of_it }
-optimize Team { steps 500  evaluations 20  seed 7  worker.speed in 0.5 .. 3.0 step 0.5 }
+fitness Quick { in out_of_it : float64; param limit : float64 = 100.0; maximize limit - out_of_it }
+optimize Team { steps 500; evaluations 20; seed 7; worker.speed in 0.5 .. 3.0 step 0.5 }
 """
 
 ROWS = {
@@ -131,7 +131,7 @@ ROWS = {
     "the names of submachines": ("= Part { on done -> Ask }\n}\nstatemachine Part", "= Other { on done -> Ask }\n}\nstatemachine Other"),
     "topics of events": ('on "begin"', 'on "started"'),
     "which events are those of the swarm": ("swarm event Start", "event Start"),
-    "messages of events": ("message Order { id : string  level : int32", "message Order { id : string  level : int16"),
+    "messages of events": ("message Order { id : string, level : int32", "message Order { id : string, level : int16"),
     "functions that states call": ('"cmd/lift"', '"cmd/raise"'),
     "values in goals": ("search(height = 1.5)", "search(height = 2.5)"),
     "variables in goals and results": ("gives (count => count)", "gives (count => height)"),

@@ -21,10 +21,10 @@ Compile = Callable[[str], System]
 
 MODEL = """
 member Uav { param altitude : float64 = 2.5 }
-fitness Good { in covered : float64 maximize covered }
-environment Field { world "field.world" size 10 m x 10 m }
+fitness Good { in covered : float64; maximize covered }
+environment Field { world "field.world"; size 10 m x 10 m }
 /// Looks for people.
-swarm Search { uav : Uav[1..8]  base : Uav[2]  some : Uav[3..*]  environment Field  fitness Good }
+swarm Search { uav : Uav[1..8]; base : Uav[2]; some : Uav[3..*]; environment Field; fitness Good }
 optimize Search {
   uav.altitude in 1.0 .. 20.0 step 0.5
   count of uav in 2 .. 8
@@ -76,7 +76,7 @@ ALWAYS = ("the size of environment `Field`", "multiplicity `3..*`")
 def test_evaluations(
     evaluations: int, candidates: int, generations: int, said: tuple[str, ...], compiled: Compile
 ) -> None:
-    system = compiled(MODEL.replace("SETTINGS", f"evaluations {evaluations} seed 7"))
+    system = compiled(MODEL.replace("SETTINGS", f"evaluations {evaluations}; seed 7"))
     made, _ = emitted(system, *ALWAYS, *said)
 
     assert (made["candidateCount"], made["generationCount"]) == (candidates, generations)

@@ -21,8 +21,8 @@ member Uav {
   param patience : duration = 30 s
   param tries    : uint8    = 3
 }
-fitness Good { in covered : float64 maximize covered }
-swarm Search { uav : Uav[1..8] other : Uav fitness Good }
+fitness Good { in covered : float64; maximize covered }
+swarm Search { uav : Uav[1..8]; other : Uav; fitness Good }
 """
 
 
@@ -113,7 +113,7 @@ def test_the_schema_and_a_real_file(compiled: Compile, corpus: Path) -> None:
     path = corpus / "schema" / "2021_OptimisedParameter.schema.json"
     validator = jsonschema.Draft7Validator(json.loads(path.read_text(encoding="utf-8")))
     real = json.loads((corpus / "optimisation" / "parameters.json").read_text(encoding="utf-8"))
-    system = compiled(SWARM + "optimize Search { uav.tries in 1 .. 5 count of uav in 1 .. 2 }")
+    system = compiled(SWARM + "optimize Search { uav.tries in 1 .. 5; count of uav in 1 .. 2 }")
     ours = list(emitted(system).values())
 
     assert list(validator.iter_errors({"parameters": ours})) == []

@@ -49,7 +49,7 @@ def transitions(element: Any) -> list[tuple[str | None, str | None, str | None]]
 
 
 def test_a_machine_without_data_needs_no_data_model(parsed: Any) -> None:
-    tree = parsed("initial A state A { do go on succeeded, aborted -> B } final B")
+    tree = parsed("initial A; state A { do go; on succeeded, aborted -> B } final B")
 
     assert tree.get("datamodel") == "null"
     assert tree.get("initial") == "A"
@@ -65,9 +65,9 @@ def test_data_have_the_first_values_that_ros_gives_them(parsed: Any) -> None:
         """
         param limit : int32
         param pause : duration = 1 min
-        var a : int32  var b : bool  var c : string = "x"  var d : Report  var e : float64[2]
-        var f : geometry_msgs/Vector3  var g : uav_msgs/Unheard
-        initial A state A { on Start -> A }
+        var a : int32; var b : bool; var c : string = "x"; var d : Report; var e : float64[2]
+        var f : geometry_msgs/Vector3; var g : uav_msgs/Unheard
+        initial A; state A { on Start -> A }
         """,
         "",
         "endless statemachine",
@@ -91,7 +91,7 @@ def test_data_have_the_first_values_that_ros_gives_them(parsed: Any) -> None:
 def test_expressions_are_ecmascript(parsed: Any) -> None:
     tree = parsed(
         """
-        var n : int32  var xs : float64[]  var ok : bool
+        var n : int32; var xs : float64[]; var ok : bool
         initial A
         state A {
           on Found [not (event.level > 3 and ok) or len(xs) == 2 and sqrt(n) < 1.5]
@@ -114,7 +114,7 @@ def test_expressions_are_ecmascript(parsed: Any) -> None:
 def test_what_has_no_value_has_none_in_ecmascript(parsed: Any) -> None:
     tree = parsed(
         """
-        var n : int32 = 3 var x : float64
+        var n : int32 = 3; var x : float64
         initial A
         state A { on Start / x = n / 4, x = 4 / n, n = 7 % n, n = n % 7 -> A }
         """,
@@ -132,7 +132,8 @@ def test_what_has_no_value_has_none_in_ecmascript(parsed: Any) -> None:
 
 def test_names_that_ecmascript_keeps_are_changed(parsed: Any) -> None:
     tree = parsed(
-        "var class : int32 var _x : int32 initial A state A { on Start [class == _x] -> B } final B"
+        "var class : int32; var _x : int32; initial A; "
+        "state A { on Start [class == _x] -> B } final B"
     )
 
     assert [data.get("id") for data in tree.iter(f"{S}data")] == ["data_class", "data__x"]
@@ -146,8 +147,8 @@ def test_names_of_states_are_unique_in_the_file(parsed: Any) -> None:
         var Wait : int32
         initial P
         parallel state P {
-          region L { initial Idle state Idle { on Start -> End } final End }
-          region R { initial Idle state Idle { on Abort -> End } final End }
+          region L { initial Idle; state Idle { on Start -> End } final End }
+          region R { initial Idle; state Idle { on Abort -> End } final End }
           on done -> Wait
         }
         state Wait { on Start [Wait > 0] -> Stop }
@@ -170,12 +171,12 @@ def test_states_of_one_name_are_told_apart_when_it_runs(written: Any, walk: Walk
         parallel state P {
           region L {
             initial Work
-            state Work { do go on succeeded -> End on aborted -> Work }
+            state Work { do go; on succeeded -> End; on aborted -> Work }
             final End
           }
           region R {
             initial Work
-            state Work { do go on succeeded -> End on aborted -> Work }
+            state Work { do go; on succeeded -> End; on aborted -> Work }
             final End
           }
           on done -> Stop
@@ -242,7 +243,7 @@ def test_a_transition_across_levels(written: Any, walk: Walk) -> None:
         initial Out
         state Out {
           initial In
-          state In { initial A state A { on Start -> Stop  on Abort -> B } final E }
+          state In { initial A; state A { on Start -> Stop; on Abort -> B } final E }
           state B { on Start -> F }
           final F
           on done -> Stop
@@ -259,7 +260,7 @@ FINALS = """
     initial Try
     state Try {
       initial Work
-      state Work { do go on succeeded -> Good on aborted -> Bad }
+      state Work { do go; on succeeded -> Good; on aborted -> Bad }
       final Good
       final Bad
       on done.Bad -> Try
@@ -300,13 +301,13 @@ NESTED = """
       region Left {
         initial Inner
         parallel state Inner {
-          region A { initial A1 state A1 { do go on succeeded -> A2 on aborted -> A1 } final A2 }
-          region B { initial B1 state B1 { do go on succeeded -> B2 on aborted -> B1 } final B2 }
+          region A { initial A1; state A1 { do go; on succeeded -> A2; on aborted -> A1 } final A2 }
+          region B { initial B1; state B1 { do go; on succeeded -> B2; on aborted -> B1 } final B2 }
           on done -> LeftEnd
         }
         final LeftEnd
       }
-      region Right { initial R1 state R1 { do go on succeeded -> R2 on aborted -> R1 } final R2 }
+      region Right { initial R1; state R1 { do go; on succeeded -> R2; on aborted -> R1 } final R2 }
       on done -> Stop
     }
     final Stop
@@ -315,8 +316,8 @@ NESTED = """
 
 def test_params_have_the_values_of_the_parts_that_run_the_machine(parsed: Any) -> None:
     tree = parsed(
-        "param period : duration  initial On  state On { after period -> On }",
-        "virtual Beacon { param period : duration = 250 ms  behavior M }\n"
+        "param period : duration; initial On; state On { after period -> On }",
+        "virtual Beacon { param period : duration = 250 ms; behavior M }\n"
         "member Tug { beacon : Beacon { period = 2 s } }",
         "endless statemachine",
     )
@@ -343,12 +344,12 @@ def test_one_region_can_end_the_parallel_state(written: Any, walk: Walk) -> None
         parallel state P {
           region Work {
             initial W
-            state W { do go on succeeded -> W on aborted -> Lost }
+            state W { do go; on succeeded -> W; on aborted -> Lost }
             final Lost
           }
           region Watch {
             initial Ok
-            state Ok { on Low -> Empty  on Abort -> Told }
+            state Ok { on Low -> Empty; on Abort -> Told }
             final Empty
             final Told
           }
@@ -356,7 +357,7 @@ def test_one_region_can_end_the_parallel_state(written: Any, walk: Walk) -> None
           on Watch.done.Told  -> Stop
           on Watch.done.Empty -> Home
         }
-        state Home { do land on succeeded, aborted -> Stop }
+        state Home { do land; on succeeded, aborted -> Stop }
         final Stop
         """
     )
@@ -404,7 +405,7 @@ def test_time_is_sent_on_entry_and_cancelled_on_exit(parsed: Any) -> None:
 
 
 def test_time_passes(written: Any, walk: Walk) -> None:
-    document = written("initial A state A { after 20 ms -> B } final B")
+    document = written("initial A; state A { after 20 ms -> B } final B")
 
     # The engine waits in `send` until all that was delayed has come.
     assert walk(document, ["Start"])[-1] == {"B"}
@@ -431,7 +432,7 @@ def test_an_event_is_sent_to_the_swarm(parsed: Any) -> None:
 
 def test_a_result_is_stored_before_what_follows(parsed: Any) -> None:
     body = """
-        var n : int32  var r : Report
+        var n : int32; var r : Report
         initial A
         state A {
           do drive(speed = 1.0, name = "x") gives (count => n, name => r.id)
@@ -477,12 +478,12 @@ def test_a_guard_sees_the_result(parsed: Any, written: Any, walk: Walk) -> None:
 def test_what_is_of_ros_stands_in_a_namespace_of_its_own(parsed: Any) -> None:
     tree = parsed(
         """
-        var n : int32  var s : string
+        var n : int32; var s : string
         initial A
         /// Go -- and come back.
-        state A { do drive(speed = 1.5, name = s) gives (count => n) on succeeded, aborted -> B }
-        state B { do ask(by make_request) gives by on_answer on succeeded, aborted -> C }
-        state C { do land on succeeded, aborted -> D }
+        state A { do drive(speed = 1.5, name = s) gives (count => n); on succeeded, aborted -> B }
+        state B { do ask(by make_request) gives by on_answer; on succeeded, aborted -> C }
+        state C { do land; on succeeded, aborted -> D }
         final D
         """
     )
@@ -536,7 +537,7 @@ def test_a_machine_that_reuses_another(written: Any, parsed: Any, walk: Walk) ->
     """
     body = """
         initial First
-        state First = Insist { on done.Ok -> Second on done.Failed -> Bad }
+        state First = Insist { on done.Ok -> Second; on done.Failed -> Bad }
         state Second = Insist { on done -> Good }
         final Good
         final Bad
@@ -572,7 +573,7 @@ RESUMED = """
       on Abort -> Pause
       on Found -> Pause
     }
-    state Pause { on Start -> Work.Back  on Abort -> Work }
+    state Pause { on Start -> Work.Back; on Abort -> Work }
 """
 
 
@@ -652,9 +653,9 @@ def test_effects_on_entry_and_exit(parsed: Any) -> None:
 
 
 def test_a_machine_with_nothing_but_such_effects_needs_a_data_model(parsed: Any) -> None:
-    sent = "initial A state A { entry / send Found(level = 1) on Start -> B } final B"
-    plain = "initial A state A { exit / send Start on Start -> B } final B"
-    timed = "initial A state A { after 2 * 500 ms -> B } final B"
+    sent = "initial A; state A { entry / send Found(level = 1); on Start -> B } final B"
+    plain = "initial A; state A { exit / send Start; on Start -> B } final B"
+    timed = "initial A; state A { after 2 * 500 ms -> B } final B"
 
     assert parsed(sent).get("datamodel") == "ecmascript"
     assert parsed(timed).get("datamodel") == "ecmascript"
@@ -671,8 +672,8 @@ def test_effects_happen_when_states_are_entered_and_left(written: Any, walk: Wal
           entry / entered = entered + 1
           exit  / left = left + 1
           initial A
-          state A { exit / left = left + 10  on Start -> B }
-          state B { on Start -> Out  on Abort -> Which }
+          state A { exit / left = left + 10; on Start -> B }
+          state B { on Start -> Out; on Abort -> Which }
         }
         choice Which {
           [entered == 2 and left == 22] -> Right
@@ -734,7 +735,7 @@ INTERNAL = """
       exit / left = left + 1
       initial A
       state A { on Start -> B }
-      state B { on Start -> A  on Low [left == 0] -> Stop }
+      state B { on Start -> A; on Low [left == 0] -> Stop }
       internal on Abort -> B
       on Found -> Out
     }
@@ -809,7 +810,7 @@ def test_an_internal_transition_into_a_region(parsed: Any, written: Any, walk: W
 
 
 def test_an_activity_that_gave_up_has_failed(parsed: Any, written: Any, walk: Walk) -> None:
-    body = "initial A state A { do go on succeeded -> B on aborted -> C ALSO } final B final C"
+    body = "initial A; state A { do go; on succeeded -> B; on aborted -> C; ALSO } final B final C"
 
     assert transitions(by_id(parsed(body.replace("ALSO", "")), "A")) == [
         ("do.A.succeeded", None, "B"),
@@ -826,7 +827,7 @@ def test_an_activity_that_gave_up_has_failed(parsed: Any, written: Any, walk: Wa
 def test_messages_are_copied(parsed: Any) -> None:
     tree = parsed(
         """
-        var a : Report  var b : Report
+        var a : Report; var b : Report
         initial A
         state A { on Found / a = event, b = a, b.id = a.id -> B }
         state B { on Start / send Found(id = b.id) -> C }
@@ -846,8 +847,8 @@ def test_messages_are_copied(parsed: Any) -> None:
 def test_values_of_bounded_types_begin_empty(parsed: Any) -> None:
     tree = parsed(
         """
-        var a : int32[<=3]  var b : string<=5
-        initial A state A { on Start -> B } final B
+        var a : int32[<=3]; var b : string<=5
+        initial A; state A { on Start -> B } final B
         """
     )
 

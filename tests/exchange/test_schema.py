@@ -48,12 +48,13 @@ def test_every_construct_is_valid(
         """
         statemachine Inner {
           initial A
-          state A { entry / send Start exit / send Abort on Start -> B }
-          state B { initial C state C { on Start -> E } final E deep history H -> C on done -> D }
+          state A { entry / send Start; exit / send Abort; on Start -> B }
+          state B { initial C; state C { on Start -> E } final E; deep history H -> C
+            on done -> D }
           final D
         }
         endless statemachine M {
-          var n : int32  var r : Report  var xs : int32[<=3]
+          var n : int32; var r : Report; var xs : int32[<=3]
           initial P
           /// Both.
           parallel state P {
@@ -62,16 +63,16 @@ def test_every_construct_is_valid(
             region X {
               initial One
               state One { on Found / r = event -> Two }
-              state Two { on Found / r = event  [n > 3] -> Fork }
-              choice Fork { [n > 5] -> One else -> Two }
+              state Two { on Found / r = event;  [n > 3] -> Fork }
+              choice Fork { [n > 5] -> One; else -> Two }
               history Again -> One
             }
-            region Y { initial Quiet state Quiet { after 1 s * 2 -> Quiet on Low / n = 2 } }
+            region Y { initial Quiet; state Quiet { after 1 s * 2 -> Quiet; on Low / n = 2 } }
             internal on Start [n > 1] / n = 2 -> Two
             internal on Abort -> Again
             on Start -> Sub
           }
-          state Sub = Inner { entry / n = 0  on done -> P.Again }
+          state Sub = Inner { entry / n = 0; on done -> P.Again }
         }
         """
     )

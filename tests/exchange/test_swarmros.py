@@ -66,7 +66,7 @@ def parsed(text: str) -> dict[str, Any]:
 
 
 MODEL = """
-message Seen { header : std_msgs/Header  swarmio : swarmros/EventHeader  id : string }
+message Seen { header : std_msgs/Header, swarmio : swarmros/EventHeader, id : string }
 swarm event Sight : Seen
 swarm event Bid   : Seen on "auction/bid"
 function auction : swarm {
@@ -75,21 +75,21 @@ function auction : swarm {
   in  "bridge/events/help"        : Seen
   out "help"                      : Seen
 }
-sensor Eye { out sight : Seen on "sight"  in light : std_msgs/Bool on "light" }
+sensor Eye { out sight : Seen on "sight"; in light : std_msgs/Bool on "light" }
 /// Looks around.
 member Scout {
   behavior Look
   eye : Eye
-  communication zyre { ifname = "wlan\\"0" port = 34000 name = "scout" device_class = "drone" }
+  communication zyre { ifname = "wlan\\"0", port = 34000, name = "scout", device_class = "drone" }
 }
 member Worker { behavior Work }
 member Rock { }
 endless statemachine Look {
   initial A
-  state A { entry / send Bid on Low -> B }
-  state B { do auction on succeeded, aborted -> A }
+  state A { entry / send Bid; on Low -> B }
+  state B { do auction; on succeeded, aborted -> A }
 }
-endless statemachine Work { initial A state A { on Sight, Bid -> A } }
+endless statemachine Work { initial A; state A { on Sight, Bid -> A } }
 """
 
 
@@ -136,8 +136,8 @@ def test_what_is_sent_and_heard(compiled: Compile) -> None:
 def test_what_the_bridge_cannot_take(compiled: Compile) -> None:
     system = compiled(
         """
-        member M { behavior B  communication wifi { port = 1 } }
-        endless statemachine B { initial A state A { on Found / send Found -> A } }
+        member M { behavior B; communication wifi { port = 1 } }
+        endless statemachine B { initial A; state A { on Found / send Found -> A } }
         """
     )
     files = emitted(

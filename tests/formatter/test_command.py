@@ -132,3 +132,12 @@ def test_a_disk_that_is_full(folder, capsys, monkeypatch):
     assert "error[SW0909]: cannot write" in capsys.readouterr().err
     assert (folder / "messy.swarm").read_bytes() == MESSY
     assert sorted(path.name for path in folder.iterdir()) == ["messy.swarm", "neat.swarm"]
+
+
+def test_migration_divides_statements_on_one_line(folder, capsys):
+    (folder / "old.swarm").write_text("event A : T event B : T\n", encoding="utf-8")
+
+    assert run(["fmt", "old.swarm"]) == 1
+    assert "SW0108" in capsys.readouterr().err
+    assert run(["fmt", "--migrate", "old.swarm"]) == 0
+    assert (folder / "old.swarm").read_text(encoding="utf-8") == "event A : T\nevent B : T\n"

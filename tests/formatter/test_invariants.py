@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from pathlib import Path
 from random import Random
@@ -30,12 +30,12 @@ FILES = [
 
 
 def parsed(text: str) -> bool:
-    return format_source(Source("model", text), Diagnostics()) is not None
+    return format_source(Source("model", text), Diagnostics(), migrate=True) is not None
 
 
 def layout(text: str) -> str:
     report = Diagnostics()
-    result = format_source(Source("model", text), report)
+    result = format_source(Source("model", text), report, migrate=True)
     assert result is not None, [found.message for found in report]
     return result
 
@@ -60,14 +60,14 @@ WHOLE = [
 
 
 def without_space(text: str) -> str:
-    return re.sub(r"\s+", "", text)
+    return re.sub(r"[\s,;]+", "", text)
 
 
 def check_layout(text: str) -> str:
     result = layout(text)
     assert content_of(tokenize(result)) == content_of(tokenize(text))
     assert without_space(result) == without_space(text)
-    assert layout(result) == result
+    assert format_source(Source("model", result), Diagnostics()) == result
     assert result.endswith("\n") or not result
     assert not re.search(r"[ \t]\n|\n\n\n|\n\n\Z|\A\n", with_short_tokens(result))
     return result
@@ -113,13 +113,14 @@ def test_the_meaning_stays(compile_text):
 
 
 GAPS = (" ", "  ", "\t", "\n", "\n\n", "\n\n\n \n", "\n        ")
+UNITS = ("us", "ms", "s", "min", "h", "mm", "cm", "m", "km")
 COMMENTS = (
     *("/* c */", " /* c */ ", "\n/* c */\n", "\n/* c */ ", " /* a\n   * b\n */ ", "/* a\n b */\n"),
     *(" // c\n", "\n// c\n", "\n// c\n\n// d\n", "\n/// doc\n", " /// no doc\n", "//c\n   //d\n"),
 )
 
 
-def mutated(text: str, random: Random, comments: float) -> str:
+def mutated(text: str, random: Random, comments: float, gaps: Sequence[str] = GAPS) -> str:
     """The same tokens, with other white space and comments between them."""
     tokens = tokenize(text)
     pieces = []
@@ -133,14 +134,14 @@ def mutated(text: str, random: Random, comments: float) -> str:
             pieces.append(random.choice(("\n", "\n\n", "\n\n\n  ")))
         elif end == other.start:
             continue  # there may be no space here
-        elif one.kind is Kind.NUMBER and other.kind is Kind.WORD:
-            pieces.append(random.choice((" ", "  ", "\t")))  # perhaps a unit
+        elif one.kind is Kind.NUMBER and other.text in UNITS:
+            pieces.append(random.choice((" ", "  ", "\t")))
         elif other.text.startswith("///"):
             pieces.append("\n")
         elif random.random() < comments:
             pieces.append(random.choice(COMMENTS))
         else:
-            pieces.append(random.choice(GAPS))
+            pieces.append(random.choice(gaps))
     return "".join(pieces) + random.choice(("", "\n", "\n\n", " "))
 
 
@@ -157,22 +158,31 @@ def test_any_white_space(name, random, comments):
 @settings(max_examples=12)
 @given(st.sampled_from(WHOLE), st.randoms(use_true_random=False), st.sampled_from((0, 0.1)))
 def test_any_white_space_keeps_the_meaning(compile_text, text, random, comments):
-    text = mutated(text, random, comments)
+    text = mutated(text, random, comments, [gap for gap in GAPS if "\n" in gap])
     before = compile_text(text)
     assume(before is not None)
     assert compile_text(check_layout(text)) == before
 
 
+@settings(max_examples=12)
+@given(st.sampled_from(WHOLE), st.randoms(use_true_random=False))
+def test_migration_keeps_the_meaning(compile_text, text, random):
+    """Statements share lines in any way, as they could before they needed separators."""
+    before = compile_text(text)
+    assert before is not None
+    assert compile_text(layout(mutated(text, random, 0))) == before
+
+
 SNIPPETS = (
-    "package a.b import pkg.*",
-    "const A : int8[<=3] = -3 enum E { A = -1 B }",
+    "package a.b; import pkg.*",
+    "const A : int8[<=3] = -3; enum E { A = -1, B }",
     "service S { request { a : std_msgs/Pose } }",
-    'controller C extends D { operation f(in x : T, y : T) in a : X on "t" }',
+    'controller C extends D { operation f(in x : T, y : T); in a : X on "t" }',
     "member M { p : C { a = 1 } connect a.b -> c }",
     "statemachine M { state S = N(a = f(1, 2)) { on E, F [not a and (b)] -> B } }",
-    "statemachine M { state S { on E / x = -1, send E(a = 1) -> B after 5 s -> T } }",
-    "statemachine M { state S { do f(a = 1, b = 2) gives (x => y, z => w) entry / a = 1 } }",
-    "statemachine M { choice C { [a] -> B else / x = 1 -> C } }",
+    "statemachine M { state S { on E / x = -1, send E(a = 1) -> B; after 5 s -> T } }",
+    "statemachine M { state S { do f(a = 1, b = 2) gives (x => y, z => w); entry / a = 1 } }",
+    "statemachine M { choice C { [a] -> B; else / x = 1 -> C } }",
     "swarm S { r : M[1..5] } optimize S { a.b in 1 .. 2 step 3 }",
 )
 

@@ -66,8 +66,8 @@ def test_short_files(written, expected):
         ("struct A {\n\n}", "struct A { }\n"),
         ("struct A {a : B}", "struct A { a : B }\n"),
         ("struct A {\na : B}", "struct A {\n  a : B\n}\n"),
-        ("struct A {a : B c : D}", "struct A {\n  a : B\n  c : D\n}\n"),
-        ("enum A {B C}", "enum A { B C }\n"),
+        ("struct A {a : B, c : D}", "struct A {\n  a : B\n  c : D\n}\n"),
+        ("enum A {B, C}", "enum A { B, C }\n"),
         ("struct A { /* none */ }", "struct A { /* none */ }\n"),
         ("struct A { // none\n}", "struct A {  // none\n}\n"),
         (
@@ -181,3 +181,74 @@ def test_a_layout_that_changes_the_content_is_refused(monkeypatch):
     monkeypatch.setattr(swarm_format, "render_lines", lambda _lines: "event A : C\n")
     with pytest.raises(MeaningChangedError):
         layout("event A : B")
+
+
+def test_separators_end_no_line_and_divide_values():
+    text = """\
+        enum Level { LOW; HIGH = 3, }
+        enum Wide { ONE,
+          TWO; THREE }
+        event Start : std_msgs/Empty; event Stop : std_msgs/Empty;
+        member Rover { behavior M; eye : Camera { rate = 1.0; zoom = 2 }; }
+        member Tug { communication zyre { /* c */ port = 1; name = "a", } }
+        statemachine M {
+          initial S;
+          state S { on Start / x = 1, y = 2; after 1 s -> S };
+        }
+    """
+
+    assert layout(dedent(text)) == dedent(
+        """\
+        enum Level { LOW, HIGH = 3 }
+
+        enum Wide {
+          ONE
+          TWO
+          THREE
+        }
+
+        event Start : std_msgs/Empty
+        event Stop  : std_msgs/Empty
+
+        member Rover {
+          behavior M
+          eye : Camera { rate = 1.0, zoom = 2 }
+        }
+
+        member Tug { communication zyre { /* c */ port = 1, name = "a" } }
+
+        statemachine M {
+          initial S
+          state S {
+            on Start / x = 1, y = 2
+            after 1 s -> S
+          }
+        }
+        """
+    )
+
+
+def test_what_shares_a_line_is_divided_only_by_a_migration():
+    text = (
+        "event A : T event B : T\n"
+        "enum E { ONE TWO } statemachine M { state S { on A / send B after 1 s -> S } }"
+    )
+    report = Diagnostics()
+
+    assert format_source(Source("model", text), report) is None
+    assert [found.name for found in report] == ["missing-separator"] * 2
+    assert format_source(Source("model", text), Diagnostics(), migrate=True) == dedent(
+        """\
+        event A : T
+        event B : T
+
+        enum E { ONE, TWO }
+
+        statemachine M {
+          state S {
+            on A / send B
+            after 1 s -> S
+          }
+        }
+        """
+    )

@@ -51,10 +51,10 @@ MODELS = [
 
 EVERYTHING = """
 package test
-action Go { result { reached : bool  count : int32 } }
-action Drive { goal { speed : float64  name : string } result { count : int32  name : string } }
+action Go { result { reached : bool, count : int32 } }
+action Drive { goal { speed : float64, name : string } result { count : int32, name : string } }
 service Ask { request { times : uint8 } response { answer : bool } }
-message Report { id : string  level : int32 }
+message Report { id : string, level : int32 }
 function go : abstraction { action "cmd/go" : Go }
 function drive : abstraction { action "cmd/drive" : Drive }
 function ask : abstraction { service "cmd/ask" : Ask }
@@ -68,7 +68,7 @@ statemachine Look {
   param limit : int32 = 2
   var seen : int32 = 0
   initial Try
-  state Try { do ask(times = 1) on succeeded -> Ok on aborted [seen < limit] -> Try
+  state Try { do ask(times = 1); on succeeded -> Ok; on aborted [seen < limit] -> Try
               on aborted -> Lost }
   final Ok
   final Lost
@@ -124,15 +124,15 @@ statemachine M {
     entry / class = 1
     region L {
       initial A
-      state A { do go(by fill) gives by read on succeeded, aborted -> E }
+      state A { do go(by fill) gives by read; on succeeded, aborted -> E }
       final E
     }
-    region R { initial A state A { on Start -> E on Abort -> Out.Back } final E }
+    region R { initial A; state A { on Start -> E; on Abort -> Out.Back } final E }
     /// One is enough.
     on L.done -> Sub
     on done   -> Sub
   }
-  state Sub = Look { on done.Ok -> Stop on done -> Out }
+  state Sub = Look { on done.Ok -> Stop; on done -> Out }
   /// The end.
   final Stop
 }

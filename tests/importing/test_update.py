@@ -255,7 +255,7 @@ def test_a_model_with_syntax_errors_is_left_alone(
 
 
 def test_an_import_may_bring_what_a_model_lacks(model: Path, tmp_path: Path) -> None:
-    machine = "statemachine M {\n  initial A\n  state A { do drop on succeeded, aborted -> B }\n"
+    machine = "statemachine M {\n  initial A\n  state A { do drop; on succeeded, aborted -> B }\n"
     model.write_text(f"{machine}  final B\n}}\n", encoding="utf-8")
 
     assert run(["check", str(model)]) == 1
@@ -317,40 +317,40 @@ def test_an_empty_file_is_a_new_one(tmp_path: Path) -> None:
         ),
         pytest.param(
             "action a/B { result { /* r */ } // s\n feedback { f : a/C } }",
-            "action a/B { result { y : int8 } feedback {\n/// D.\n e : a/C f : a/D } }",
+            "action a/B { result { y : int8 } feedback {\n/// D.\n e : a/C, f : a/D } }",
             "action a/B { result {\ny : int8\n /* r */ } // s\n"
             " feedback { f : a/D\n/// D.\ne : a/C\n } }",
             id="fields",
         ),
         pytest.param(
             "message a/B { const A : uint8 = 1 }",
-            "message a/B { const A : uint8 = 2 const B : uint8 = 3 x : int8 }",
+            "message a/B { const A : uint8 = 2; const B : uint8 = 3; x : int8 }",
             "message a/B { const A : uint8 = 2\nconst B : uint8 = 3\n\nx : int8\n }",
             id="constants",
         ),
         pytest.param(
-            "sensor S extends T { }\nsensor T { in a : int8 param p : int8 = 1 }",
-            "actuator S { in a : string param p : float64 = 1.0 param q : int8 }",
+            "sensor S extends T { }\nsensor T { in a : int8; param p : int8 = 1 }",
+            "actuator S { in a : string; param p : float64 = 1.0; param q : int8 }",
             "actuator S extends T {\nparam q : int8\n }\n"
-            "sensor T { in a : int8 param p : int8 = 1 }",
+            "sensor T { in a : int8; param p : int8 = 1 }",
             id="inherited",
         ),
         pytest.param(
-            'virtual V { inout x : int8 on "t" out y : int8 }',
-            'virtual V { in t : int16 on "t" out y : int8 on "u" }',
-            'virtual V { inout x : int16 on "t" out y : int8\nout y2 : int8 on "u"\n }',
+            'virtual V { inout x : int8 on "t"; out y : int8 }',
+            'virtual V { in t : int16 on "t"; out y : int8 on "u" }',
+            'virtual V { inout x : int16 on "t"; out y : int8\nout y2 : int8 on "u"\n }',
             id="ports-are-found-by-topics",
         ),
         pytest.param(
             "sensor S { param p : int8 }",
-            "sensor S { in a : int8 param p : int8 = 1 }",
+            "sensor S { in a : int8; param p : int8 = 1 }",
             "sensor S { param p : int8 = 1\nin a : int8\n }",
             id="a-value-and-a-port",
         ),
         pytest.param(
-            "enum Mode : uint8 { OFF }\nstruct S { m : Mode n : string<=4 }",
-            "message m/S { m : uint8 n : string }",
-            "enum Mode : uint8 { OFF }\nstruct S { m : Mode n : string<=4 }",
+            "enum Mode : uint8 { OFF }\nstruct S { m : Mode, n : string<=4 }",
+            "message m/S { m : uint8, n : string }",
+            "enum Mode : uint8 { OFF }\nstruct S { m : Mode, n : string<=4 }",
             id="types-that-the-format-does-not-have",
         ),
     ],
@@ -369,11 +369,11 @@ def test_changes(before: str, imported: str, after: str) -> None:
 @pytest.mark.parametrize(
     ("before", "imported", "places"),
     [
-        ("message a/B { x : int8 y : int8 }", "message a/B { x : int8 }", ["y : int8"]),
-        ("message a/B { x : int8 y : int8 }", "message a/B { y : int8 x : int8 }", ["x : int8"]),
+        ("message a/B { x : int8, y : int8 }", "message a/B { x : int8 }", ["y : int8"]),
+        ("message a/B { x : int8, y : int8 }", "message a/B { y : int8, x : int8 }", ["x : int8"]),
         ("message a/B { x : int8 }", "service a/B { }", ["a/B"]),
         ("action a/B { goal { x : int8 } }", "action a/B { }", []),
-        ("const C : int8 = 1 function f : swarm { param p : int8 = C }",
+        ("const C : int8 = 1; function f : swarm { param p : int8 = C }",
          "function f : swarm { param p : int8 = 2 }", ["C"]),
     ],
 )  # fmt: skip

@@ -78,7 +78,7 @@ def test_names_that_yaml_takes_for_truth_values(
 sensor Eye {{ {params} out seen : std_msgs/Empty }}
 endless statemachine Work {{ {params} initial A
 state A {{ after 1 s [{" + ".join(names)} > 5] -> A }} }}
-member Bot {{ behavior Work {params.replace("1", "2")} no : Eye {{ {values} }} }}
+member Bot {{ behavior Work\n{params.replace("1", "2")} no : Eye {{ {values} }} }}
 swarm Team {{ bot : Bot }}
 """
     files = make(text, target, options).files

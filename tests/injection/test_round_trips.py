@@ -70,7 +70,7 @@ def test_import_of_what_is_exported(make: Make, files: list[str], tmp_path: Path
 
 
 # A carriage return in XML is that of a reference; in a file it would end the line.
-INJECTED = "first\rstatemachine Injected { initial A state A { } }\n\x85\u2028 last \x7f\x9b"
+INJECTED = "first\rstatemachine Injected { initial A; state A { } }\n\x85\u2028 last \x7f\x9b"
 
 
 @settings(max_examples=30)

@@ -101,7 +101,7 @@ def test_names_that_would_be_alike_after_reuse_differ(compiled: Compiled) -> Non
         state FlyUp = N {{ on done -> F }}
         final F
       }}
-      statemachine N {{ var x : int8 initial F final F }}
+      statemachine N {{ var x : int8; initial F; final F }}
     """)
 
     assert [v.name for v in machine_of(system, "M").variables] == ["fly_up_x", "fly_up_x_"]
@@ -112,8 +112,8 @@ def test_ids_are_paths(compiled: Compiled) -> None:
       statemachine M {{
         initial P
         parallel state P {{
-          region Left {{ initial A state A {{ on Go -> B }} final B }}
-          region Right {{ initial A state A {{ initial C final C on done -> B }} final B }}
+          region Left {{ initial A; state A {{ on Go -> B }} final B }}
+          region Right {{ initial A; state A {{ initial C; final C; on done -> B }} final B }}
           on Left.done.B -> F
           on done -> F
         }}
@@ -161,7 +161,7 @@ def test_lengths_are_metres(compiled: Compiled) -> None:
 def test_topics_are_names_where_none_is_given(compiled: Compiled) -> None:
     system = compiled(
         'event TargetFound : a/B\nevent Low : a/B on "battery/low"\n'
-        'sensor Camera { out bigImage : a/B  out small : a/B on "s" }'
+        'sensor Camera { out bigImage : a/B; out small : a/B on "s" }'
     )
 
     assert [event.topic for event in system.events] == ["target_found", "battery/low"]
@@ -179,7 +179,7 @@ statemachine M {{
 
 
 def test_a_machine_has_the_params_of_its_members_that_it_uses(compiled: Compiled) -> None:
-    member = "behavior M param theirs : int32 = 2 param unused : int32 = 3"
+    member = "behavior M; param theirs : int32 = 2; param unused : int32 = 3"
     (machine,) = compiled(f"{BEHAVING} member R {{ {member} }}").machines
 
     assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore
@@ -190,8 +190,8 @@ def test_a_machine_has_the_params_of_its_members_that_it_uses(compiled: Compiled
 
 def test_members_that_disagree_leave_no_default(compiled: Compiled) -> None:
     (machine,) = compiled(
-        f"{BEHAVING} member R {{ behavior M param theirs : int32 = 2 param own : int32 = 5 }}"
-        "member Q { behavior M param theirs : int32 = 3 param own : int32 = 5 }"
+        f"{BEHAVING} member R {{ behavior M; param theirs : int32 = 2; param own : int32 = 5 }}"
+        "member Q { behavior M; param theirs : int32 = 3; param own : int32 = 5 }"
     ).machines
 
     assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore
@@ -201,7 +201,7 @@ def test_members_that_disagree_leave_no_default(compiled: Compiled) -> None:
 
 
 BEACON = """
-virtual Beacon { param period : duration = 250 ms  behavior Blink }
+virtual Beacon { param period : duration = 250 ms; behavior Blink }
 endless statemachine Blink {
   param period : duration
   initial On
@@ -237,7 +237,7 @@ def test_names_of_two_packages_do_not_collide(tmp_path: Path) -> None:
     (tmp_path / "b.swarm").write_text(
         "package b\nevent Go : std_msgs/Empty\nevent Only : std_msgs/Empty\n"
         "event a_x_Go : std_msgs/Empty\n"
-        "statemachine M { initial A state A { on Go -> F } final F }\n"
+        "statemachine M { initial A; state A { on Go -> F } final F }\n"
     )
     system = pipeline.check([tmp_path]).system
     assert system is not None
@@ -309,7 +309,7 @@ def test_a_constant_is_one_value_however_it_is_made(compiled: Compiled) -> None:
     doubled = "".join(f"const D{n} : float64 = D{n - 1} + D{n - 1}\n" for n in range(1, 60))
     chain = "".join(f"const C{n} : int32 = C{n - 1} + 1\n" for n in range(1, 400))
     system = compiled(f"""{EVENT}
-      enum Mode {{ OFF = 3 ON }}
+      enum Mode {{ OFF = 3, ON }}
       const D0 : float64 = 1.0
       {doubled}
       const C0 : int32 = 0
@@ -382,7 +382,7 @@ def test_a_service_and_an_action_may_share_a_name(compiled: Compiled) -> None:
     system = compiled(
         """
         function map : abstraction { service "map" : nav_msgs/GetMap }
-        statemachine M { initial A state A { do map on succeeded, aborted -> B } final B }
+        statemachine M { initial A; state A { do map; on succeeded, aborted -> B } final B }
         """
     )
     type_ = ir.Named("nav_msgs", "GetMap")
@@ -417,7 +417,7 @@ def test_what_is_derived_does_not_count_in_comparisons(compiled: Compiled) -> No
 
 def test_values_keep_their_names(compiled: Compiled) -> None:
     system = compiled("""
-      enum Mode { MANUAL AUTO = 4 }
+      enum Mode { MANUAL, AUTO = 4 }
       const LIMIT : float64  = 2.5
       const WAIT  : duration = 2 * 30 s
       endless statemachine M {

@@ -22,9 +22,9 @@ statemachine Blinking {
   }
   final Off
 }
-environment Field { world "my field.world" size 10 m x 20 m }
+environment Field { world "my field.world"; size 10 m x 20 m }
 member Lamp { behavior Blinking }
-swarm Lamps { lamp : Lamp[2..*] environment Field }
+swarm Lamps { lamp : Lamp[2..*]; environment Field }
 """
 
 

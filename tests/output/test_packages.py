@@ -21,7 +21,7 @@ statemachine Duty {
   }
   final Done
 }
-member Robot { behavior Duty  param speed : float64 = 1.0 }
+member Robot { behavior Duty; param speed : float64 = 1.0 }
 swarm Team { robot : Robot[1] }
 """
 

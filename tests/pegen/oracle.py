@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
@@ -17,21 +18,31 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import (
     NODES,
     Call,
+    Documented,
+    EnumValue,
     Expression,
     ExpressionTree,
+    Field,
     FieldUse,
     Model,
     NameUse,
     Node,
     OperatorUse,
+    Parameter,
+    PartValue,
     Ref,
     Value,
     Word,
+    walk,
 )
 from swarmdsl.syntax.parser.literals import is_out_of_range, quantity_value, unquoted
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
 from swarmdsl.syntax.pegen.metamodel import metamodel
 from swarmdsl.syntax.pegen.swarm_actions import TARGET
+
+_TOKEN = re.compile(
+    r'(?P<blank>\s+|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)|"(?:[^"\\\n]|\\[^\n])*"|\w+|.', re.DOTALL
+)
 
 
 @dataclass
@@ -67,9 +78,30 @@ def parse(text: str) -> Expected | Refused:
     finally:
         sys.setrecursionlimit(usual)
     if isinstance(made, str):  # textX makes no model of nothing
-        return Expected(Model(Span(source, 0, 0), None, [], [], []))
+        model = Model(Span(source, 0, 0), None, [], [], [])
+        model.missing_separators = []
+        return Expected(model)
     conversion = _Conversion(source)
-    return Expected(conversion.converted(made), conversion.wrong)
+    model = conversion.converted(made)
+    model.missing_separators = list(_missing_separators(model, source))
+    return Expected(model, conversion.wrong)
+
+
+def _missing_separators(model: Model, source: Source) -> Iterator[Word]:
+    """Yield what separates items on one line, where it is missing."""
+    gaps: dict[int, tuple[str, str, int]] = {}  # by token: the one before, what is between, the end
+    last, end = "", 0
+    for token in _TOKEN.finditer(source.text):
+        if token.lastgroup != "blank":
+            gaps[token.start()] = last, source.text[end : token.start()], token.end()
+            last, end = token[0], token.end()
+    for node in sorted(walk(model), key=lambda node: node.span.start):
+        start = node.span.start
+        if isinstance(node, Documented) and not isinstance(node, Parameter):
+            before, gap, end = gaps[start]
+            if before not in ("", "{", "}", ",", ";") and "\n" not in gap:
+                is_entry = isinstance(node, (EnumValue, Field, PartValue))
+                yield Word("," if is_entry else ";", Span(source, start, end))
 
 
 class _Conversion:

@@ -114,7 +114,7 @@ event Low  : m/Level
 event High : m/Level
 endless statemachine M {
   initial Out
-  state Out { on High -> Box.Back  on Low -> Box.In }
+  state Out { on High -> Box.Back; on Low -> Box.In }
   state Box {
     initial In
     history Back -> In

@@ -31,7 +31,7 @@ member Dog {
   behavior Guarding
 }
 swarm Pack { dog : Dog[2] }
-statemachine Watching { initial Open state Open { after 1 s -> Shut } final Shut }
+statemachine Watching { initial Open; state Open { after 1 s -> Shut } final Shut }
 statemachine Round {
   initial Walk
   state Walk { after 1 s -> Rest }

@@ -27,18 +27,18 @@ statemachine Work {
   state Busy { after 1 s -> Ready }
   final Ready
 }
-statemachine Rest { initial Nap state Nap { after 1 s -> Awake } final Awake }
+statemachine Rest { initial Nap; state Nap { after 1 s -> Awake } final Awake }
 """
 NESTED = """package work
-statemachine Rest { initial Nap state Nap { after 1 s -> Awake } final Awake }
+statemachine Rest { initial Nap; state Nap { after 1 s -> Awake } final Awake }
 endless statemachine Job {
-  var naps : int32 initial Out
+  var naps : int32; initial Out
   state Out {
     initial Dig
     state Dig { after 1 s -> Rest }
     state Rest { after 1 s -> Home }
   }
-  state Home { after 1 s / naps = naps + 1 after 2 s -> Out after 3 s -> Out.Rest }
+  state Home { after 1 s / naps = naps + 1; after 2 s -> Out; after 3 s -> Out.Rest }
 }
 member Digger { behavior Job }
 swarm Team { digger : Digger[2] }

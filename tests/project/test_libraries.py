@@ -208,11 +208,11 @@ statemachine Sweep {
 
 def test_only_errors_of_a_library_are_reported(tmp_path) -> None:
     (tmp_path / "kit").mkdir()
-    wrong = "package kit.wrong\nstatemachine Idle { state wait final Done }\n"
+    wrong = "package kit.wrong\nstatemachine Idle { state wait; final Done }\n"
     (tmp_path / "kit" / "wrong.swarm").write_text(wrong, encoding="utf-8")
     (tmp_path / "model.swarm").write_text(
         "import kit.wrong.*\n"
-        "statemachine Main { initial A state A = Idle { on done -> Z } final Z }\n",
+        "statemachine Main { initial A; state A = Idle { on done -> Z } final Z }\n",
         encoding="utf-8",
     )
 

@@ -40,13 +40,13 @@ statemachine Going {
 
   state Busy {
     initial Drive
-    state Drive { do drive   on succeeded, aborted -> Drive }   // for ever
+    state Drive { do drive;   on succeeded, aborted -> Drive }   // for ever
     on Bump [event.data] -> Over
     on MissionAbort      -> Over
   }
 
   parallel state Over {
-    region Left { initial Slow  state Slow { after 1 s -> Gone }  final Gone }
+    region Left { initial Slow; state Slow { after 1 s -> Gone }  final Gone }
     region Right {
       initial Slow
       state Slow { after 2 s -> Gone }
@@ -135,7 +135,7 @@ swarm Pair {
     ),
     "state in a state": (
         ["state", "Going.Busy.Rest", "--on", "Bump / send MissionAbort -> Drive"],
-        "    state Drive { do drive   on succeeded, aborted -> Drive }   // for ever",
+        "    state Drive { do drive;   on succeeded, aborted -> Drive }   // for ever",
         """
     state Rest {
       on Bump / send MissionAbort -> Drive
@@ -143,7 +143,7 @@ swarm Pair {
     ),
     "state that does something": (
         ["state", "Busy.Back", "--do", "drive", "--on", "succeeded, aborted -> Drive"],
-        "    state Drive { do drive   on succeeded, aborted -> Drive }   // for ever",
+        "    state Drive { do drive;   on succeeded, aborted -> Drive }   // for ever",
         """
     state Back {
       do drive
@@ -250,7 +250,7 @@ def test_a_file_without_declarations(swarmc, folder) -> None:
         (["component", "Bumper"], "SW1507", "choose another name"),
         (["member", "Truck", "--part", "b:Bumpr"], "SW0202", "did you mean `Bumper`?"),
         (["event", "on", "std_msgs/Empty"], "SW0103", "choose another name"),
-        (["event", "E", "std_msgs/Empty event F : std_msgs/Empty"], "SW1507", "more than one"),
+        (["event", "E", "std_msgs/Empty; event F : std_msgs/Empty"], "SW1507", "more than one"),
         (["function", "f", "--action", "f:std_srvs/Empty"], "SW0604", "service"),
         (["swarm", "S", "--member", "Cart=0"], "SW0301", "write `[3]`"),
         (["state", "Goin.X"], "SW1503", "did you mean `Going`?"),

@@ -38,7 +38,7 @@ statemachine Going {
   final Done
 }
 
-statemachine Other { initial Idle  state Idle { after 1 s -> Done }  final Done }
+statemachine Other { initial Idle; state Idle { after 1 s -> Done }  final Done }
 """
 
 

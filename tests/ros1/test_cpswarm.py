@@ -52,7 +52,7 @@ def test_uav_without_its_param_does_not_start(world: World) -> None:
     statemachine Uav {
       param altitude : float64
       initial A
-      state A { do takeoff(altitude = altitude)  on succeeded, aborted -> B }
+      state A { do takeoff(altitude = altitude); on succeeded, aborted -> B }
       final B
     }"""
     uav = world(text)

@@ -20,15 +20,15 @@ MODEL = """
 package lab
 swarm event Stop : swarmros/SimpleEvent
 message swarmros/SimpleEvent { eventHeader : swarmros/EventHeader }
-message swarmros/EventHeader { name : string  node : string }
+message swarmros/EventHeader { name : string, node : string }
 statemachine Look {
   param wait : duration
   param name : string = "-"
   initial A
-  state A { on Stop -> B  after wait -> B }
+  state A { on Stop -> B; after wait -> B }
   final B
 }
-sensor Eye { behavior Look  param wait : duration = 1 h }
+sensor Eye { behavior Look; param wait : duration = 1 h }
 member Uav {
   behavior Look
   param wait : duration = 2 h

@@ -44,7 +44,7 @@ statemachine Flight {
     on done.Lost -> Down
     on Stop -> Down
   }
-  state Down { do land  on succeeded -> Fallen  on aborted -> Down }
+  state Down { do land; on succeeded -> Fallen; on aborted -> Down }
   final Home
   final Fallen
 }"""

@@ -23,8 +23,8 @@ statemachine Work {
     on Stop -> Asking
     after 1 h -> End
   }
-  state Moving { do move(x = 1.0)  on succeeded, aborted -> End }
-  state Asking { do ask  on succeeded, aborted -> End }
+  state Moving { do move(x = 1.0); on succeeded, aborted -> End }
+  state Asking { do ask; on succeeded, aborted -> End }
   final End
 }
 """

@@ -39,7 +39,7 @@ def test_the_table_is_true(
     mapped = load("ros2").mapping[number]
     body = MODELS[mapped.construct]
     end = "" if body == "final A" else "final End"
-    model = f"{HEADER}statemachine Work {{ initial A {body} {end} }}"
+    model = f"{HEADER}statemachine Work {{ initial A; {body} {end} }}"
     if mapped.construct == "connector":
         (word,) = re.findall("`([^`]*)`", mapped.means)
         assert word in generate(model + PARTS)["lab_behavior/launch/uavs.launch.py"].text

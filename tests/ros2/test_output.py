@@ -31,7 +31,7 @@ MODEL = '''
 /// A lab with a "difficult" text \\\\ in it: """
 package lab
 
-struct Spot { x : float64  y : float32[<=4] }
+struct Spot { x : float64, y : float32[<=4] }
 /// What was seen.
 message Seen {
   const FAR : uint8 = 3
@@ -44,7 +44,7 @@ message Seen {
   label : string<=5
 }
 service Ask { request { times : int32 } response { answer : string } }
-action Look { goal { at : Spot  name : string } result { found : bool } feedback { spot : Spot } }
+action Look { goal { at : Spot, name : string } result { found : bool } feedback { spot : Spot } }
 function ask   : abstraction { service "ask" : Ask }
 function look  : abstraction { action "look" : Look }
 function other : abstraction { action "other" : other_msgs/Look }
@@ -85,10 +85,10 @@ statemachine Watch {
   }
   final End
 }
-member Eye { behavior Watch  param limit : duration = 1500 ms }
-sensor Lens { behavior Watch  param limit : duration = 2 s }
+member Eye { behavior Watch; param limit : duration = 1500 ms }
+sensor Lens { behavior Watch; param limit : duration = 2 s }
 member Head { eye : Lens { limit = 3 s } }
-swarm Eyes { left : Eye[2..4]  head : Head }
+swarm Eyes { left : Eye[2..4]; head : Head }
 '''.replace("LONG", "which takes more than one line" * 5).replace("POWER", "*".join(["wide"] * 4))
 LINTERS = (
     *("--isolated", "--target-version", "py310", "--line-length", "99"),
@@ -192,8 +192,8 @@ def test_packages_of_others_are_written_by_names_that_ros_2_takes(generate: Gene
     model = """
       package lab
       event Done : other_msgs/Done
-      statemachine Wait { initial A state A { on Done -> B } final B }
-      message other_msgs/Done { theEnd : far_msgs/Place  at : near_msgs/at }
+      statemachine Wait { initial A; state A { on Done -> B } final B }
+      message other_msgs/Done { theEnd : far_msgs/Place, at : near_msgs/at }
       message near_msgs/at { x : float64 }
       message far_msgs/Place { x : float64 }
     """
@@ -289,7 +289,7 @@ def test_the_launch_file_starts_every_member(
 def test_whole_numbers_stay_in_their_types(generate: Generate) -> None:
     files = generate(
         BARE.replace("on Go -> Gone", "on Go / n = n * n, wide = n, n = m -> Gone").replace(
-            "initial", "var n : int32 = 2  var m : int32 = 3  var wide : int64 = 0  initial"
+            "initial", "var n : int32 = 2; var m : int32 = 3; var wide : int64 = 0; initial"
         )
     )
 
@@ -309,9 +309,9 @@ def test_traces_call_what_regions_take_as_a_simulation_does(
       event Halt : std_msgs/Empty
       endless statemachine Work {
         initial Both
-        parallel state Both { internal on Stop -> A1  internal on Halt -> B1
-          region A { initial A0 state A0 { on Halt -> A1 } state A1 { } }
-          region B { initial B0 state B0 { on Stop -> B1 } state B1 { } }
+        parallel state Both { internal on Stop -> A1; internal on Halt -> B1
+          region A { initial A0; state A0 { on Halt -> A1 } state A1 { } }
+          region B { initial B0; state B0 { on Stop -> B1 } state B1 { } }
         }
       }
     """
@@ -368,7 +368,7 @@ def _code(node: ast.stmt) -> str:
 def test_values_have_their_names(generate: Generate) -> None:
     files = generate("""
       package weeds
-      enum Species : int32 { DOCK THISTLE = 3 }
+      enum Species : int32 { DOCK, THISTLE = 3 }
       const STATES : duration = 2 s
       const MOST   : int32    = 9
       event Seen : std_msgs/Int32

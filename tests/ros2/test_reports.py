@@ -16,7 +16,7 @@ ACTION = "action Fly { goal { x : float64 } result { x : uint32 } feedback { x :
 MACHINE = """
 statemachine Work {
   initial A
-  state A { do go  on succeeded, aborted -> B }
+  state A { do go; on succeeded, aborted -> B }
   final B
 }
 """
@@ -45,14 +45,14 @@ statemachine Work {
         ),
         (
             'event Loud : std_msgs/Empty on "~loud"\n'
-            + MACHINE.replace("state A { do go", "state A { on Loud -> B  do go"),
+            + MACHINE.replace("state A { do go", "state A { on Loud -> B; do go"),
             "bad-identifier",
             "`~loud` as the name of a topic",
             "",
         ),
         (
             MACHINE.replace("initial A", "param class : int32 = 1\n  initial A").replace(
-                "on succeeded, ", "on succeeded [class == 1] -> B  on succeeded, "
+                "on succeeded, ", "on succeeded [class == 1] -> B; on succeeded, "
             ),
             "bad-identifier",
             "`class` as an attribute of Python",
@@ -60,7 +60,7 @@ statemachine Work {
         ),
         (
             MACHINE.replace("initial A", "param use_sim_time : bool = true\n  initial A").replace(
-                "on succeeded, ", "on succeeded [use_sim_time] -> B  on succeeded, "
+                "on succeeded, ", "on succeeded [use_sim_time] -> B; on succeeded, "
             ),
             "bad-identifier",
             "`use_sim_time` as a parameter",
@@ -79,13 +79,13 @@ statemachine Work {
             "",
         ),
         (
-            ACTION + MACHINE.replace("-> B", '-> B  monitor "fly/goal" : lab/FlyActionGoal -> B'),
+            ACTION + MACHINE.replace("-> B", '-> B; monitor "fly/goal" : lab/FlyActionGoal -> B'),
             "unsupported-construct",
             "an event of `lab/FlyActionGoal` that is heard",
             "",
         ),
         (
-            ACTION + MACHINE.replace("-> B", '-> B  monitor "fly" : lab/FlyActionFeedback -> B'),
+            ACTION + MACHINE.replace("-> B", '-> B; monitor "fly" : lab/FlyActionFeedback -> B'),
             "unsupported-construct",
             "`lab/FlyActionFeedback` on a topic other than `<action>/feedback`, `fly`",
             "",
@@ -102,7 +102,7 @@ statemachine Work {
             ACTION
             + MACHINE.replace(
                 "-> B",
-                '-> B monitor "fly/feedback" : lab/FlyActionFeedback [event.header.seq > 1] -> B',
+                '-> B; monitor "fly/feedback" : lab/FlyActionFeedback [event.header.seq > 1] -> B',
             ),
             "unsupported-construct",
             "field `header` of `lab/FlyActionFeedback`",
@@ -117,10 +117,10 @@ statemachine Work {
         (
             MACHINE.replace("initial", "param big : uint64\n  initial", 1)
             + """
-            member Uav { behavior Work  param big : uint64 = 9223372036854775807 }
-            controller Worker { behavior Work  param big : uint64 }
+            member Uav { behavior Work; param big : uint64 = 9223372036854775807 }
+            controller Worker { behavior Work; param big : uint64 }
             member Rover { work : Worker { big = 9223372036854775808 } }
-            swarm All { uavs : Uav [1..2]  rovers : Rover [1..2]  others : Rover [1..2] }
+            swarm All { uavs : Uav [1..2]; rovers : Rover [1..2]; others : Rover [1..2] }
             """,
             "unsupported-construct",
             "a param of 9223372036854775808",
@@ -128,7 +128,7 @@ statemachine Work {
         ),
         (
             'swarm event Loud : std_msgs/Empty on "~/loud"\n'
-            + MACHINE.replace("state A { do go", "state A { on Loud -> B  do go"),
+            + MACHINE.replace("state A { do go", "state A { on Loud -> B; do go"),
             "bad-identifier",
             "`~/loud` as the name of a topic of the swarm",
             "",
@@ -150,10 +150,10 @@ def test_reports(reported: Reported, text: str, name: str, part: str, place: str
         "entry / number = last.header.seq",
         "exit / number = last.header.seq",
         "entry / send Far(x = last.header.seq)",
-        "do fly(x = last.header.seq)  on succeeded, aborted -> B",
+        "do fly(x = last.header.seq); on succeeded, aborted -> B",
         "after last.header.seq * 1 s -> B",
         "entry / last.header.seq = 1",
-        "do fly(x = 1) gives (x => last.header.seq)  on succeeded, aborted -> B",
+        "do fly(x = 1) gives (x => last.header.seq); on succeeded, aborted -> B",
     ],
 )
 def test_what_feedback_has_in_ros_1_only_is_reported_wherever_it_is_used(
@@ -192,7 +192,7 @@ def test_what_is_used_of_a_package_that_is_written_is_described(reported: Report
 
 
 def test_so_is_what_their_messages_are_made_of(reported: Reported) -> None:
-    message = "message other_msgs/Done { header : other_msgs/Header  again : other_msgs/Header }\n"
+    message = "message other_msgs/Done { header : other_msgs/Header, again : other_msgs/Header }\n"
     text = HEAD + message + "event Done : other_msgs/Done\n" + MACHINE
     found = reported(text, interfaces="other_msgs")
 
@@ -208,7 +208,7 @@ def test_what_ros_makes_of_an_action_is_described_with_it(reported: Reported) ->
       function fly : abstraction { action "fly" : fly_msgs/Fly }
       statemachine Work {
         initial A
-        state A { do fly  on succeeded, aborted -> B
+        state A { do fly; on succeeded, aborted -> B
           monitor "fly/feedback" : fly_msgs/FlyActionFeedback [event.feedback.height > 2] -> B }
         final B
       }

@@ -17,14 +17,14 @@ _ONE_ROW_HERE = (
 MODELS = {
     **{construct: body for construct, body in FOR_ROS_2.items() if construct not in _ONE_ROW_HERE},
     "transition into a state": f"""
-        state A {{ on Go -> Box.Deep  on Stop -> Box }}
-        state Box {{ initial In {BOX} on Stop -> End }}""",
+        state A {{ on Go -> Box.Deep; on Stop -> Box }}
+        state Box {{ initial In; {BOX} on Stop -> End }}""",
     "goal or request": FOR_ROS_2["goal or request of values"],
     "callback": FOR_ROS_2["callback for a result or response"],
     "transition from deep inside to a deep history around": """
         state A {
           initial Box
-          state Box { initial In state In { on Go -> Deep } state Deep { on Go -> A.H } }
+          state Box { initial In; state In { on Go -> Deep } state Deep { on Go -> A.H } }
           deep history H -> Box
           on Stop -> End
         }""",
@@ -38,7 +38,7 @@ def check_row(
 ) -> None:
     """Check what a row says of a machine with this body."""
     end = "" if body == "final A" else "final End"
-    model = f"{HEADER}statemachine Work {{ initial A {body} {end} }}"
+    model = f"{HEADER}statemachine Work {{ initial A; {body} {end} }}"
     if mapped.construct == "connector":
         assert "remappings=" in generate(model + PARTS)["launch/uavs.launch.py"]
         return

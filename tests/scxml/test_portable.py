@@ -35,8 +35,8 @@ WALKS, STEPS = 8, 40
 # What the models above have little of: results, and what happens while they are stored.
 LIVELY = """
 package lively
-action Go { goal { speed : float64 } result { count : int32  name : string } }
-message Report { id : string  level : int32 }
+action Go { goal { speed : float64 } result { count : int32, name : string } }
+message Report { id : string, level : int32 }
 message Nothing { }
 function go : abstraction { action "cmd/go" : Go }
 function look : abstraction { action "cmd/look" : Go }
@@ -71,7 +71,7 @@ endless statemachine Lively {
       on preempted -> Go
       on Stop / n = n * 2
     }
-    choice Fork { [n > 5] / n = 0 -> Both [n < 0] / n = 1 -> Go else -> Over }
+    choice Fork { [n > 5] / n = 0 -> Both; [n < 0] / n = 1 -> Go; else -> Over }
     parallel state Both {
       region L {
         initial A
@@ -80,13 +80,13 @@ endless statemachine Lively {
           on succeeded, Stop -> B
           on aborted -> B
         }
-        state B { on Found [event.level > 3] / last = event -> E on Start -> A }
+        state B { on Found [event.level > 3] / last = event -> E; on Start -> A }
         final E
       }
       region R {
         initial C
-        state C { do look(speed = sum) on succeeded -> D on aborted -> C }
-        state D { on Start -> C on Stop -> F after 1500 ms -> G }
+        state C { do look(speed = sum); on succeeded -> D; on aborted -> C }
+        state D { on Start -> C; on Stop -> F; after 1500 ms -> G }
         final F
         final G
       }

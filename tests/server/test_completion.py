@@ -26,7 +26,7 @@ controller Tracker {
 statemachine Other {
   param speed : float64
   initial Only
-  state Only { do go on succeeded -> End }
+  state Only { do go; on succeeded -> End }
   final End
 }
 """
@@ -70,8 +70,8 @@ statemachine Machine {
     HERE
   }
   parallel state Both {
-    region Left { initial L state L { on Low -> Ready } final Ready }
-    region Right { initial R state R { on High -> Set } final Set }
+    region Left { initial L; state L { on Low -> Ready } final Ready }
+    region Right { initial R; state R { on High -> Set } final Set }
     on done -> Last
   }
   final Last

@@ -86,7 +86,7 @@ async def test_installed_libraries_are_read(client, editor, folder):
     document = editor.open(
         folder / "uses.swarm",
         "import cpswarm.functions.*\nstatemachine M {\n  initial A\n"
-        "  state A { do uav_mavros_takeoff on succeeded -> B }\n  final B\n}\n",
+        "  state A { do uav_mavros_takeoff; on succeeded -> B }\n  final B\n}\n",
     )
     assert not [each for each in await editor.told(document) if each.range.start.line == 0]
 

@@ -19,7 +19,7 @@ import cpswarm.interfaces.*
 /// Count once.
 function count : abstraction { action "count" : counting/Count }
 action Count {
-  goal { depth : uint8  place : geometry_msgs/Point }
+  goal { depth : uint8, place : geometry_msgs/Point }
   result { count : uint16 }
 }
 function stop : abstraction { service "stop" : std_srvs/SetBool }
@@ -44,9 +44,9 @@ statemachine Counting {
   }
   final Done
 }
-member Counter { behavior Counting  eye : Camera }
+member Counter { behavior Counting; eye : Camera }
 fitness Found { maximize found }
-swarm Counters { counter : Counter[2]  other : Looker  environment Field  fitness Found }
+swarm Counters { counter : Counter[2]; other : Looker; environment Field; fitness Found }
 """
 
 
@@ -96,7 +96,7 @@ def test_declaration_is_added(tmp_path):
 @pytest.mark.parametrize("head", ["", "package p\n"])
 def test_declaration_is_added_on_one_line(tmp_path, head):
     path = tmp_path / "m.swarm"
-    machine = "endless statemachine M { initial A state A { on Go / n = true -> A } }"
+    machine = "endless statemachine M { initial A; state A { on Go / n = true -> A } }"
     path.write_text(f"{head}{machine}\nmember R {{ behavior M }}\nswarm S {{ r : R }}\n")
     assert mended(path) == ["Declare `event Go : std_msgs/Empty`", "Declare `var n : bool = false`"]
 
@@ -120,7 +120,7 @@ def test_declaration_is_added_on_one_line(tmp_path, head):
 )
 def test_fix_ignores_comments_and_strings(tmp_path, before, after):
     path = tmp_path / "m.swarm"
-    rest = """initial A state A { on Go / n = true -> A } }
+    rest = """initial A; state A { on Go / n = true -> A } }
 event Go : std_msgs/Empty
 member R { behavior M }
 swarm S { r : R }

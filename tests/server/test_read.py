@@ -43,7 +43,7 @@ async def tokens(client, document):
 
 async def test_semantic_tokens(client, editor, folder):
     text = MODEL + (
-        "message a_msgs/Odd { state : int32 on : bool }\nevent Odd : a_msgs/Odd\n"
+        "message a_msgs/Odd { state : int32, on : bool }\nevent Odd : a_msgs/Odd\n"
         "statemachine Uses {\n  initial A\n  state A { on Odd [event.state > abs(1)] -> B }\n"
         "  final B\n}\n"
     )
@@ -205,7 +205,9 @@ async def test_policy_hints_match_the_output(client, editor):
 
 
 async def test_hints_of_ports_and_enum_values(client, editor):
-    text = SAR.read_text(encoding="utf-8") + "\nenum Mode { A B = 4 C }\nswarm One { uav : Uav }\n"
+    text = SAR.read_text(encoding="utf-8") + (
+        "\nenum Mode { A, B = 4, C }\nswarm One { uav : Uav }\n"
+    )
     document = editor.open(SAR, text)
     found = await client.text_document_inlay_hint_async(
         lsp.InlayHintParams(text_document=document, range=whole(text))
@@ -296,7 +298,7 @@ async def test_hover_shows_what_a_robot_knows_of_itself(client, editor):
 async def test_hover_shows_support_in_targets_of_the_project(client, editor, folder):
     (folder / "swarm.toml").write_text("[targets.smach]\nros = 2\n[targets.yasmin]\n")
     model = folder / "lab.swarm"
-    model.write_text("statemachine M { initial A  state A { initial B  final B }  final C }\n")
+    model.write_text("statemachine M { initial A; state A { initial B; final B }  final C }\n")
     found = await hovered(client, editor, model, "A {")
     assert found.partition("In targets:\n")[2].splitlines() == [
         "- `smach` with `ros=2`: exact, a `StateMachine`",

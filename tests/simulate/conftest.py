@@ -14,8 +14,8 @@ from swarmdsl.cli import run
 
 PRELUDE = """
 package test
-action Go { goal { speed : float64 } result { id : string  count : int32 } }
-message Report { id : string  level : int32 }
+action Go { goal { speed : float64 } result { id : string, count : int32 } }
+message Report { id : string, level : int32 }
 function go : abstraction { action "cmd/go" : Go }
 function land : abstraction { service "cmd/land" : std_srvs/Empty }
 event Start : std_msgs/Empty

@@ -32,7 +32,7 @@ statemachine Turns {
 sensor Eye { behavior Turns }
 member Uav  { behavior Turns }
 member Base { eye : Eye }
-swarm S { uav : Uav[3]  base : Base[1..5] }
+swarm S { uav : Uav[3]; base : Base[1..5] }
 """
 
 
@@ -58,7 +58,7 @@ def test_what_robots_say_of_themselves(simulate: Simulate) -> None:
         state A { on Here -> A }
       }
       member L { behavior Listen }
-      swarm T { l : L  uav : Uav[3]  base : Base[2] }
+      swarm T { l : L; uav : Uav[3]; base : Base[2] }
     """
     ran = simulate(MODEL + listener, "--swarm", "T")
     heard = [(line["data"]["id"], line["data"]["level"]) for line in ran.of("l[0]")[1:]]

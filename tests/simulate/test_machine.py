@@ -122,8 +122,8 @@ def test_a_transition_that_a_region_takes_is_that_of_the_state_around_it(
         statemachine M {
           initial Both
           parallel state Both {
-            region A { initial A1 state A1 { after 9 s -> A2 } state A2 { } }
-            region B { initial B1 state B1 { after 3 s -> Out } }
+            region A { initial A1; state A1 { after 9 s -> A2 } state A2 { } }
+            region B { initial B1; state B1 { after 3 s -> Out } }
             on Found -> Out
             internal on Stop -> A2
           }
@@ -183,7 +183,7 @@ def test_an_activity_can_be_ended_from_outside(simulate: Simulate) -> None:
 
 
 def test_without_end_a_run_stops_ten_minutes_after_the_last_event(simulate: Simulate) -> None:
-    text = "endless statemachine M { initial A state A { after 1 s -> A on Start -> A } }"
+    text = "endless statemachine M { initial A; state A { after 1 s -> A; on Start -> A } }"
 
     assert simulate(text).trace[-1]["t"] == 600_000
     assert simulate(text, "--until", "2.5s").trace[-1]["t"] == 2000
@@ -193,7 +193,7 @@ def test_without_end_a_run_stops_ten_minutes_after_the_last_event(simulate: Simu
 
 
 def test_a_run_ends_when_nothing_is_left_to_happen(simulate: Simulate) -> None:
-    ran = simulate("endless statemachine M { initial A state A { on Start -> A } }")
+    ran = simulate("endless statemachine M { initial A; state A { on Start -> A } }")
 
     assert (ran.code, len(ran.trace)) == (0, 1)
 
@@ -214,7 +214,7 @@ def test_a_value_that_fails_is_told_with_how_often(simulate: Simulate) -> None:
       endless statemachine M {
         var n : int32 = 0
         initial A
-        state A { on Start [10 / n > 2] -> A on Stop / n = n + 1 -> A }
+        state A { on Start [10 / n > 2] -> A; on Stop / n = n + 1 -> A }
       }
     """
     ran = simulate(text, events=[{"event": "Start"}, {"event": "Start"}])
@@ -241,7 +241,7 @@ def test_messages_of_ros_begin_with_all_their_fields(simulate: Simulate) -> None
 
 
 def test_what_is_simulated(simulate: Simulate) -> None:
-    one = "endless statemachine %s { initial A state A { on Start -> A } }"
+    one = "endless statemachine %s { initial A; state A { on Start -> A } }"
     two = one % "M" + one % "N"
     swarm = "member Uav { behavior M } swarm S { uav : Uav[2] }"
 
@@ -287,12 +287,12 @@ def test_a_param_needs_a_value(simulate: Simulate) -> None:
 def test_a_param_of_a_swarm_needs_a_value_of_its_role(simulate: Simulate) -> None:
     """What the help says is what a scenario takes."""
     text = """
-      endless statemachine M { param limit : float64[] initial A
+      endless statemachine M { param limit : float64[]; initial A
         state A { on Start [len(limit) > 1] -> A } }
-      sensor Eye { param rate : float64[] behavior N }
-      endless statemachine N { param rate : float64[] initial A
+      sensor Eye { param rate : float64[]; behavior N }
+      endless statemachine N { param rate : float64[]; initial A
         state A { on Start [len(rate) > 1] -> A } }
-      member Bot { param limit : float64[] behavior M eye : Eye }
+      member Bot { param limit : float64[]; behavior M; eye : Eye }
       swarm Team { bot : Bot[2] }
     """
     ran = simulate(text)

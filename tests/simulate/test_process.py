@@ -22,11 +22,11 @@ MODEL = (
 endless statemachine M {
   initial A
   state A { on Start -> B }
-  state B { on Start -> A after 1 s -> A }
+  state B { on Start -> A; after 1 s -> A }
 }
 """
 )
-ENDLESS = MODEL.replace("state A { on Start -> B }", "state A { on Start -> B after 1 us -> A }")
+ENDLESS = MODEL.replace("state A { on Start -> B }", "state A { on Start -> B; after 1 us -> A }")
 
 
 @pytest.fixture

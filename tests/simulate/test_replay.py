@@ -13,9 +13,9 @@ from swarmdsl.cli import run
 
 MODEL = """
 package test
-action Go { goal { speed : float64 } result { id : string  count : int32 } }
+action Go { goal { speed : float64 } result { id : string, count : int32 } }
 function go : abstraction { action "cmd/go" : Go }
-message Report { id : string  level : int32 }
+message Report { id : string, level : int32 }
 event Start  : std_msgs/Empty
 swarm event Found : Report
 statemachine M {
@@ -227,7 +227,7 @@ def test_a_simulation_is_as_the_model_says(
 BATTERY = """
 package test
 import cpswarm.interfaces.*
-message Cell { share : float32[<=4]  label : string  inner : Inner }
+message Cell { share : float32[<=4], label : string, inner : Inner }
 message Inner { reserve : float64 }
 event Battery : sensor_msgs/BatteryState on "battery"
 event Cells   : Cell on "cells"

@@ -25,9 +25,9 @@ endless statemachine Work {
   }
   state Much  { after pause -> Busy }
   state Pause { after pause -> Busy }
-  state Bad   { after pause -> Busy on Found -> Told }
+  state Bad   { after pause -> Busy; on Found -> Told }
   state Ugly  { after pause -> Busy }
-  state Told  { entry / send Found on Start -> Busy }
+  state Told  { entry / send Found; on Start -> Busy }
 }
 member Uav { behavior Work }
 member Rover extends Uav { }
@@ -179,11 +179,11 @@ def test_messages(simulate: Simulate) -> None:
 
 def test_latency_and_loss(simulate: Simulate) -> None:
     text = """
-      endless statemachine Beacon { initial A state A { after 1 s / send Found -> A } }
-      endless statemachine Listener { initial A state A { on Found -> A } }
+      endless statemachine Beacon { initial A; state A { after 1 s / send Found -> A } }
+      endless statemachine Listener { initial A; state A { on Found -> A } }
       member B { behavior Beacon }
       member L { behavior Listener }
-      swarm S { b : B  l : L[2] }
+      swarm S { b : B; l : L[2] }
     """
     scenario = '[network]\nlatency = { uniform = ["20 ms", "40 ms"] }\nloss = 0.25\n'
     ran = simulate(text, "--until", "4000s", scenario=scenario)
@@ -196,8 +196,8 @@ def test_latency_and_loss(simulate: Simulate) -> None:
 def test_events_on_a_topic_keep_their_order(simulate: Simulate) -> None:
     """A random latency lets events on different topics overtake each other, as on robots."""
     text = """
-      message swarmros/EventHeader { name : string node : string }
-      message Numbered { swarmio : swarmros/EventHeader number : int32 }
+      message swarmros/EventHeader { name : string, node : string }
+      message Numbered { swarmio : swarmros/EventHeader, number : int32 }
       swarm event First : Numbered
       swarm event Second : Numbered
       statemachine Talk {
@@ -209,10 +209,10 @@ def test_events_on_a_topic_keep_their_order(simulate: Simulate) -> None:
         }
         final End
       }
-      endless statemachine Listen { initial A state A { on First -> A on Second -> A } }
+      endless statemachine Listen { initial A; state A { on First -> A; on Second -> A } }
       member T { behavior Talk }
       member L { behavior Listen }
-      swarm S { t : T[2] l : L[2] }
+      swarm S { t : T[2]; l : L[2] }
     """
     scenario = '[network]\nlatency = { uniform = ["0 ms", "10 s"] }\nloss = 0.1\n'
     ran = simulate(text, "--until", "30s", scenario=scenario)
@@ -237,8 +237,8 @@ def test_events_on_a_topic_keep_their_order(simulate: Simulate) -> None:
 
 def test_robots_fill_in_empty_headers(simulate: Simulate) -> None:
     text = """
-      message swarmros/EventHeader { name : string node : string }
-      message Seen { header : std_msgs/Header swarmio : swarmros/EventHeader }
+      message swarmros/EventHeader { name : string, node : string }
+      message Seen { header : std_msgs/Header, swarmio : swarmros/EventHeader }
       swarm event Plain : Seen
       swarm event Signed : Seen on "signed/by"
       statemachine Talk {
@@ -257,7 +257,7 @@ def test_robots_fill_in_empty_headers(simulate: Simulate) -> None:
       }
       member T { behavior Talk }
       member L { behavior Listen }
-      swarm S { t : T[2] l : L }
+      swarm S { t : T[2]; l : L }
     """
     ran = simulate(text)
     data = {line["event"]: line["data"] for line in ran.of("l[0]")[1:]}
@@ -294,7 +294,7 @@ def test_nothing_reaches_a_robot_that_is_lost(simulate: Simulate) -> None:
     text = """
       endless statemachine M {
         initial A
-        state A { on Start / send Found -> A on Found -> A }
+        state A { on Start / send Found -> A; on Found -> A }
       }
       member B { behavior M }
       swarm S { b : B[2] }
@@ -526,8 +526,8 @@ def test_a_scenario_that_is_not_there(simulate: Simulate) -> None:
 
 
 WEEDS = """
-enum Species { DOCK THISTLE = 3 NETTLE }
-message Weed { species : Species  near : Species[] }
+enum Species { DOCK, THISTLE = 3, NETTLE }
+message Weed { species : Species, near : Species[] }
 swarm event Seen : Weed
 
 endless statemachine Weeding {

@@ -8,9 +8,9 @@ SWARM = """
 statemachine Seeker {
   param speed : float64 = 1.0
   initial Wait
-  state Wait { on Start -> Seek on Found -> Told }
-  state Seek { do go(speed = speed) on succeeded -> Tell on aborted -> Wait }
-  state Tell { entry / send Found(id = "a", level = 1) on Found -> Told on Stop -> End }
+  state Wait { on Start -> Seek; on Found -> Told }
+  state Seek { do go(speed = speed); on succeeded -> Tell; on aborted -> Wait }
+  state Tell { entry / send Found(id = "a", level = 1); on Found -> Told; on Stop -> End }
   state Told { on Stop -> End }
   final End
 }
@@ -18,15 +18,15 @@ statemachine Helper {
   var seen : int32 = 0
   initial Rest
   state Rest { on Found / seen = event.level -> Help }
-  state Help { after 1 s [seen > 0] -> Rest after 2 s -> End }
+  state Help { after 1 s [seen > 0] -> Rest; after 2 s -> End }
   final End
 }
 sensor Camera { behavior Watch }
 endless statemachine Watch {
   initial Look
-  state Look { on Stop -> Look on Found -> Look }
+  state Look { on Stop -> Look; on Found -> Look }
 }
-member Uav { behavior Seeker  camera : Camera }
+member Uav { behavior Seeker; camera : Camera }
 member Rover { behavior Helper }
 swarm S {
   uav   : Uav[2]
@@ -57,13 +57,13 @@ def test_swarm_events_reach_the_others_alone(simulate: Simulate) -> None:
 def test_events_of_the_robot_stay_on_it_and_come_back(simulate: Simulate) -> None:
     text = """
       sensor Camera { behavior Watch }
-      endless statemachine Watch { initial Look state Look { on Stop -> Look } }
+      endless statemachine Watch { initial Look; state Look { on Stop -> Look } }
       statemachine Talk {
         initial A
-        state A { entry / send Stop on Stop -> B }
+        state A { entry / send Stop; on Stop -> B }
         final B
       }
-      member Uav { behavior Talk camera : Camera }
+      member Uav { behavior Talk; camera : Camera }
       swarm S { uav : Uav[2] }
     """
     ran = simulate(text, "--until", "1s")
@@ -95,15 +95,15 @@ def test_machines_of_a_robot_share_its_servers(simulate: Simulate) -> None:
       endless statemachine Watch {
         initial Look
         state Look { on Stop -> Busy }
-        state Busy { do go(speed = 1.0) on succeeded, aborted -> Look }
+        state Busy { do go(speed = 1.0); on succeeded, aborted -> Look }
       }
       statemachine Drive {
         initial A
-        state A { do go(speed = 1.0) on Stop -> B on succeeded, aborted -> B }
+        state A { do go(speed = 1.0); on Stop -> B; on succeeded, aborted -> B }
         state B { on Start -> C }
         final C
       }
-      member Uav { behavior Drive camera : Camera }
+      member Uav { behavior Drive; camera : Camera }
       swarm S { uav : Uav }
     """
     scenario = '[functions.go]\nduration = "10 s"\nstopping = "3 s"\n'
@@ -122,8 +122,8 @@ def test_params_come_from_the_role_and_the_robot(simulate: Simulate) -> None:
         state A { after delay -> B }
         final B
       }
-      controller Clock { behavior Wait param delay : duration }
-      member Uav { behavior Wait param delay : duration clock : Clock { delay = delay * 2 } }
+      controller Clock { behavior Wait; param delay : duration }
+      member Uav { behavior Wait; param delay : duration; clock : Clock { delay = delay * 2 } }
       swarm S {
         uav   : Uav[3] { delay = 2 s }
         other : Uav    { delay = 5 s }
@@ -154,11 +154,11 @@ def test_params_come_from_the_member(simulate: Simulate) -> None:
         state A { after delay -> B }
         final B
       }
-      member Slow { behavior Wait param delay : duration = 2 * 2 s }
+      member Slow { behavior Wait; param delay : duration = 2 * 2 s }
       member Plain { behavior Wait }
-      controller Clock { behavior Wait param delay : duration }
+      controller Clock { behavior Wait; param delay : duration }
       member Clocked { clock : Clock { delay = 7 s } }
-      swarm S { slow : Slow[2] plain : Plain clocked : Clocked }
+      swarm S { slow : Slow[2]; plain : Plain; clocked : Clocked }
     """
     scenario = """
       [params."slow[1]"]
@@ -177,7 +177,7 @@ def test_members_that_talk_without_end_while_no_time_passes(simulate: Simulate) 
       endless statemachine Echo {
         initial A
         state A { on Found -> B }
-        state B { entry / send Found on Found -> A on Start -> A }
+        state B { entry / send Found; on Found -> A; on Start -> A }
       }
       endless statemachine Other {
         initial A

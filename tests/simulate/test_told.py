@@ -27,11 +27,11 @@ SVG = "{http://www.w3.org/2000/svg}"
 SWARM = """
 statemachine Work {
   initial Wait
-  state Wait { on Start -> Busy on Stop -> End }
+  state Wait { on Start -> Busy; on Stop -> End }
   parallel state Busy {
     region Do {
       initial Go
-      state Go { do go(speed = 1.0) on succeeded -> Tell on aborted -> Rest }
+      state Go { do go(speed = 1.0); on succeeded -> Tell; on aborted -> Rest }
       state Rest { after 2 s -> Go }
       state Tell { entry / send Found }
     }
@@ -120,7 +120,7 @@ def test_coverage_names_what_was_never_seen(simulate: Simulate) -> None:
 
 
 def test_nothing_is_missing_when_all_was_seen(simulate: Simulate) -> None:
-    text = "statemachine M { initial A state A { after 1 s -> B } final B }"
+    text = "statemachine M { initial A; state A { after 1 s -> B } final B }"
 
     ran = simulate(text, "--trace", "none")
     assert ran.err.splitlines()[-1] == "coverage: 100 % of 2 states and 1 transition"

@@ -103,7 +103,7 @@ def test_only_what_is_written_is_started(emit: Emit) -> None:
 BETWEEN = """
 swarm event Found : std_msgs/Empty
 sensor Camera { out seen : std_msgs/Empty on "found" }
-controller Pilot { in seen : std_msgs/Empty  in told : std_msgs/Empty on "bridge/events/found" }
+controller Pilot { in seen : std_msgs/Empty; in told : std_msgs/Empty on "bridge/events/found" }
 member Uav {
   behavior Wait
   eye   : Camera
@@ -126,7 +126,7 @@ def test_what_no_bridge_takes_to_other_robots(emit: Emit) -> None:
 
 TIED = """
 sensor Camera { out image : bool }
-controller Stereo { in left : bool  in right : bool  out seen : bool on "left" }
+controller Stereo { in left : bool; in right : bool; out seen : bool on "left" }
 actuator Lamp { in light : bool }
 member Uav {
   behavior Wait
@@ -153,7 +153,7 @@ member Uav {
 """
 REST = """
 event Go : std_msgs/Empty
-statemachine Wait { initial A state A { on Go -> B } final B }
+statemachine Wait { initial A; state A { on Go -> B } final B }
 swarm Search { uav : Uav }
 """
 

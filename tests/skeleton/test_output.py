@@ -203,8 +203,8 @@ def test_only_what_is_asked_for(emit: Emit) -> None:
 
 def test_what_a_library_has_is_not_written(emit: Emit) -> None:
     model = (
-        "import cpswarm.functions.*\nstatemachine M { initial A state A { do uav_mavros_land "
-        "on succeeded, aborted -> F } final F }\n"
+        "import cpswarm.functions.*\nstatemachine M { initial A; state A { do uav_mavros_land"
+        "; on succeeded, aborted -> F } final F }\n"
     )
     assert emit(model)[0] == {}
 
@@ -252,11 +252,11 @@ def test_a_package_of_interfaces_with_the_name_of_a_function_keeps_it(emit: Emit
             CANNOT + "a topic of type `float64[]`, which is not a message",
         ),
         (
-            ACTION + 'function go : abstraction { action "g" : a/A  param t : time }',
+            ACTION + 'function go : abstraction { action "g" : a/A; param t : time }',
             CANNOT + "a param of type `time`",
         ),
         (
-            ACTION + 'function go : abstraction { action "g" : a/A  param t : int64 = 3000000000 }',
+            ACTION + 'function go : abstraction { action "g" : a/A; param t : int64 = 3000000000 }',
             CANNOT + "a param of 3000000000",
         ),
         (

@@ -20,43 +20,43 @@ event Stop : Note
 swarm event Call : Note
 """
 PARTS = """
-sensor Eye { out seen : Note  behavior Work }
+sensor Eye { out seen : Note; behavior Work }
 sensor Ear { in heard : Note }
-member Uav { left : Eye  right : Eye  ear : Ear  connect right.seen -> ear.heard }
+member Uav { left : Eye; right : Eye; ear : Ear; connect right.seen -> ear.heard }
 swarm Uavs { uav : Uav }
 """
 BOX = "state In { on Go -> Deep }  state Deep { on Go -> In }"
 MOVE = "do move(x = 1.0)"
 ENDS = "on succeeded, aborted -> End"
 MODELS = {
-    "state with an action": f"state A {{ {MOVE} {ENDS} }}",
-    "state with a service": f"state A {{ do ask {ENDS} }}",
+    "state with an action": f"state A {{ {MOVE}; {ENDS} }}",
+    "state with a service": f"state A {{ do ask; {ENDS} }}",
     "state without activity": "state A { on Go -> End }",
-    "composite state, submachine": f"state A {{ initial In {BOX} on Stop -> End }}",
+    "composite state, submachine": f"state A {{ initial In; {BOX} on Stop -> End }}",
     "parallel state": """
         parallel state A {
-          region R { initial B  state B { on Go -> Z }  final Z }
+          region R { initial B; state B { on Go -> Z }  final Z }
           on done -> End
         }""",
     "final state": """
-        state A { initial B  state B { on Go -> Z }  final Z  on done -> End }""",
-    "transition on an outcome": f"state A {{ {MOVE} {ENDS} }}",
+        state A { initial B; state B { on Go -> Z }  final Z; on done -> End }""",
+    "transition on an outcome": f"state A {{ {MOVE}; {ENDS} }}",
     "transition on an event": "state A { on Go -> End }",
     "transition on a completion": """
-        state A { initial B  state B { on Go -> Z }  final Z  on done -> End }""",
+        state A { initial B; state B { on Go -> Z }  final Z; on done -> End }""",
     "transition on a certain final state": """
         state A {
-          initial B  state B { on Go -> Z  on Stop -> Y }  final Z  final Y
-          on done.Z -> End  on done.Y -> A
+          initial B; state B { on Go -> Z; on Stop -> Y }  final Z; final Y
+          on done.Z -> End; on done.Y -> A
         }""",
     "transition after a time": "state A { after 3 s -> End }",
     "transition without a trigger": """
         var n : int32
-        state A { on Go / n = event.level  [n > 1] -> End }""",
+        state A { on Go / n = event.level;  [n > 1] -> End }""",
     "choice": """
         var n : int32
         state A { on Go / n = event.level -> C }
-        choice C { [n > 1] -> End  else -> A }""",
+        choice C { [n > 1] -> End; else -> A }""",
     "guard": "state A { on Go [event.level > 1] -> End }",
     "effect": "state A { on Go / send Stop(level = event.level) -> End }",
     "transition with several triggers": "state A { on Go, Stop -> End }",
@@ -68,35 +68,35 @@ MODELS = {
         }""",
     "transition into a state": f"""
         state A {{ on Go -> Box.Deep }}
-        state Box {{ initial In {BOX} on Stop -> End }}""",
+        state Box {{ initial In; {BOX} on Stop -> End }}""",
     "initial state inside a state": f"""
         state A {{
           initial Box.Deep
-          state Box {{ initial In {BOX} }}
+          state Box {{ initial In; {BOX} }}
           on Stop -> End
         }}""",
     "history": f"""
-        state A {{ initial In {BOX} history H -> In  on Stop -> W }}
-        state W {{ on Go -> A.H  on Stop -> End }}""",
+        state A {{ initial In; {BOX} history H -> In; on Stop -> W }}
+        state W {{ on Go -> A.H; on Stop -> End }}""",
     "deep history": f"""
-        state A {{ initial In {BOX} deep history H -> In  on Stop -> W }}
-        state W {{ on Go -> A.H  on Stop -> End }}""",
+        state A {{ initial In; {BOX} deep history H -> In; on Stop -> W }}
+        state W {{ on Go -> A.H; on Stop -> End }}""",
     "internal transition": f"""
         state A {{
-          initial In {BOX}
+          initial In; {BOX}
           internal on Stop [event.level > 1] -> Deep
           on Stop -> End
         }}""",
     "transition without a target": """
         var n : int32
-        state A { on Go / n = event.level  on Stop [n > 1] -> End }""",
-    "entry, exit": "state A { entry / send Stop()  exit / send Stop()  on Go -> End }",
-    "constant goal or request": f"state A {{ do move(x = 1.5) {ENDS} }}",
+        state A { on Go / n = event.level; on Stop [n > 1] -> End }""",
+    "entry, exit": "state A { entry / send Stop(); exit / send Stop(); on Go -> End }",
+    "constant goal or request": f"state A {{ do move(x = 1.5); {ENDS} }}",
     "goal or request of values": f"""
         param far : float64 = 1.0
-        state A {{ do move(x = far) {ENDS} }}""",
-    "callback for a goal or request": f"state A {{ do move(by make) {ENDS} }}",
-    "callback for a result or response": f"state A {{ {MOVE} gives by take {ENDS} }}",
+        state A {{ do move(x = far); {ENDS} }}""",
+    "callback for a goal or request": f"state A {{ do move(by make); {ENDS} }}",
+    "callback for a result or response": f"state A {{ {MOVE} gives by take; {ENDS} }}",
     "stored result or response": f"""
         var seen : int32
         state A {{
@@ -106,20 +106,20 @@ MODELS = {
         }}""",
     "variable": """
         var n : int32
-        state A { on Go [n > 1] -> End  on Stop / n = 2 }""",
-    "identity of the robot": "state A { on Go [self.index == 1] -> End  on Stop -> End }",
+        state A { on Go [n > 1] -> End; on Stop / n = 2 }""",
+    "identity of the robot": "state A { on Go [self.index == 1] -> End; on Stop -> End }",
     "param": """
         param n : int32 = 2
-        state A { on Go [n > 1] -> End  on Stop -> End }""",
+        state A { on Go [n > 1] -> End; on Stop -> End }""",
     "param that is a message": """
         param first : Note
-        state A { on Go [first.level > 1] -> End  on Stop -> End }""",
+        state A { on Go [first.level > 1] -> End; on Stop -> End }""",
     "sent event": "state A { on Go / send Stop() -> End }",
     "connector": "state A { on Go -> End }",
     "initial state of a machine that is final": "final A",
     "name that Python cannot have": """
         var lambda : int32
-        state A { on Go [lambda > 1] -> End  on Stop / lambda = 2 }""",
+        state A { on Go [lambda > 1] -> End; on Stop / lambda = 2 }""",
 }
 FOR_ROS_2 = {
     **MODELS,
@@ -149,7 +149,7 @@ def test_the_table_is_true(
     mapped = load("smach").mapping[number]
     body = MODELS[mapped.construct]
     end = "" if body == "final A" else "final End"
-    model = f"{HEADER}statemachine Work {{ initial A {body} {end} }}"
+    model = f"{HEADER}statemachine Work {{ initial A; {body} {end} }}"
     if mapped.construct == "connector":
         (word,) = re.findall("`([^`]*)`", mapped.means)
         assert word in generate(model + PARTS)["launch/uav.launch"].text

@@ -20,7 +20,7 @@ NAMES = [
 ]
 MODEL = """
 package lab
-message Note {{ level : int32  text : string }}
+message Note {{ level : int32, text : string }}
 action GO {{ result {{ note : Note }} }}
 function ask : abstraction {{ service "ask" : std_srvs/Empty }}
 function go  : abstraction {{ action "go" : GO }}
@@ -40,7 +40,7 @@ statemachine {name} {{
     entry / note.text = "a"
     on Go [event.level > sqrt(limit)] / note.level = event.level -> smach
   }}
-  state smach {{ do go gives (note => note)  on succeeded, aborted -> _ }}
+  state smach {{ do go gives (note => note); on succeeded, aborted -> _ }}
   state _ {{ after wait -> _1 }}
   final _1
 }}

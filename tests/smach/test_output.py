@@ -24,7 +24,7 @@ MODEL = '''
 /// A lab with a "difficult" text \\\\ in it: """
 package lab
 
-struct Spot { x : float64  class : int32 }
+struct Spot { x : float64, class : int32 }
 /// What was seen.
 message Seen {
   /// where
@@ -33,7 +33,7 @@ message Seen {
   near  : Spot[4]
 }
 service Ask { request { times : int32 } response { answer : string } }
-action Look { goal { at : Spot  self : string } result { found : bool } feedback { spot : Spot } }
+action Look { goal { at : Spot, self : string } result { found : bool } feedback { spot : Spot } }
 function ask   : abstraction { service "ask" : Ask }
 function look  : abstraction { action "look" : Look }
 function other : abstraction { action "other" : other_msgs/Look }
@@ -62,12 +62,12 @@ statemachine Watch {
     on succeeded -> End
     on aborted -> Looking
   }
-  state Other { do other(by make_goal)  on succeeded -> End  on aborted -> End }
+  state Other { do other(by make_goal); on succeeded -> End; on aborted -> End }
   final End
 }
-statemachine Unused { initial A  state A { on Saw -> B }  final B }
-member Robot { behavior Watch  param limit : duration = 1 s }
-member Other { behavior Watch  param limit : duration = 2 s }
+statemachine Unused { initial A; state A { on Saw -> B }  final B }
+member Robot { behavior Watch; param limit : duration = 1 s }
+member Other { behavior Watch; param limit : duration = 2 s }
 '''
 
 
@@ -184,7 +184,7 @@ def test_constants_enums_and_bounds(generate: Generate) -> None:
           spots : float64[<=4]
           fixed : float64[4]
         }
-        statemachine M { initial A  state A { after 1 s -> B }  final B }"""
+        statemachine M { initial A; state A { after 1 s -> B }  final B }"""
     )
     assert files["lab/msg/Mode.msg"].text == "uint8 Off=0\n# at work\nuint8 On=5\n"
     assert files["lab/msg/Limits.msg"].text == (
@@ -199,7 +199,7 @@ def test_constants_enums_and_bounds(generate: Generate) -> None:
 def test_a_package_without_interfaces_generates_none(generate: Generate) -> None:
     files = generate(
         'package p\nfunction f : swarm { action "f" : m/F }\n'
-        "statemachine M { initial A state A { do f on succeeded -> B on aborted -> B } final B }"
+        "statemachine M { initial A; state A { do f; on succeeded -> B; on aborted -> B } final B }"
     )
     assert "message" not in files["CMakeLists.txt"].text
     assert "message" not in files["package.xml"].text
@@ -216,7 +216,8 @@ def test_two_types_of_one_name_are_called_by_their_modules(files: Files) -> None
 def test_a_type_called_like_something_else_in_the_module(generate: Generate) -> None:
     files = generate(
         "package p\nevent E : m/State\n"
-        "statemachine M { var t : m/State initial A state A { on E -> B after 1 s -> B } final B }"
+        "statemachine M { var t : m/State; initial A; "
+        "state A { on E -> B; after 1 s -> B } final B }"
     )
     assert "userdata.t = m.msg.State()" in files["src/p_behavior/m.py"].text
 
@@ -274,7 +275,7 @@ def test_behaviour_of_a_component_gets_a_node(generate: Generate) -> None:
 
 def test_params_have_the_values_of_the_parts_that_run_the_machine(generate: Generate) -> None:
     files = generate(
-        "virtual Beacon { param period : duration = 250 ms  behavior Blink }\n"
+        "virtual Beacon { param period : duration = 250 ms; behavior Blink }\n"
         "endless statemachine Blink {\n"
         "  param period : duration\n"
         "  initial On\n"
@@ -439,10 +440,10 @@ def test_the_server_of_an_operation_is_in_the_namespace_of_what_is_asked(
         }
         statemachine Watch {
           initial A
-          state A { do Camera.snap        on succeeded, aborted -> B }
-          state B { do ThermalCamera.snap on succeeded, aborted -> C }
-          state C { do left.snap          on succeeded, aborted -> D }
-          state D { do right.snap         on succeeded, aborted -> E }
+          state A { do Camera.snap;        on succeeded, aborted -> B }
+          state B { do ThermalCamera.snap; on succeeded, aborted -> C }
+          state C { do left.snap;          on succeeded, aborted -> D }
+          state D { do right.snap;         on succeeded, aborted -> E }
           final E
         }
         """

@@ -15,7 +15,7 @@ MODEL = """
 package lab
 swarm event Found : cpswarm_msgs/Note
 swarm event Bare  : std_msgs/Empty
-message cpswarm_msgs/Note { swarmio : swarmros/EventHeader  x : float64 }
+message cpswarm_msgs/Note { swarmio : swarmros/EventHeader, x : float64 }
 message std_msgs/Empty { }
 statemachine Look {
   /// How long it looks.
@@ -191,12 +191,12 @@ def test_readme(generate: Generate) -> None:
 def test_readme_names_packages_of_others(generate: Generate) -> None:
     model = """
 package p
-message known_msgs/Note { stamp : time  at : geometry_msgs/Point }
+message known_msgs/Note { stamp : time, at : geometry_msgs/Point }
 message part_msgs/Note { head : part_msgs/Head }
 event Known : known_msgs/Note
 event Part : part_msgs/Note
 event Unknown : unknown_msgs/Note
-statemachine M { initial A  state A { on Known, Part, Unknown -> B }  final B }
+statemachine M { initial A; state A { on Known, Part, Unknown -> B }  final B }
 """
     needs = "packages with its interfaces: `known_msgs`, `part_msgs`, `unknown_msgs`."
     text = generate(model)["README.md"].text
@@ -208,7 +208,7 @@ statemachine M { initial A  state A { on Known, Part, Unknown -> B }  final B }
 
 
 def test_machines_without_members_have_no_launch_files(generate: Generate) -> None:
-    files = generate("package p\nstatemachine M { initial A  state A { after 1 s -> B }  final B }")
+    files = generate("package p\nstatemachine M { initial A; state A { after 1 s -> B }  final B }")
     assert not [path for path in files if path.startswith(("launch/", "param/", "test/"))]
     assert "rostest" not in files["CMakeLists.txt"].text + files["package.xml"].text
 

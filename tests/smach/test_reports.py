@@ -18,10 +18,10 @@ def _machine(body: str, name: str = "M") -> str:
     return f"{HEADER}statemachine {name} {{ {body} }}"
 
 
-SMALL = "initial A state A { on E -> B } final B"
+SMALL = "initial A; state A { on E -> B } final B"
 
 
-ENDED = "initial B final B"
+ENDED = "initial B; final B"
 """Body of a machine that ends at once."""
 UNSUPPORTED = "target `smach` cannot express an initial state that is final"
 
@@ -33,9 +33,9 @@ def test_unsupported(reported: Reported) -> None:
 @pytest.mark.parametrize(
     ("text", "place", "name", "use"),
     [
-        (_machine(f"var lambda : int32 {SMALL}"), "lambda", "lambda", "a key of userdata"),
-        (_machine(f"var keys : int32 {SMALL}"), "keys", "keys", "a key of userdata"),
-        (_machine(f"param _x : int32 = 1 {SMALL}"), "_x", "_x", "a key of userdata"),
+        (_machine(f"var lambda : int32; {SMALL}"), "lambda", "lambda", "a key of userdata"),
+        (_machine(f"var keys : int32; {SMALL}"), "keys", "keys", "a key of userdata"),
+        (_machine(f"param _x : int32 = 1; {SMALL}"), "_x", "_x", "a key of userdata"),
         (_machine(SMALL, "Lambda"), "Lambda", "lambda", "a module name"),
         (_machine(SMALL, "States"), "States", "states", "a module name"),
         (_machine(SMALL, "_"), "_", "_", "a module name"),
@@ -84,7 +84,7 @@ def test_unsupported(reported: Reported) -> None:
         ),
         (
             _machine(
-                "initial A state A { do f(by pass) on succeeded -> B on aborted -> B } final B"
+                "initial A; state A { do f(by pass); on succeeded -> B; on aborted -> B } final B"
             ),
             "do f(by pass)",
             "pass",
@@ -166,15 +166,17 @@ def test_machines_that_get_no_node_may_use_anything(tmp_path: Path) -> None:
 
 
 def test_whole_numbers_that_the_parameter_server_does_not_hold(tmp_path: Path) -> None:
-    params = "param big : int64 = 2147483648 param real : float64 = 2147483648"
+    params = "param big : int64 = 2147483648; param real : float64 = 2147483648"
     given = "param big : int64 = -2147483649"
-    text = f"{_machine(f'{params} {SMALL}')} member R {{ behavior M }}"
-    other = f"member S {{ behavior M {given} }} member T {{ behavior M {given.replace('9', '8')} }}"
+    text = f"{_machine(f'{params}; {SMALL}')} member R {{ behavior M }}"
+    other = (
+        f"member S {{ behavior M; {given} }} member T {{ behavior M; {given.replace('9', '8')} }}"
+    )
     assert _built(tmp_path, {"model": f"{text} {other}"}) == [
         ("unsupported-construct", f"target `smach` cannot express a param of {value}", place)
         for value, place in [(2147483648, "2147483648"), (-2147483649, "-2147483649")]
     ]
-    assert _built(tmp_path, {"model": text.replace("8 param", "7 param")}) == []
+    assert _built(tmp_path, {"model": text.replace("8; param", "7; param")}) == []
     written = tmp_path / "out" / "smach" / "p_behavior" / "param" / "r.yaml"
     assert "  big: 2147483647\n  real: 2147483648.0\n" in written.read_text(encoding="utf-8")
 

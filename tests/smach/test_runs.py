@@ -11,16 +11,16 @@ import pytest
 HEADER = """
 package lab
 
-message m/Pose { x : float64  y : float64 }
+message m/Pose { x : float64, y : float64 }
 message m/Note {
-  header : std_msgs/Header  swarmio : swarmros/EventHeader
-  id : string  level : int32  pose : m/Pose
+  header : std_msgs/Header, swarmio : swarmros/EventHeader
+  id : string, level : int32, pose : m/Pose
 }
 message std_msgs/Header { stamp : time }
-message swarmros/EventHeader { name : string  node : string }
+message swarmros/EventHeader { name : string, node : string }
 action m/Move {
-  goal { to : m/Pose  speed : float64 }
-  result { id : string  at : m/Pose }
+  goal { to : m/Pose, speed : float64 }
+  result { id : string, at : m/Pose }
 }
 service m/Ask { request { times : int32 } response { answer : string } }
 
@@ -43,8 +43,8 @@ def test_activity_outcomes(robot: Run) -> None:
         + """
         statemachine Work {
           initial A
-          state A { do work  on succeeded -> B  on aborted -> Bad }
-          state B { do land  on succeeded -> A  on aborted -> Good }
+          state A { do work; on succeeded -> B; on aborted -> Bad }
+          state B { do land; on succeeded -> A; on aborted -> Good }
           final Good
           final Bad
         }"""
@@ -62,8 +62,8 @@ def test_initial_state_that_is_not_the_first(robot: Run) -> None:
         + """
         statemachine Work {
           initial B
-          state A { do work  on succeeded -> End  on aborted -> End }
-          state B { do land  on succeeded -> A  on aborted -> A }
+          state A { do work; on succeeded -> End; on aborted -> End }
+          state B { do land; on succeeded -> A; on aborted -> A }
           final End
         }"""
     )
@@ -78,11 +78,11 @@ def test_a_service_that_says_whether_it_has_succeeded(success: bool, end: str, r
     work = robot(
         HEADER
         + """
-        service m/Ring { response { success : bool  message : string } }
+        service m/Ring { response { success : bool, message : string } }
         function ring : abstraction { service "ring" : m/Ring }
         statemachine Work {
           initial A
-          state A { do ring  on succeeded -> Good  on aborted -> Bad }
+          state A { do ring; on succeeded -> Good; on aborted -> Bad }
           final Good
           final Bad
         }"""
@@ -154,7 +154,7 @@ def test_state_stays_where_no_guard_holds(robot: Run) -> None:
           initial A
           state A {
             initial B
-            state B { do work  on succeeded -> Over  on aborted -> Over }
+            state B { do work; on succeeded -> Over; on aborted -> Over }
             final Over
             on done [ready] -> End
             on Go / ready = true -> A
@@ -210,7 +210,7 @@ def test_a_guard_that_fails_is_false(robot: Run) -> None:
         + """
         statemachine Work {
           initial A
-          state A { on Go [10 / event.level > 1] -> End  on Stop -> End }
+          state A { on Go [10 / event.level > 1] -> End; on Stop -> End }
           final End
         }"""
     )
@@ -236,7 +236,7 @@ def test_one_event_with_several_targets(robot: Run) -> None:
             on Go [event.level > 5] -> One
             on Stop -> Other
           }
-          state Two { do ask(times = count)  on succeeded -> Other  on aborted -> Other }
+          state Two { do ask(times = count); on succeeded -> Other; on aborted -> Other }
           final One
           final Other
         }"""
@@ -257,8 +257,8 @@ def test_event_cancels_the_activity(robot: Run) -> None:
         + """
         statemachine Work {
           initial A
-          state A { do work  on succeeded -> Bad  on aborted -> Bad  on Stop -> B }
-          state B { do rest  on succeeded -> End  on aborted -> Bad }
+          state A { do work; on succeeded -> Bad; on aborted -> Bad; on Stop -> B }
+          state B { do rest; on succeeded -> End; on aborted -> Bad }
           final End
           final Bad
         }"""
@@ -312,7 +312,7 @@ def test_only_the_transition_taken_has_its_effects(robot: Run) -> None:
             on Go   / a = 1 -> B
             on Stop / b = 1 -> B
           }
-          state B { do ask(times = 10 * a + b)  on succeeded -> End  on aborted -> End }
+          state B { do ask(times = 10 * a + b); on succeeded -> End; on aborted -> End }
           final End
           final Bad
         }"""
@@ -344,12 +344,12 @@ ABORT = (
           on succeeded / landings = landings + 1, send Found(level = landings) -> B
           on aborted -> A
         }
-        state B { do work  on succeeded -> A  on aborted -> A }
+        state B { do work; on succeeded -> A; on aborted -> A }
         on Stop -> Home
       }
       state Home {
         initial Back
-        state Back { do rest  on succeeded -> Done  on aborted -> Back }
+        state Back { do rest; on succeeded -> Done; on aborted -> Back }
         final Done
         on done -> Mission
       }
@@ -426,20 +426,20 @@ PARALLEL = (
       parallel state Both {
         region Left {
           initial A
-          state A { do work  on succeeded -> Ok  on aborted -> Lost }
+          state A { do work; on succeeded -> Ok; on aborted -> Lost }
           final Ok
           final Lost
         }
         region Right {
           initial B
-          state B { do rest  on succeeded -> Ok  on aborted -> Panic }
+          state B { do rest; on succeeded -> Ok; on aborted -> Panic }
           final Ok
         }
         on Left.done.Lost -> Bad
         on done -> Good
         on Stop -> Stopped
       }
-      state Panic { do land  on succeeded -> Bad  on aborted -> Bad }
+      state Panic { do land; on succeeded -> Bad; on aborted -> Bad }
       final Good
       final Bad
       final Stopped
@@ -502,7 +502,7 @@ def test_variables_are_shared_between_regions(robot: Run) -> None:
             region Right {
               initial B
               state B { on Found -> C }
-              state C { do ask(times = level)  on succeeded -> End  on aborted -> End }
+              state C { do ask(times = level); on succeeded -> End; on aborted -> End }
               final End
             }
             on Right.done -> End
@@ -536,7 +536,7 @@ def test_timeout(robot: Run) -> None:
             after 10 ms [late] -> Good
             after (2 * limit) / late = true -> B
           }
-          state B { do rest  on succeeded -> Good  on aborted -> Good
+          state B { do rest; on succeeded -> Good; on aborted -> Good
             after 50 ms [late] -> Late }
           final Good
           final Late
@@ -566,7 +566,7 @@ def test_choice(robot: Run) -> None:
             [n != 3] -> A
             else -> End
           }
-          state A { do work  on succeeded -> Which  on aborted -> Which }
+          state A { do work; on succeeded -> Which; on aborted -> Which }
           final End
         }"""
     )
@@ -749,7 +749,7 @@ def test_a_whole_number_stays_in_its_type(robot: Run) -> None:
           var n : int32 = 50000
           initial A
           state A { on Stop / n = n * n -> B }
-          choice B { [n == 50000] -> Kept  else -> Grown }
+          choice B { [n == 50000] -> Kept; else -> Grown }
           final Kept
           final Grown
         }"""
@@ -796,7 +796,7 @@ def test_composite_whose_final_nobody_handles_stays(robot: Run) -> None:
           initial A
           state A {
             initial B
-            state B { do work  on succeeded -> Over  on aborted -> Over }
+            state B { do work; on succeeded -> Over; on aborted -> Over }
             final Over
             on Stop -> End
           }
@@ -819,7 +819,7 @@ def test_done_with_guards(robot: Run) -> None:
           initial A
           state A {
             initial B
-            state B { do work  on succeeded -> Ok  on aborted -> Failed }
+            state B { do work; on succeeded -> Ok; on aborted -> Failed }
             final Ok
             final Failed
             on done.Failed [n < 2] / n = n + 1 -> A
@@ -904,14 +904,14 @@ def test_call_whose_answer_comes_too_late_runs_again(robot: Run) -> None:
             initial Sub
             state Sub {
               initial Call
-              state Call { do land  on succeeded -> Over  on aborted -> Over }
+              state Call { do land; on succeeded -> Over; on aborted -> Over }
               final Over
               on done -> B
             }
-            state B { do work  on succeeded -> Sub  on aborted -> Sub }
+            state B { do work; on succeeded -> Sub; on aborted -> Sub }
             on Stop -> Home
           }
-          state Home { do rest  on succeeded -> Mission  on aborted -> Mission }
+          state Home { do rest; on succeeded -> Mission; on aborted -> Mission }
         }"""
     )
     world = work.world
@@ -933,8 +933,8 @@ def test_activity_that_outlasts_an_event_runs_again(robot: Run) -> None:
         + """
         endless statemachine Work {
           initial A
-          state A { do work  on succeeded -> A  on aborted -> A  on Stop -> B }
-          state B { do rest  on succeeded -> A  on aborted -> A }
+          state A { do work; on succeeded -> A; on aborted -> A; on Stop -> B }
+          state B { do rest; on succeeded -> A; on aborted -> A }
         }"""
     )
     world = work.world
@@ -956,7 +956,7 @@ def test_shutdown_during_a_call_that_is_not_answered(robot: Run) -> None:
         + """
         statemachine Work {
           initial A
-          state A { do land  on succeeded -> End  on aborted -> End }
+          state A { do land; on succeeded -> End; on aborted -> End }
           final End
         }"""
     )

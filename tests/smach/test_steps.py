@@ -8,9 +8,9 @@ import pytest
 HEADER = """
 package lab
 
-message m/Note { id : string  level : int32 }
+message m/Note { id : string, level : int32 }
 service m/Ask { request { times : int32 } response { answer : string } }
-action m/Count { result { seen : int32  again : bool } }
+action m/Count { result { seen : int32, again : bool } }
 
 function work  : abstraction { action "work" : m/Work }
 function rest  : abstraction { action "rest" : m/Rest }
@@ -80,8 +80,8 @@ def test_exit_of_all_that_an_outer_transition_leaves(robot: Run) -> None:
             exit / send Said(id = "out of Both")
             region Left {
               initial A
-              state A { entry / send Said(id = "into A")  exit / send Said(id = "out of A")
-                        do work  on succeeded -> A  on aborted -> A }
+              state A { entry / send Said(id = "into A"); exit / send Said(id = "out of A")
+                        do work; on succeeded -> A; on aborted -> A }
             }
             on Stop / send Said(id = "effect") -> End
           }
@@ -103,7 +103,7 @@ def test_exit_when_the_node_shuts_down(robot: Run) -> None:
         + """
         statemachine Work {
           initial A
-          state A { exit / send Said(id = "out")  on Go -> End }
+          state A { exit / send Said(id = "out"); on Go -> End }
           final End
         }"""
     )
@@ -127,7 +127,7 @@ def test_guard_is_for_before_the_exit(robot: Run) -> None:
             on succeeded -> Bad
             on aborted -> Bad
           }
-          state B { do ask(times = n)  on succeeded -> Good  on aborted -> Bad }
+          state B { do ask(times = n); on succeeded -> Good; on aborted -> Bad }
           final Good
           final Bad
         }"""
@@ -194,7 +194,7 @@ statemachine Work {
         [n > 5] / n = n + 100 -> B
         on Stop -> Lost
       }
-      state B { do ask(times = n)  on succeeded -> Over  on aborted -> Over }
+      state B { do ask(times = n); on succeeded -> Over; on aborted -> Over }
       final Over
       final Lost
     }
@@ -268,7 +268,7 @@ def test_condition_on_a_result(robot: Run) -> None:
           parallel state Both {
             region Left {
               initial A
-              state A { [seen == 3 and not again] -> Bad  [seen == 3] -> Good }
+              state A { [seen == 3 and not again] -> Bad;  [seen == 3] -> Good }
             }
             region Right {
               initial B
@@ -296,7 +296,7 @@ def test_a_condition_that_fails_is_false(robot: Run) -> None:
         statemachine Work {
           var n : int32
           initial A
-          state A { [10 / n > 1] -> End  on Go / n = event.level }
+          state A { [10 / n > 1] -> End; on Go / n = event.level }
           final End
         }"""
     )
@@ -314,9 +314,9 @@ def test_state_that_is_done_at_once(robot: Run) -> None:
         statemachine Work {
           var n : int32
           initial A
-          state A { on Go -> Bad  on done [n > 0] -> Bad  on done / n = 4 -> B }
-          state B { entry / n = n + 1  on done -> C  exit / n = n + 10 }
-          state C { do ask(times = n)  on succeeded -> End  on aborted -> End }
+          state A { on Go -> Bad; on done [n > 0] -> Bad; on done / n = 4 -> B }
+          state B { entry / n = n + 1; on done -> C; exit / n = n + 10 }
+          state C { do ask(times = n); on succeeded -> End; on aborted -> End }
           final End
           final Bad
         }"""
@@ -343,7 +343,7 @@ def test_transition_without_target_stays(robot: Run) -> None:
               on aborted -> B
               on Go [event.level > 0] / n = n + event.level, send Said(id = event.id)
             }
-            state B { do ask(times = n)  on succeeded -> Over  on aborted -> Over }
+            state B { do ask(times = n); on succeeded -> Over; on aborted -> Over }
             final Over
             on done -> End
             on Go -> Bad
@@ -395,14 +395,14 @@ TWO = """
 endless statemachine Work {{
   initial Both
   parallel state Both {{
-    region Left  {{ initial A  state A {{ on Go -> {left} }}  state A2 }}
-    region Right {{ initial B  state B {{ {nested} }}  state B2 }}
+    region Left  {{ initial A; state A {{ on Go -> {left} }}  state A2 }}
+    region Right {{ initial B; state B {{ {nested} }}  state B2 }}
   }}
   state First {{ on Stop -> Both }}
   state Second {{ on Stop -> Both }}
 }}
 """
-DEEP = "initial C  state C { on Go -> Second }"
+DEEP = "initial C; state C { on Go -> Second }"
 
 
 RIGHT = {"on Go -> Second": "Both/Right/B", DEEP: "Both/Right/B/C"}

@@ -104,8 +104,8 @@ def test_into_a_state_and_a_region(robot: Run) -> None:
             }
           }
           parallel state Both {
-            region Left  { initial A  state A }
-            region Right { initial C  state C  state D { on Go -> E }  state E }
+            region Left  { initial A; state A }
+            region Right { initial C; state C; state D { on Go -> E }  state E }
             on Stop -> Box
           }
         }"""
@@ -133,7 +133,7 @@ def test_internal_transition_does_not_leave_its_state(robot: Run) -> None:
             entry / send Said(id = "into Box")
             exit / send Said(id = "out of Box")
             initial A
-            state A { exit / send Said(id = "out of A")  on Go -> B }
+            state A { exit / send Said(id = "out of A"); on Go -> B }
             state B { entry / send Said(id = "into B") }
             internal on Stop -> A
             on Back -> Box
@@ -163,10 +163,10 @@ def test_nothing_is_lost_while_a_server_is_cancelled(robot: Run) -> None:
         + """
         endless statemachine Work {
           initial A
-          state A { do work  on succeeded, aborted -> A  on Stop -> B }
-          state B { do rest  on succeeded, aborted -> A  on Go / send Said(id = event.id) -> C }
+          state A { do work; on succeeded, aborted -> A; on Stop -> B }
+          state B { do rest; on succeeded, aborted -> A; on Go / send Said(id = event.id) -> C }
           state C { on Back -> D }
-          state D { do rest  on succeeded, aborted -> A }
+          state D { do rest; on succeeded, aborted -> A }
         }"""
     )
     world = work.world
@@ -194,13 +194,13 @@ def test_one_server_for_two_states_is_cancelled_before_it_is_called_again(robot:
           parallel state Both {
             region Left {
               initial A
-              state A { do work  on succeeded, aborted -> A  on Go -> B }
+              state A { do work; on succeeded, aborted -> A; on Go -> B }
               state B
             }
             region Right {
               initial C
               state C { on Go -> D }
-              state D { do work  on succeeded, aborted -> C }
+              state D { do work; on succeeded, aborted -> C }
             }
           }
         }"""
@@ -224,7 +224,7 @@ def test_a_machine_that_does_not_come_to_rest_fails(robot: Run) -> None:
         endless statemachine Work {
           var n : int32
           initial A
-          state A { on Go / n = 1  [n > 0] -> B }
+          state A { on Go / n = 1;  [n > 0] -> B }
           state B { [n > 0] -> A }
         }"""
     )

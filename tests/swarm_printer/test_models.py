@@ -49,18 +49,18 @@ endless statemachine Outer {
   var first_tries : int32
   initial Both
   parallel state Both {
-    region Left { initial M state M = Middle { on done -> E } final E }
-    region Right { initial M state M = Middle(pause = 5 min) { on done -> E } final E }
+    region Left { initial M; state M = Middle { on done -> E } final E }
+    region Right { initial M; state M = Middle(pause = 5 min) { on done -> E } final E }
     on done -> Third
   }
-  state Third { initial W state W = Wait(delay = 1 us, unused = "c", limit = first_tries) }
+  state Third { initial W; state W = Wait(delay = 1 us, unused = "c", limit = first_tries) }
 }
 """
 
 PARTS = """
 package lib
-enum Mode : int8 { Idle = -2 Busy Off = 7 }
-struct Pose { x : float64 mode : Mode[<=4] }
+enum Mode : int8 { Idle = -2, Busy, Off = 7 }
+struct Pose { x : float64, mode : Mode[<=4] }
 event Foo : std_msgs/Int32 on "foo"
 const Limit : float64 = 3
 function off : swarm { service "off" : std_srvs/Empty }
@@ -80,7 +80,7 @@ import "parts.swarm"
 struct Pose { inner : lib.Pose }
 event Foo : std_msgs/Int32 on "bar"
 function land : abstraction { service "land" : std_srvs/Empty }
-sensor Cam extends lib.Cam { param rate : float64 = -1 operation look(
+sensor Cam extends lib.Cam { param rate : float64 = -1; operation look(
   /// Where to.
   in at : Pose) }
 sensor Eye extends Cam { param rate : float64 = 9 }
@@ -90,7 +90,7 @@ member Bot {
   cam : Eye { rate = speed * (2 + Limit) - -3 }
 }
 member Fast extends Bot { param speed : float64 = 1e300 }
-member Slow { behavior Work param speed : float64 = 2 param limit : int32 = 7 }
+member Slow { behavior Work; param speed : float64 = 2; param limit : int32 = 7 }
 endless statemachine Work {
   param limit : int32 = 4
   var mode : Mode = Mode.Busy
@@ -195,7 +195,7 @@ def test_the_type_of_an_operation_is_that_of_what_stands_there(tmp_path: Path) -
           param height : float64
           var up : float64
           initial A
-          state A { entry / up = height + 1  on done -> E }
+          state A { entry / up = height + 1; on done -> E }
           final E
         }
         statemachine Outer {
@@ -222,7 +222,7 @@ def test_a_file_without_package_keeps_its_name(tmp_path: Path) -> None:
 
 
 def test_what_is_called_like_a_type_of_the_language(tmp_path: Path) -> None:
-    text = "package p\nstruct string { x : float64 }\nmessage Use { a : p/string b : string }"
+    text = "package p\nstruct string { x : float64 }\nmessage Use { a : p/string, b : string }"
     system = _system(tmp_path, text)
 
     assert "a : p/string\n  b : string\n" in print_system(system)
@@ -252,7 +252,7 @@ def test_what_no_model_says_has_no_text(change: Transition, reason: str, tmp_pat
         function f : swarm { service "f" : std_srvs/Empty }
         endless statemachine M {
           initial A
-          state A { do f on succeeded, aborted -> B }
+          state A { do f; on succeeded, aborted -> B }
           state B { on Go -> A }
         }
         """,

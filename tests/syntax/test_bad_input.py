@@ -125,7 +125,7 @@ def test_any_character_may_stand_in_comments_and_texts(check: Check) -> None:
         (START + " " * LONG, []),
         (START + "\n" * LONG, []),
         ("member Uav { param x : int8 = " + "1" * LONG + " }", [("syntax-error", 1, 31)]),
-        ("".join(f"event E{i} : a/B " for i in range(LONG // 100)), []),
+        ("".join(f"event E{i} : a/B; " for i in range(LONG // 100)), []),
         ("member Uav { param x : int8 = 1" + " + 1" * (LONG // 200) + " }", None),
         ("member Uav { param x : bool = " + "not " * (LONG // 200) + "true }", None),
         ("member Uav { param x : int8 = y" + ".z" * (LONG // 100) + " }", None),
@@ -140,8 +140,8 @@ def test_very_long_lines(
 
 
 def nested_states(depth: int) -> str:
-    inner = "".join(f"state S{i} {{ initial S{i + 1} " for i in range(depth))
-    return f"endless statemachine M {{ initial S0 {inner}state S{depth}{'}' * depth} }}"
+    inner = "".join(f"state S{i} {{ initial S{i + 1}; " for i in range(depth))
+    return f"endless statemachine M {{ initial S0; {inner}state S{depth}{'}' * depth} }}"
 
 
 @pytest.mark.parametrize("depth", [10, 63])
@@ -271,7 +271,7 @@ def test_a_long_circle_of_imports(tmp_path: Path) -> None:
 def reusing(length: int, last: str) -> str:
     """Machines that reuse each other in a row; `last` is the only state of the last one."""
     return "".join(
-        f"statemachine M{i} {{ initial S state S "
+        f"statemachine M{i} {{ initial S; state S "
         + (f"= M{i + 1} {{ on done -> F }}" if i + 1 < length else last)
         + " final F }\n"
         for i in range(length)
@@ -280,8 +280,8 @@ def reusing(length: int, last: str) -> str:
 
 def test_a_chain_of_submachines(check: Check) -> None:
     assert check(reusing(60, "{ after 1 s -> F }")) == []
-    assert check(reusing(500, "{ after 1 s -> F }")) == [("nested-too-deeply", 436, 41)]
-    assert check(reusing(500, "= M0 { on done -> F }")) == [("submachine-cycle", 500, 41)]
+    assert check(reusing(500, "{ after 1 s -> F }")) == [("nested-too-deeply", 436, 42)]
+    assert check(reusing(500, "= M0 { on done -> F }")) == [("submachine-cycle", 500, 42)]
 
 
 def test_a_chain_of_types(check: Check) -> None:

@@ -151,7 +151,7 @@ def test_a_behavior_is_inherited_with_what_is_said_of_it(
 ) -> None:
     system = compiled(
         """
-        statemachine M { initial A state A { after 1 s -> E } final E }
+        statemachine M { initial A; state A { after 1 s -> E } final E }
         member Base {
           /// Runs.
           behavior M

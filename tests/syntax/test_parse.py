@@ -97,7 +97,7 @@ def test_expressions_are_trees_with_places_in_the_file() -> None:
 
 
 def test_a_tree_is_walked_without_following_names() -> None:
-    result, _ = parsed("member A { param x : int8 = y param y : int8 = x }")
+    result, _ = parsed("member A { param x : int8 = y; param y : int8 = x }")
     before = list(walk(result.model))
     for node in before:
         if isinstance(node, NameUse):

@@ -56,7 +56,7 @@ MODELS = {
     "states": machine("state S<i> { on Go -> S<j> }", "initial S0\n<> state S<n> { on Go -> F }"),
     "effects on exit": machine(
         "state S<i> { on Num -> S<j>\nexit / x = <i> }",
-        "initial T state T { initial S0\n<> state S<n> { on Go -> S0 }\n"
+        "initial T; state T { initial S0\n<> state S<n> { on Go -> S0 }\n"
         "on Num [x > 3] / x = event.data -> F }",
         "var x : int32\n",
     ),
@@ -73,18 +73,18 @@ MODELS = {
     ),
     "variables": lambda count: (
         HEAD
-        + f"statemachine M {{\n{repeated('var v<i> : int32', count)}initial S state S {{\n"
+        + f"statemachine M {{\n{repeated('var v<i> : int32', count)}initial S; state S {{\n"
         + repeated("on Num [v<i> == event.data] / v<i> = event.data -> S", count)
         + "on Go -> F }\nfinal F }"
     ),
     "delays": machine("after <j> s -> F", ON_S),
     "branches": machine(
         "[x == <i>] -> F",
-        "initial S state S { on Num / x = event.data -> C }\nchoice C {\n<>\nelse -> F }",
+        "initial S; state S { on Num / x = event.data -> C }\nchoice C {\n<>\nelse -> F }",
         "var x : int32 = 0\n",
     ),
     "final states": machine(
-        "final F<i>", "initial S state S { initial A state A { on Go -> F0 }\n<> on done -> F }"
+        "final F<i>", "initial S; state S { initial A; state A { on Go -> F0 }\n<> on done -> F }"
     ),
     "aliases": chain("type A<i> = A<j>", "type A<n> = int32"),
     "constants": chain("const K<i> : int32 = K<j>", "const K<n> : int32 = 1"),
@@ -92,12 +92,12 @@ MODELS = {
     "structs": chain("struct S<i> { a : S<j> }", "struct S<n> { a : int32 }"),
     "members that extend": chain("member M<i> extends M<j> { }", "member M<n> { }"),
     "machines that reuse": chain(
-        "statemachine M<i> { initial A state A = M<j> { on done -> F } final F }",
-        "statemachine M<n> { initial A state A { on Go -> F } final F }",
+        "statemachine M<i> { initial A; state A = M<j> { on done -> F } final F }",
+        "statemachine M<n> { initial A; state A { on Go -> F } final F }",
     ),
     "members with one machine": lambda count: (
         each("member R<i> { behavior M }")(count)
-        + "statemachine M { initial A state A { on Go -> F } final F }"
+        + "statemachine M { initial A; state A { on Go -> F } final F }"
     ),
     "parts": lambda count: (
         HEAD
@@ -109,7 +109,7 @@ MODELS = {
         HEAD
         + f"controller C {{ {repeated('out a<i> : std_msgs/Empty', count)} }}\n"
         + f"controller D {{ {repeated('in a<i> : std_msgs/Empty', count)} }}\n"
-        + f"member R {{ c : C d : D {repeated('connect c.b<i> -> d.a<i>', count)} }}"
+        + f"member R {{ c : C; d : D {repeated('connect c.b<i> -> d.a<i>', count)} }}"
     ),
     "unknown params": lambda count: (
         HEAD
@@ -124,7 +124,7 @@ MODELS = {
         + repeated('function f_<i> : abstraction { action "f_<i>" : p/A<i> }', count)
         + repeated("action A<i> { goal { g : uint8 } result { r : uint8 } }", count)
         + "statemachine M { initial S0\n"
-        + repeated("state S<i> { do f_<i>(g = unknown_<i>) on succeeded -> S<j> }", count)
+        + repeated("state S<i> { do f_<i>(g = unknown_<i>); on succeeded -> S<j> }", count)
         + "state S<n> { on Go -> F }\nfinal F }".replace("<n>", str(count))
     ),
     "one unknown value among activities": lambda count: (
@@ -132,7 +132,7 @@ MODELS = {
         + repeated('function f_<i> : abstraction { action "f_<i>" : p/A<i> }', count)
         + repeated("action A<i> { goal { g : uint8 } result { r : uint8 } }", count)
         + "statemachine M { initial S0\n"
-        + repeated("state S<i> { do f_<i>(g = 1) on succeeded -> S<j> }", count)
+        + repeated("state S<i> { do f_<i>(g = 1); on succeeded -> S<j> }", count)
         + "state S<n> { on Go [abs(missing) > 1] -> F }\nfinal F }".replace("<n>", str(count))
     ),
     "unreachable states": machine("state S<i> { on Go -> F }\nfinal F<i>", "initial F\n<>"),

@@ -334,7 +334,7 @@ endless statemachine B {
 }
 member Asks { behavior A }
 member Answers { behavior B }
-swarm S { a : Asks[1]  b : Answers[1] }
+swarm S { a : Asks[1]; b : Answers[1] }
 """)
     found = ran(steps('{ send = "Ping" }, { pass = "1 s" }'))
 
@@ -410,7 +410,7 @@ def test_values_of_enums_by_name(folder: Path, swarmc: Callable[..., Ran]) -> No
     (folder / "lamps.swarm").unlink()
     (folder / "weeds.swarm").write_text(
         """
-        enum Species { DOCK THISTLE }
+        enum Species { DOCK, THISTLE }
         message Weed { species : Species }
         swarm event Seen : Weed
         endless statemachine Weeding {

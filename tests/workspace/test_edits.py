@@ -19,10 +19,10 @@ SEEDS = 10
 EDITS_A_MODEL = 20
 _SNIPPETS = (
     *("event Late : std_msgs/Empty\n", "swarm event Far : geo_msgs/Fix\n"),
-    *("const TOP : int32 = 4\n", "struct Pair { a : int32 b : Mode }\n"),
-    *("enum Mode { ON OFF }\n", "type Alias = Mode\n", "type Alias = Other\ntype Other = Alias\n"),
+    *("const TOP : int32 = 4\n", "struct Pair { a : int32, b : Mode }\n"),
+    *("enum Mode { ON, OFF }\n", "type Alias = Mode\n", "type Alias = Other\ntype Other = Alias\n"),
     *("const A : int32 = B\nconst B : int32 = A + 1\n", "message geo_msgs/Fix { lat : float64 }\n"),
-    *("statemachine Sub { initial S state S { } }\n", "member Extra { behavior Sub }\n"),
+    *("statemachine Sub { initial S; state S { } }\n", "member Extra { behavior Sub }\n"),
     *("package other\n", 'import "gone.swarm"\n', "import cpswarm.uav.*\n"),
     *("message std_msgs/Empty { x : int32 }\n", "sensor Eye extends Eye { }\n"),
     *("/* ", "*/", "{", "}"),
@@ -102,10 +102,10 @@ EDITS: list[Edit] = [
 
 LIBRARY = """\
 package lib.parts
-struct Mass { kilos : float64 unit : Mode }
-enum Mode { LIGHT HEAVY }
+struct Mass { kilos : float64, unit : Mode }
+enum Mode { LIGHT, HEAVY }
 event Weighed : Mass
-sensor Scale { out mass : Mass on "mass" operation tare(out done : bool) }
+sensor Scale { out mass : Mass on "mass"; operation tare(out done : bool) }
 statemachine Weigh {
   param limit : float64
   var mass : Mass
@@ -121,7 +121,7 @@ const LIMIT : float64 = 2.5 * BASE
 const BASE : float64 = 4.0
 type Load = Mass
 swarm event Ready : Load
-function lift : abstraction { action "lift" : app_msgs/Lift param mass : float64 = 1.0 }
+function lift : abstraction { action "lift" : app_msgs/Lift; param mass : float64 = 1.0 }
 action app_msgs/Lift { goal { mass : float64 } }
 statemachine Work {
   param limit : float64 = 1.0
@@ -135,16 +135,16 @@ statemachine Work {
     on succeeded / count = count + 1, send Ready(kilos = BASE) -> Tare
     on aborted -> Idle
   }
-  state Tare { do scale.tare on succeeded -> Idle on aborted -> Lift }
+  state Tare { do scale.tare; on succeeded -> Idle; on aborted -> Lift }
 }
 member Carrier extends Cart {
   param limit : float64 = 2.0
   behavior Work
 }
 member Cart { scale : Scale }
-swarm Site { carrier : Carrier[3] fitness Yield }
-fitness Yield { in loads : uint32 maximize loads * 2 }
-optimize Site { evaluations 10 carrier.limit in 1.0 .. 2.0 }
+swarm Site { carrier : Carrier[3]; fitness Yield }
+fitness Yield { in loads : uint32; maximize loads * 2 }
+optimize Site { evaluations 10; carrier.limit in 1.0 .. 2.0 }
 """
 
 

@@ -15,11 +15,11 @@ SETTINGS = Settings(levels={"unused-declaration": Level.WARN})
 
 EXCHANGE = """\
 swarm event Start : std_msgs/Empty
-statemachine Tell { initial A state A { after 1 s / send Start -> B } final B }
-statemachine Hear { initial A state A { on Start -> B } final B }
+statemachine Tell { initial A; state A { after 1 s / send Start -> B } final B }
+statemachine Hear { initial A; state A { on Start -> B } final B }
 member Teller { behavior Tell }
 member Hearer { behavior Hear }
-swarm Site { teller : Teller[1] hearer : Hearer[1] }
+swarm Site { teller : Teller[1]; hearer : Hearer[1] }
 """
 
 
@@ -43,8 +43,8 @@ def say(tmp_path: Path) -> Say:
 
 def nested(name: str, levels: int, inmost: str) -> str:
     """A machine with a chain of states in each other."""
-    start = "".join(f"initial S{at} state S{at} {{ " for at in range(levels))
-    return f"endless statemachine {name} {{ {start}initial End {inmost} {'} ' * levels}}}\n"
+    start = "".join(f"initial S{at}; state S{at} {{ " for at in range(levels))
+    return f"endless statemachine {name} {{ {start}initial End; {inmost} {'} ' * levels}}}\n"
 
 
 def test_machine_is_reused_for_the_first_time(say: Say) -> None:
@@ -99,7 +99,7 @@ event Go : Place
 statemachine M {
   var n : int32 = 0
   initial A
-  state A { on Go [n < LEAST] / n = n + 1 -> A on Go -> B }
+  state A { on Go [n < LEAST] / n = n + 1 -> A; on Go -> B }
   final B
 }
 """
@@ -117,7 +117,7 @@ def test_declaration_of_a_library_is_used_no_more(say: Say) -> None:
     text = """\
 import cpswarm.events.*
 swarm event Begin : std_msgs/Int32 on "mission_start"
-statemachine M { initial A state A { on MissionStart -> B on Begin -> B } final B }
+statemachine M { initial A; state A { on MissionStart -> B; on Begin -> B } final B }
 """
     other = text.replace("on MissionStart", "on MissionAbort")
     assert "topic-types" in say(text)

@@ -23,7 +23,7 @@ def test_the_table_is_true(number: int, generate: Generate, reported: Reported) 
 
 
 def test_a_package_of_interfaces_that_would_hide_yasmin(reported: Reported) -> None:
-    machine = "statemachine Work { initial A state A { on Go -> End } final End }"
+    machine = "statemachine Work { initial A; state A { on Go -> End } final End }"
     model = HEADER.replace("package lab", "package yasmin_ros") + machine
     ((code, message, _),) = reported(model, package="lab")
     assert (code, "YASMIN has a package" in message) == ("bad-identifier", True)

@@ -34,14 +34,14 @@ statemachine Work {
   initial Both
   /// Two "things" \\\\ at a time
   parallel state Both {
-    region L { initial A  state A { do move(x = far) on succeeded, aborted -> Z } final Z }
-    region R { initial A  state A { do ask on succeeded, aborted -> Z } final Z }
+    region L { initial A; state A { do move(x = far); on succeeded, aborted -> Z } final Z }
+    region R { initial A; state A { do ask; on succeeded, aborted -> Z } final Z }
     on done -> Box
     on Stop -> Gone
   }
-  state Box { initial In state In { on Go -> Deep } state Deep { on Go -> Box } history H -> In
+  state Box { initial In; state In { on Go -> Deep } state Deep { on Go -> Box } history H -> In
     on Stop -> Gone }
-  state Gone { on Go -> Box.H  after 1 s -> End }
+  state Gone { on Go -> Box.H; after 1 s -> End }
   state Lost { on Go -> End }
   final End
 }

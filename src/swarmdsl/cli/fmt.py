@@ -18,9 +18,14 @@ from swarmdsl.cli.exit_code import ERRORS, OK, exit_code
     "--check", "check_only", is_flag=True, help="List the files that would change; write nothing."
 )
 @click.option("--diff", is_flag=True, help="Show the changes; write nothing.")
+@click.option(
+    "--migrate",
+    is_flag=True,
+    help="Accept statements that share a line without a separator, as in models before 0.3.",
+)
 @options.diagnostics_format
 @options.debug
-def fmt(paths: tuple[Path, ...], check_only: bool, diff: bool, format_: str) -> int:
+def fmt(paths: tuple[Path, ...], check_only: bool, diff: bool, migrate: bool, format_: str) -> int:
     """Format models.
 
     A FOLDER means all .swarm files below it; without arguments, those below the current folder.
@@ -34,9 +39,9 @@ def fmt(paths: tuple[Path, ...], check_only: bool, diff: bool, format_: str) -> 
         raise click.UsageError("`-` cannot be combined with other paths")
     report = Diagnostics()
     if check_only or diff:
-        outcome = format_command.inspect(paths, report, as_diff=diff)
+        outcome = format_command.inspect(paths, report, as_diff=diff, migrate=migrate)
     else:
-        outcome = format_command.rewrite(paths, report)
+        outcome = format_command.rewrite(paths, report, migrate=migrate)
     render(report, format_, sys.stderr)
     if outcome.summary:
         click.echo(outcome.summary, err=True)

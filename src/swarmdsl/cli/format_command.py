@@ -24,9 +24,11 @@ class Outcome:
     summary: str = ""
 
 
-def inspect(paths: Sequence[Path], report: Diagnostics, *, as_diff: bool) -> Outcome:
+def inspect(
+    paths: Sequence[Path], report: Diagnostics, *, as_diff: bool, migrate: bool = False
+) -> Outcome:
     """Print the diffs, or the names, of files that would change."""
-    layouts, wrong = _layouts(paths, report)
+    layouts, wrong = _layouts(paths, report, migrate=migrate)
     changed = [layout for layout in layouts if layout.changed]
     for layout in changed:
         click.echo(layout.diff() if as_diff else layout.name, nl=not as_diff)
@@ -34,9 +36,9 @@ def inspect(paths: Sequence[Path], report: Diagnostics, *, as_diff: bool) -> Out
     return Outcome(not changed, summary)
 
 
-def rewrite(paths: Sequence[Path], report: Diagnostics) -> Outcome:
+def rewrite(paths: Sequence[Path], report: Diagnostics, *, migrate: bool = False) -> Outcome:
     """Write changed files in place, or standard input to standard output."""
-    layouts, wrong = _layouts(paths, report)
+    layouts, wrong = _layouts(paths, report, migrate=migrate)
     if _is_stdin(paths):
         for layout in layouts:
             click.echo(layout.after, nl=False)
@@ -52,10 +54,12 @@ def _is_stdin(paths: Sequence[Path]) -> bool:
     return list(paths) == [Path("-")]
 
 
-def _layouts(paths: Sequence[Path], report: Diagnostics) -> tuple[list[Layout], int]:
+def _layouts(
+    paths: Sequence[Path], report: Diagnostics, *, migrate: bool
+) -> tuple[list[Layout], int]:
     if not _is_stdin(paths):
-        return layouts_of(paths or (Path(),), report)
-    layout = layout_of(STDIN, sys.stdin.buffer.read(), report)
+        return layouts_of(paths or (Path(),), report, migrate=migrate)
+    layout = layout_of(STDIN, sys.stdin.buffer.read(), report, migrate=migrate)
     return ([layout], 0) if layout is not None else ([], 1)
 
 

@@ -19,13 +19,15 @@ STDIN = "<stdin>"
 _LINE_END = re.compile(rb"\r\n|\n|\r")
 
 
-def layout_of(name: str, content: bytes, report: Diagnostics) -> Layout | None:
+def layout_of(
+    name: str, content: bytes, report: Diagnostics, *, migrate: bool = False
+) -> Layout | None:
     """Compute the layout of a file; None if it has errors, which are reported.
 
     All line ends become like the first one; a byte order mark is removed.
     """
     source = decoded(Path(name), content, None, report)
-    text = format_source(source, report) if source is not None else None
+    text = format_source(source, report, migrate=migrate) if source is not None else None
     if text is None:
         return None
     after = text.encode()
@@ -35,7 +37,9 @@ def layout_of(name: str, content: bytes, report: Diagnostics) -> Layout | None:
     return Layout(name, content, after)
 
 
-def layouts_of(paths: Iterable[Path], report: Diagnostics) -> tuple[list[Layout], int]:
+def layouts_of(
+    paths: Iterable[Path], report: Diagnostics, *, migrate: bool = False
+) -> tuple[list[Layout], int]:
     """Compute the layouts of files and folders, and count the files with errors."""
     layouts, wrong = [], 0
     known = set()
@@ -45,7 +49,9 @@ def layouts_of(paths: Iterable[Path], report: Diagnostics) -> tuple[list[Layout]
             continue
         known.add(identity)
         content = read_bytes(path, None, report)
-        layout = layout_of(str(path), content, report) if content is not None else None
+        layout = None
+        if content is not None:
+            layout = layout_of(str(path), content, report, migrate=migrate)
         if layout is None:
             wrong += 1
         else:

@@ -81,6 +81,7 @@ def parse_strict(source: Source, report: Diagnostics) -> Parsed | None:
     for comment in comments:
         if comment.next in docs:  # no node has taken it
             _report_unattached(comment, report)
+    _report_missing_separators(model, report)
     parsed = Parsed(model)
     if faults:
         _report_faults(parsed, report)
@@ -101,6 +102,7 @@ def _parse_with_recovery(source: Source, report: Diagnostics) -> Parsed:
     else:
         parsed = parse_with_recovery(source, scanned, _parse_text, report, whole)
     _attach(parsed, scanned.docs, report)
+    _report_missing_separators(parsed.model, report)
     _report_faults(parsed, report)
     return parsed
 
@@ -129,6 +131,32 @@ def _failure(source: Source) -> Failure | None:
         for regex, name, literal in found.expected
     )
     return Failure(found.at, frozenset(expected))
+
+
+def _report_missing_separators(model: Model, report: Diagnostics) -> None:
+    """Report lines with items that are not separated.
+
+    Lines with another error, and those after them, are left out: a repair may have joined items.
+    """
+    if not model.missing_separators:
+        return
+    lines = [found.primary.span.line for found in report if found.primary is not None]
+    known = {*lines, *(line + 1 for line in lines)}
+    for separator in model.missing_separators:
+        span = separator.span
+        if span.line in known:
+            continue
+        known.add(span.line)
+        report.report(
+            "missing-separator",
+            span,
+            separator=separator,
+            what="entry" if separator == "," else "statement",
+            help="write a guard before `/`: `on event [guard] / effect -> Target`"
+            if span.text == "["
+            else f"begin it on a line of its own, or write `{separator}` before it; "
+            "`swarmc fmt --migrate` does so in whole files",
+        )
 
 
 def _report_faults(parsed: Parsed, report: Diagnostics) -> None:

@@ -12,7 +12,7 @@ TABLE = load("smach").mapping_with["ros=2"]
 OWN = {
     "name that userdata cannot have": """
         var keys : int32
-        state A { on Go [keys > 1] -> End  on Stop / keys = 2 }""",
+        state A { on Go [keys > 1] -> End; on Stop / keys = 2 }""",
 }
 
 

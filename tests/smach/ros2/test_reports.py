@@ -11,7 +11,7 @@ from swarmdsl.cli import run
 
 from ..test_mapping import HEADER
 
-MACHINE = "statemachine Work { initial A state A { on Go -> End } final End }"
+MACHINE = "statemachine Work { initial A; state A { on Go -> End } final End }"
 Reported = Callable[..., list[tuple[str, str, str]]]
 
 
@@ -82,8 +82,8 @@ def test_a_package_of_interfaces_that_would_hide_smach(reported: Reported) -> No
 
 
 def test_keys_of_userdata(reported: Reported) -> None:
-    variables = "var update : int32 var _n : int32 param extract : int32 = 1 var fine : int32"
-    model = HEADER + MACHINE.replace("initial A", f"{variables} initial A")
+    variables = "var update : int32; var _n : int32; param extract : int32 = 1; var fine : int32"
+    model = HEADER + MACHINE.replace("initial A", f"{variables}; initial A")
     found = reported(model)
     assert [code for code, _, _ in found] == ["bad-identifier"] * 3
     assert ["update" in f[1] or "_n" in f[1] or "extract" in f[1] for f in found] == [True] * 3

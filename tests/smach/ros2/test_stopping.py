@@ -23,8 +23,8 @@ event Stop : Note
 statemachine Work {
   initial Both
   parallel state Both {
-    region L { initial A  state A { on Go -> B }  state B { on Go -> A } }
-    region R { initial C  state C { after 1 h -> C } }
+    region L { initial A; state A { on Go -> B }  state B { on Go -> A } }
+    region R { initial C; state C { after 1 h -> C } }
     on Stop -> End
   }
   final End

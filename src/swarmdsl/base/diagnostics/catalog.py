@@ -56,6 +56,9 @@ CODES: dict[str, Code] = {
     "unattached-doc-comment": Code("SW0105", "warning", "this `///` comment documents nothing"),
     "unterminated-text": Code("SW0106", "error", 'this string has no closing `"`'),
     "unterminated-comment": Code("SW0107", "error", "this comment has no closing `*/`"),
+    "missing-separator": Code(
+        "SW0108", "error", "no line break or `{separator}` before the next {what}"
+    ),
     # ---- names
     "duplicate-name": Code("SW0201", "error", "{kind} `{name}` is declared twice"),
     "unresolved-name": Code("SW0202", "error", "no {kind} called `{name}`"),

@@ -14,6 +14,7 @@ _MEANT = re.compile(r"did you mean `([^`]+)`\?")
 _IMPORT = re.compile(r"add `(import [^`]+)`")
 _DECLARATION = re.compile(r"declare it: `([^`]+)`")
 _VARIABLE = re.compile(r"declare it in `(\w+)`: `([^`]+)`")
+_SEPARATOR = re.compile(r"begin it on a line of its own, or write `(.)` before it;.*")
 _NAME = re.compile(r"[\w./]+")
 # Rest of a line that has no further code.
 _REST = re.compile(r"[ \t]*(?://[^\n]*)?(?=\n|\Z)")
@@ -42,6 +43,11 @@ def quick_fix(found: Diagnostic, declarations: Iterable[Declaration]) -> QuickFi
     if (meant := _MEANT.fullmatch(found.help)) and _NAME.fullmatch(span.text):
         return QuickFix(f"Change to `{meant[1]}`", span, meant[1])
     text = span.source.text
+    if separator := _SEPARATOR.fullmatch(found.help):
+        end = len(text[: span.start].rstrip())
+        return QuickFix(
+            f"Insert `{separator[1]}`", Span(span.source, end, span.start), f"{separator[1]} "
+        )
     heads = list(_HEAD.finditer(text))
     below = heads[-1].end() if heads else 0
     if added := _IMPORT.fullmatch(found.help):

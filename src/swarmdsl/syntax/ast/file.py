@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from swarmdsl.base.records import dataclass
+from collections.abc import Sequence
+
+from swarmdsl.base.records import dataclass, field
 from swarmdsl.syntax.ast.architecture import Component, Member
 from swarmdsl.syntax.ast.behaviour import StateMachine
 from swarmdsl.syntax.ast.composition import Environment, Fitness, Optimization, Swarm
@@ -65,9 +67,13 @@ Declaration = (
 
 @dataclass(slots=True, eq=False)
 class Model(Node):
-    """A whole file."""
+    """A whole file.
+
+    `missing_separators` are `;` or `,`, each with the span of the token that it should be before.
+    """
 
     package: Package | None
     imports: list[Import]
     declarations: list[Declaration]
     optimizations: list[Optimization]
+    missing_separators: Sequence[Word] = field(default=(), init=False, metadata={"elsewhere": True})

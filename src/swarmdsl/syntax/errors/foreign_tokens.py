@@ -37,10 +37,11 @@ _WORDS = {
 }
 # A transition without its keyword.
 _TRANSITION = re.compile(r"[A-Za-z_]\w*[ \t]*(?:-+>|/[ \t]*-+>|\[[^]\n]*\][ \t]*(?:/|-+>))")
+_EFFECT = re.compile(r"send\b|[A-Za-z_]\w*(?:\.\w+)*[ \t]*=[^=>]")
 # These also within a statement.
 _ANYWHERE = ("if", "goto", "then", "?", "$")
 _SYMBOLS = {
-    ";": "no `;` is needed: a line break ends a statement",
+    ";": "`;` stands only between two statements",
     ",": "no `,` is needed here",
     "&": "write `and`",
     "|": "write `or`",
@@ -57,7 +58,10 @@ def foreign_token_hint(expected: set[str], text: str, at: int) -> str | None:
         return "write arguments in parentheses"
     if text[at] == "=" and "`:`" in expected:
         return "write the type before the value: `name : type = value`"
-    if text[:at].rstrip().endswith(","):
+    before = text[:at].rstrip()
+    if before.endswith(";") and _EFFECT.match(text, at):
+        return "separate effects with `,`"
+    if before.endswith(","):
         return "delete the `,` before it"
     if number := re.compile(r"\d+(?:_\d+)+\b").match(text, at):
         return f"write `{number[0].replace('_', '')}`"

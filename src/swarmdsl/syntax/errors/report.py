@@ -104,7 +104,7 @@ def report_syntax_error(
     new_line = before is not None and "\n" in text[before.end() : at]
     if before and before[0] == ":" and wants_name:
         words = words - {"a name"} | {"a type"}
-    inside = before is not None and before[0] not in "{}" and not new_line
+    inside = before is not None and before[0] not in "{};" and not new_line
     complete = found is not None and inside and _may_begin_anew(words)
     anew = found is not None and new_line and _may_begin_anew(words)
     # An unexpected `[` is not expected: it begins a malformed array.
@@ -172,8 +172,11 @@ def _may_begin_anew(words: set[str]) -> bool:
 
 
 def _words(expected: Iterable[str]) -> set[str]:
-    """Return phrases for terminals; keywords stay in backquotes."""
-    return {TERMINALS.get(terminal, terminal) for terminal in expected}
+    """Return phrases for terminals; keywords stay in backquotes.
+
+    A separator of statements is left out: a line break does the same.
+    """
+    return {TERMINALS.get(terminal, terminal) for terminal in expected} - {"`;`"}
 
 
 def _grouped(words: set[str], *, complete: bool, anew: bool) -> list[str]:

@@ -8,6 +8,7 @@ from swarmdsl.syntax.formatter.items import group_items
 from swarmdsl.syntax.formatter.layout import lay_out
 from swarmdsl.syntax.formatter.lines import render_lines
 from swarmdsl.syntax.formatter.marks import find_marks
+from swarmdsl.syntax.formatter.separators import without_separators
 from swarmdsl.syntax.formatter.tokens import Tokens, content_of, tokenize
 from swarmdsl.syntax.parse import parse
 
@@ -16,16 +17,21 @@ class MeaningChangedError(Exception):
     """Raised if formatting would change more than the layout, a bug in swarmdsl."""
 
 
-def format_source(source: Source, report: Diagnostics) -> str | None:
-    """Format a file; None if it has errors, which are reported."""
+def format_source(source: Source, report: Diagnostics, *, migrate: bool = False) -> str | None:
+    """Format a file; None if it has errors, which are reported.
+
+    With `migrate`, missing separators are no errors: each item goes on a line of its own.
+    """
     found = Diagnostics()
     parsed = parse(source, found)
-    report.include(one for one in found if one.severity is Severity.ERROR)
-    if found.has_errors:
+    allowed = ("missing-separator",) if migrate else ()
+    errors = [one for one in found if one.severity is Severity.ERROR and one.name not in allowed]
+    report.include(errors)
+    if errors:
         return None
     tokens = Tokens(source.text)
     marks = find_marks(parsed.model, tokens)
-    text = render_lines(lay_out(group_items(tokens.all, marks), marks))
+    text = render_lines(lay_out(group_items(without_separators(tokens.all, marks), marks), marks))
     if content_of(tokenize(text)) != content_of(tokens.all):
         raise MeaningChangedError(f"the layout of {source.name} would change its content")
     return text

@@ -7,6 +7,7 @@ from swarmdsl.syntax.formatter.columns import align, set_cells
 from swarmdsl.syntax.formatter.items import Body, Item
 from swarmdsl.syntax.formatter.lines import INDENT, WIDTH, Line
 from swarmdsl.syntax.formatter.marks import Marks
+from swarmdsl.syntax.formatter.separators import with_commas
 from swarmdsl.syntax.formatter.spacing import join_tokens
 from swarmdsl.syntax.formatter.tokens import Token
 from swarmdsl.syntax.formatter.wrapping import wrap
@@ -70,7 +71,7 @@ def _item_lines(item: Item, indent: int, marks: Marks) -> list[Line]:
         if len(lines) == 1:
             _set_cells(lines[0], item, item.head, marks)
     else:
-        whole = [*item.head, *body.tokens]
+        whole = [*item.head, *with_commas(body.tokens, marks)]
         if _stays_on_one_line(body) and _fits(whole, indent, marks):
             lines = wrap(whole, indent, marks)
             _set_cells(lines[0], item, whole, marks)

@@ -64,7 +64,8 @@ def tokenize(text: str) -> list[Token]:
 def content_of(tokens: list[Token]) -> list[tuple[str, bool]]:
     """Return what formatting must keep: the tokens, and which comments document something.
 
-    Lines of block comments may be re-indented; `///` documents only at the start of a line.
+    Lines of block comments may be re-indented; `///` documents only at the start of a line. Commas
+    and semicolons are left out: they separate items on one line only.
     """
     return [
         (
@@ -76,6 +77,7 @@ def content_of(tokens: list[Token]) -> list[tuple[str, bool]]:
             and (index == 0 or token.newlines > 0),
         )
         for index, token in enumerate(tokens)
+        if token.text not in (",", ";")
     ]
 
 

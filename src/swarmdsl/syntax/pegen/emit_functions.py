@@ -57,6 +57,8 @@ class Emission:
                 self._line("depth += 1")
                 self._line("if depth > limit: raise TooDeepError")
             self._line(f"start = {self._start_of(rule.body)}")
+            if separator := self.target.items.get(rule.name):
+                self._line(f"if find('\\n', ends[at], start) < 0: inline[at] = {separator!r}")
             defaults = {"value": "None", "word": "''", "many": "[]", "flag": "False"}
             for attribute, kind in rule.attributes.items():
                 self._line(f"{attribute}_ = {defaults[kind]}")
@@ -93,7 +95,10 @@ class Emission:
                 for number, part in enumerate(parts):
                     self._expression(part, fail, known=known and number == 0)
             case Choice(parts):
-                self._choice(parts, fail)
+                if known and self.look.is_token(expression):
+                    self._line(_ADVANCE)
+                else:
+                    self._choice(parts, fail)
             case Optional(part):
                 self._optional(part)
             case Repetition():

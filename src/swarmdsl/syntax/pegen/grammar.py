@@ -242,6 +242,8 @@ class _Reader:
     def _repetition(self, made: Any, part: Expression) -> Repetition:
         separator = self._expression(made.sep) if made.sep else None
         assert separator is None or isinstance(separator, Terminal)  # textX knows no others
+        if separator is None:
+            part = _flattened(part)
         return Repetition(part, 1 if isinstance(made, arpeggio.OneOrMore) else 0, separator)
 
     def _terminal(self, made: Any) -> Terminal:
@@ -260,6 +262,18 @@ class _Reader:
 
     def _unsupported(self, what: str) -> UnsupportedError:
         return UnsupportedError(self._name, what)
+
+
+def _flattened(repeated: Expression) -> Expression:
+    """Replace `x+ y?` in a repetition by `x y?`, which matches the same."""
+    match repeated:
+        case Choice(parts):
+            return Choice(tuple(map(_flattened, parts)))
+        case Sequence((Repetition(part, 1, None), *others)) if all(
+            isinstance(other, Optional) for other in others
+        ):
+            return Sequence((part, *others))
+    return repeated
 
 
 def parts(expression: Expression) -> tuple[Expression, ...]:

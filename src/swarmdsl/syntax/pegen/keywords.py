@@ -185,11 +185,12 @@ class Keywords:
                     continue
                 parts = sequence.parts
                 for opener, part in itertools.pairwise(parts):
-                    repeats = isinstance(part, Repetition) and isinstance(part.part, Assign)
-                    if isinstance(opener, Terminal) and opener.literal == "{" and repeats:
-                        assert isinstance(part, Repetition)
-                        assert isinstance(part.part, Assign)
-                        if isinstance(item := part.part.part, Use) and item.rule in self.first:
+                    if not (isinstance(opener, Terminal) and opener.literal == "{"):
+                        continue
+                    if not isinstance(part, Repetition):
+                        continue
+                    for item in inside(part):
+                        if isinstance(item, Use) and item.rule in self.first:
                             yield item
 
     def _modifiers(self, first: frozenset[str]) -> Iterator[tuple[str, frozenset[str]]]:

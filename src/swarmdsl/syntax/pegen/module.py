@@ -30,9 +30,8 @@ PROGRAM = (
 def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[{start}, int] | None:
     """Parse a file to a model; None where it does not follow the grammar.
 
-    With the model comes how many expressions are wrong: they have no trees. Documentation
-    is taken from `docs`, which maps places to texts. Raises TooDeepError for nesting beyond
-    `limit`.
+    With the model comes the number of wrong expressions, which have no trees. Documentation is
+    taken from `docs`, which maps places to texts. Raises TooDeepError for nesting beyond `limit`.
     """
     text = source.text
     depth = at = 0
@@ -46,6 +45,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[{start}, in
         model = r_{start}()
         if model is None or BLANKS(text, ends[at]).end() < len(text):
             return None
+{finish}
         return model, {result}
     finally:
         # They refer to each other: so they are gone at once, without the garbage collector.
@@ -79,6 +79,7 @@ def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
         tables="\n".join(f"    {name} = {table}" for name, table in look.tables.items()),
         names=" = ".join([*_functions(emission.lines), *look.tables]),
         start=grammar.start,
+        finish=target.finish,
         result=target.result,
     )
     return text, sorted(rule.name for rule in nodes)

@@ -5,7 +5,15 @@ from __future__ import annotations
 from dataclasses import fields
 
 from swarmdsl.base.resources import grammar_checksum
-from swarmdsl.syntax.ast import NODES, Documented, Node
+from swarmdsl.syntax.ast import (
+    NODES,
+    Documented,
+    EnumValue,
+    Field,
+    Node,
+    Parameter,
+    PartValue,
+)
 from swarmdsl.syntax.pegen.actions import Target
 from swarmdsl.syntax.pegen.grammar import Grammar
 from swarmdsl.syntax.pegen.module import definitions
@@ -28,12 +36,25 @@ TARGET = Target(
         "Text": "unquoted({})",
     },
     written={"Expression": "expression", "Operand": "operand", "Delay": "delay"},
+    items={
+        name: "," if node in (PartValue, EnumValue, Field) else ";"
+        for name, node in NODES.items()
+        if issubclass(node, Documented) and node is not Parameter
+    },
     begin="""\
+    find = text.find
+    inline = {}
     expressions = ExpressionParser(LANGUAGE, source, (tokens, ends), limit)
     expression = expressions.expression
     operand = expressions.operand
     delay = expressions.delay
 """,
+    finish="""\
+        model.missing_separators = [
+            Word(separator, Span(source, ends[at + 1] - len(tokens[at]), ends[at + 1]))
+            for at, separator in inline.items()
+            if tokens[at - 1] not in SEPARATORS
+        ]""",
     result="len(expressions.faults)",
 )
 _HEAD = '''\
@@ -53,6 +74,8 @@ from swarmdsl.syntax.parser.lexer import Lexer
 GRAMMAR = {checksum}
 {definitions}
 LANGUAGE = Language(LEXER, RESERVED)
+# An item may stand after them on one line; the last one is the start of the file.
+SEPARATORS = frozenset(("", *"{{}};,"))
 '''
 
 

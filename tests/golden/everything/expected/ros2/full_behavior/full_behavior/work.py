@@ -21,144 +21,144 @@ class Data:
     """Data of the machine: params, which are constant after its start, and variables."""
 
     def __init__(self, parameters):
-        # model.swarm:22
+        # model.swarm:62
         self.speed = parameters['speed']
-        # model.swarm:48
+        # model.swarm:91
         self.where = full.msg.Pose2D()
-        # model.swarm:49
+        # model.swarm:92
         self.tries = 0
-        # model.swarm:50
+        # model.swarm:93
         self.ok = False
-        # model.swarm:34
+        # model.swarm:75
         self.landing_tries = 0
 
 
 def guard_main_a_go(machine, event):
-    # model.swarm:62
+    # model.swarm:105
     return not machine.data.ok
 
 
 def guard_main_a_go_2(machine, event):
-    # model.swarm:64
+    # model.swarm:107
     return event.data.state == 3 and event.data.id != 'x'
 
 
 def effect_main_a_go(machine, event):
-    # model.swarm:64
+    # model.swarm:108
     machine.data.where = deepcopy(event.data.where)
     machine.data.tries = 0
     machine.emit(Event('Seen', filled(full.msg.Found(), id='a')))
 
 
 def wait_main_a_go(machine, event):
-    # model.swarm:62
+    # model.swarm:105
     machine.send_after(Event('after.Main.A.Go.1'), 30_000_000_000, 'after.Main.A.Go.1')
 
 
 def stop_waiting_main_a_go(machine, event):
-    # model.swarm:62
+    # model.swarm:105
     machine.cancel('after.Main.A.Go.1')
 
 
 def goal_main_a_go(machine):
-    # model.swarm:58
+    # model.swarm:101
     return filled(full.action.Goto.Goal(), target=machine.data.where, speed=machine.data.speed)
 
 
 def result_main_a_go(machine, event):
-    # model.swarm:58
+    # model.swarm:101
     machine.data.ok = deepcopy(get(event.data, 'reached'))
 
 
 def guard_main_a_pick(machine, event):
-    # model.swarm:68
+    # model.swarm:112
     return machine.data.ok
 
 
 def guard_main_a_pick_2(machine, event):
-    # model.swarm:69
+    # model.swarm:113
     return machine.data.tries < 3
 
 
 def effect_main_a_pick(machine, event):
-    # model.swarm:69
+    # model.swarm:113
     machine.data.tries = bounded(machine.data.tries + 1, 'int32')
 
 
 def guard_main_b_ok(machine, event):
-    # model.swarm:78
+    # model.swarm:122
     return event.data.percentage < 0.2
 
 
 def enter_landing(machine, event):
-    # model.swarm:34
+    # model.swarm:75
     machine.data.landing_tries = 0
 
 
 def effect_landing_down(machine, event):
-    # model.swarm:40
+    # model.swarm:81
     machine.data.landing_tries = bounded(machine.data.landing_tries + 1, 'int32')
 
 
 def guard_landing_down(machine, event):
-    # model.swarm:41
+    # model.swarm:82
     return machine.data.landing_tries < 3
 
 
 def effect_landing_down_2(machine, event):
-    # model.swarm:41
+    # model.swarm:82
     machine.data.landing_tries = bounded(machine.data.landing_tries + 1, 'int32')
 
 
 def goal_landing_down(machine):
-    # model.swarm:38
+    # model.swarm:79
     return filled(full.srv.Beep.Request(), times=1)
 
 
 def tell_landing_ok(machine, event):
-    # model.swarm:44
+    # model.swarm:86
     machine.raise_event(Event('final.Landing.Ok'))
 
 
 def tell_landing_bad(machine, event):
-    # model.swarm:45
+    # model.swarm:87
     machine.raise_event(Event('final.Landing.Bad'))
 
 
 STATES = tree(
-    # model.swarm:53
+    # model.swarm:96
     State(
         'Main',
         Kind.PARALLEL,
         transitions=(
-            Transition(('done.state.Main.B',), ('Landing',), origin='model.swarm:82'),
-            Transition(('done.state.Main',), ('Stop',), origin='model.swarm:83'),
+            Transition(('done.state.Main.B',), ('Landing',), origin='model.swarm:126'),
+            Transition(('done.state.Main',), ('Stop',), origin='model.swarm:127'),
         ),
     ),
-    # model.swarm:54
+    # model.swarm:97
     State('Main.A', initial=('Main.A.Go',)),
-    # model.swarm:56
+    # model.swarm:99
     State(
         'Main.A.Go',
         transitions=(
-            Transition(('do.Main.A.Go.succeeded',), ('Main.A.Pick',), origin='model.swarm:60'),
+            Transition(('do.Main.A.Go.succeeded',), ('Main.A.Pick',), origin='model.swarm:103'),
             Transition(
                 ('do.Main.A.Go.aborted', 'do.Main.A.Go.preempted'),
                 ('Main.A.Pick',),
-                origin='model.swarm:61',
+                origin='model.swarm:104',
             ),
             Transition(
                 ('after.Main.A.Go.1',),
                 ('Main.A.Pick',),
                 guard=guard_main_a_go,
-                origin='model.swarm:62',
+                origin='model.swarm:105',
             ),
             Transition(
                 ('Seen',),
                 ('Main.A.Go',),
                 guard=guard_main_a_go_2,
                 effect=effect_main_a_go,
-                origin='model.swarm:64',
+                origin='model.swarm:107',
             ),
         ),
         entry=(wait_main_a_go,),
@@ -171,47 +171,47 @@ STATES = tree(
             finalize=result_main_a_go,
         ),
     ),
-    # model.swarm:66
+    # model.swarm:110
     State(
         'Main.A.Pick',
         transitions=(
-            Transition((), ('Main.A.Go',), guard=guard_main_a_pick, origin='model.swarm:68'),
+            Transition((), ('Main.A.Go',), guard=guard_main_a_pick, origin='model.swarm:112'),
             Transition(
                 (),
                 ('Main.A.Go',),
                 guard=guard_main_a_pick_2,
                 effect=effect_main_a_pick,
-                origin='model.swarm:69',
+                origin='model.swarm:113',
             ),
-            Transition((), ('Main.A.End',), origin='model.swarm:71'),
+            Transition((), ('Main.A.End',), origin='model.swarm:115'),
         ),
     ),
-    # model.swarm:73
+    # model.swarm:117
     State('Main.A.End', Kind.FINAL),
-    # model.swarm:75
+    # model.swarm:119
     State('Main.B', initial=('Main.B.Ok',)),
-    # model.swarm:78
+    # model.swarm:122
     State(
         'Main.B.Ok',
         transitions=(
-            Transition(('Low',), ('Main.B.Lo',), guard=guard_main_b_ok, origin='model.swarm:78'),
+            Transition(('Low',), ('Main.B.Lo',), guard=guard_main_b_ok, origin='model.swarm:122'),
         ),
     ),
-    # model.swarm:79
+    # model.swarm:123
     State('Main.B.Lo', Kind.FINAL),
-    # model.swarm:85
+    # model.swarm:129
     State(
         'Landing',
         initial=('Landing.Down',),
         transitions=(
-            Transition(('final.Landing.Ok',), ('Stop',), origin='model.swarm:87'),
+            Transition(('final.Landing.Ok',), ('Stop',), origin='model.swarm:131'),
             Transition(
-                ('final.Landing.Ok', 'final.Landing.Bad'), ('Main',), origin='model.swarm:88'
+                ('final.Landing.Ok', 'final.Landing.Bad'), ('Main',), origin='model.swarm:132'
             ),
         ),
         entry=(enter_landing,),
     ),
-    # model.swarm:36
+    # model.swarm:77
     State(
         'Landing.Down',
         transitions=(
@@ -219,47 +219,47 @@ STATES = tree(
                 ('do.Landing.Down.succeeded',),
                 ('Landing.Ok',),
                 effect=effect_landing_down,
-                origin='model.swarm:40',
+                origin='model.swarm:81',
             ),
             Transition(
                 ('do.Landing.Down.aborted', 'do.Landing.Down.preempted'),
                 ('Landing.Down',),
                 guard=guard_landing_down,
                 effect=effect_landing_down_2,
-                origin='model.swarm:41',
+                origin='model.swarm:82',
             ),
             Transition(
                 ('do.Landing.Down.aborted', 'do.Landing.Down.preempted'),
                 ('Landing.Bad',),
-                origin='model.swarm:43',
+                origin='model.swarm:84',
             ),
         ),
         activity=Activity('beep', 'beep', outcomes('Landing.Down'), goal=goal_landing_down),
     ),
-    # model.swarm:44
+    # model.swarm:86
     State('Landing.Ok', Kind.FINAL, entry=(tell_landing_ok,)),
-    # model.swarm:45
+    # model.swarm:87
     State('Landing.Bad', Kind.FINAL, entry=(tell_landing_bad,)),
-    # model.swarm:90
+    # model.swarm:134
     State('Stop', Kind.FINAL),
 )
 
 PARAMETERS = (
-    # model.swarm:22
+    # model.swarm:62
     Parameter('speed', 'float64', 2.0),
 )
 
 TOPICS = (
-    # model.swarm:11
+    # model.swarm:39
     Topic('Seen', full.msg.Found, 'seen', swarm=True, heard=True, sent=True),
-    # model.swarm:10
+    # model.swarm:38
     Topic('Low', sensor_msgs.msg.BatteryState, 'battery', heard=True),
 )
 
 FUNCTIONS = {
-    # model.swarm:8
+    # model.swarm:31
     'goto': Action(full.action.Goto, 'cmd/goto'),
-    # model.swarm:9
+    # model.swarm:36
     'beep': Service(full.srv.Beep, 'beep'),
 }
 

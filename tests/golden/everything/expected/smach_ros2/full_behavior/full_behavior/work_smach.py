@@ -41,13 +41,13 @@ def build():
     """Build state machine Work."""
     machine = Machine(CHART, ['Stop', 'preempted'])
     with machine:
-        # model.swarm:53
+        # model.swarm:96
         StateMachine.add(
             'Main',
             build_main(),
             transitions={'done_Landing': 'Landing', 'done_Stop': 'Stop', 'preempted': 'preempted'},
         )
-        # model.swarm:85
+        # model.swarm:129
         StateMachine.add(
             'Landing',
             build_landing(),
@@ -58,7 +58,7 @@ def build():
 
 def build_main():
     """Build the regions of state Main."""
-    # model.swarm:53
+    # model.swarm:96
     concurrence = Concurrence(
         ['done_Landing', 'done_Stop', 'preempted'],
         default_outcome='preempted',
@@ -68,19 +68,19 @@ def build_main():
         },
     )
     with concurrence:
-        # model.swarm:54
+        # model.swarm:97
         Concurrence.add('A', build_main_a())
-        # model.swarm:75
+        # model.swarm:119
         Concurrence.add('B', build_main_b())
     return concurrence
 
 
 def build_main_a():
     """Build region Main.A."""
-    # model.swarm:54
+    # model.swarm:97
     machine = StateMachine(['done_Landing', 'done_Stop', 'preempted'])
     with machine:
-        # model.swarm:56
+        # model.swarm:99
         # Calls action cmd/goto.
         StateMachine.add(
             'Go',
@@ -98,7 +98,7 @@ def build_main_a():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:66
+        # model.swarm:110
         StateMachine.add(
             'Pick',
             State(CHART, 'Main.A.Pick', ['done_Landing', 'Go', 'End', 'preempted']),
@@ -109,7 +109,7 @@ def build_main_a():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:73
+        # model.swarm:117
         StateMachine.add(
             'End',
             State(CHART, 'Main.A.End', ['done_Landing', 'done_Stop', 'preempted']),
@@ -124,16 +124,16 @@ def build_main_a():
 
 def build_main_b():
     """Build region Main.B."""
-    # model.swarm:75
+    # model.swarm:119
     machine = StateMachine(['done_Landing', 'done_Stop', 'preempted'])
     with machine:
-        # model.swarm:78
+        # model.swarm:122
         StateMachine.add(
             'Ok',
             State(CHART, 'Main.B.Ok', ['Low', 'preempted']),
             transitions={'Low': 'Lo', 'preempted': 'preempted'},
         )
-        # model.swarm:79
+        # model.swarm:123
         StateMachine.add(
             'Lo',
             State(CHART, 'Main.B.Lo', ['done_Landing', 'done_Stop', 'preempted']),
@@ -148,10 +148,10 @@ def build_main_b():
 
 def build_landing():
     """Build state Landing."""
-    # model.swarm:85
+    # model.swarm:129
     machine = StateMachine(['Landing_Ok', 'done', 'preempted'])
     with machine:
-        # model.swarm:36
+        # model.swarm:77
         # Calls service beep.
         StateMachine.add(
             'Down',
@@ -165,13 +165,13 @@ def build_landing():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:44
+        # model.swarm:86
         StateMachine.add(
             'Ok',
             State(CHART, 'Landing.Ok', ['Landing_Ok', 'done', 'preempted']),
             transitions={'Landing_Ok': 'Landing_Ok', 'done': 'done', 'preempted': 'preempted'},
         )
-        # model.swarm:45
+        # model.swarm:87
         StateMachine.add(
             'Bad',
             State(CHART, 'Landing.Bad', ['done', 'preempted']),

@@ -38,7 +38,7 @@ CHART = Chart(
 
 
 class MainAGo(ActionState):
-    # model.swarm:56
+    # model.swarm:99
     """Calls action cmd/goto."""
 
     chart = CHART
@@ -47,7 +47,7 @@ class MainAGo(ActionState):
 
 
 class MainAPick(State):
-    # model.swarm:66
+    # model.swarm:110
     """Ends at once, with the outcome of its guards."""
 
     chart = CHART
@@ -56,7 +56,7 @@ class MainAPick(State):
 
 
 class MainAEnd(State):
-    # model.swarm:73
+    # model.swarm:117
     """Waits until the complete state around it is left."""
 
     chart = CHART
@@ -65,7 +65,7 @@ class MainAEnd(State):
 
 
 class MainBOk(State):
-    # model.swarm:78
+    # model.swarm:122
     """Waits for a transition."""
 
     chart = CHART
@@ -74,7 +74,7 @@ class MainBOk(State):
 
 
 class MainBLo(State):
-    # model.swarm:79
+    # model.swarm:123
     """Waits until the complete state around it is left."""
 
     chart = CHART
@@ -83,7 +83,7 @@ class MainBLo(State):
 
 
 class LandingDown(ServiceState):
-    # model.swarm:36
+    # model.swarm:77
     """Calls service beep."""
 
     chart = CHART
@@ -92,7 +92,7 @@ class LandingDown(ServiceState):
 
 
 class LandingOk(State):
-    # model.swarm:44
+    # model.swarm:86
     """Waits until the complete state around it is left."""
 
     chart = CHART
@@ -101,7 +101,7 @@ class LandingOk(State):
 
 
 class LandingBad(State):
-    # model.swarm:45
+    # model.swarm:87
     """Waits until the complete state around it is left."""
 
     chart = CHART
@@ -112,13 +112,13 @@ class LandingBad(State):
 def build():
     """Build state machine Work."""
     machine = StateMachine({'Stop', 'canceled'})
-    # model.swarm:53
+    # model.swarm:96
     machine.add_state(
         'Main',
         build_main(),
         {'done_Landing': 'Landing', 'done_Stop': 'Stop', 'canceled': 'canceled'},
     )
-    # model.swarm:85
+    # model.swarm:129
     machine.add_state(
         'Landing', build_landing(), {'Landing_Ok': 'Stop', 'done': 'Main', 'canceled': 'canceled'}
     )
@@ -129,7 +129,7 @@ def build():
 
 def build_main():
     """Build the regions of state Main."""
-    # model.swarm:53
+    # model.swarm:96
     return Concurrence(
         states={'A': build_main_a(), 'B': build_main_b()},
         default_outcome='canceled',
@@ -142,9 +142,9 @@ def build_main():
 
 def build_main_a():
     """Build region Main.A."""
-    # model.swarm:54
+    # model.swarm:97
     machine = StateMachine({'done_Landing', 'done_Stop', 'canceled'})
-    # model.swarm:56
+    # model.swarm:99
     machine.add_state(
         'Go',
         MainAGo(),
@@ -157,13 +157,13 @@ def build_main_a():
             'canceled': 'canceled',
         },
     )
-    # model.swarm:66
+    # model.swarm:110
     machine.add_state(
         'Pick',
         MainAPick(),
         {'done_Landing': 'done_Landing', 'Go': 'Go', 'End': 'End', 'canceled': 'canceled'},
     )
-    # model.swarm:73
+    # model.swarm:117
     machine.add_state(
         'End',
         MainAEnd(),
@@ -176,11 +176,11 @@ def build_main_a():
 
 def build_main_b():
     """Build region Main.B."""
-    # model.swarm:75
+    # model.swarm:119
     machine = StateMachine({'done_Landing', 'done_Stop', 'canceled'})
-    # model.swarm:78
+    # model.swarm:122
     machine.add_state('Ok', MainBOk(), {'Low': 'Lo', 'canceled': 'canceled'})
-    # model.swarm:79
+    # model.swarm:123
     machine.add_state(
         'Lo',
         MainBLo(),
@@ -193,19 +193,19 @@ def build_main_b():
 
 def build_landing():
     """Build state Landing."""
-    # model.swarm:85
+    # model.swarm:129
     machine = StateMachine({'Landing_Ok', 'done', 'canceled'})
-    # model.swarm:36
+    # model.swarm:77
     machine.add_state(
         'Down',
         LandingDown(),
         {'succeeded': 'Ok', 'aborted_Down': 'Down', 'aborted_Bad': 'Bad', 'canceled': 'canceled'},
     )
-    # model.swarm:44
+    # model.swarm:86
     machine.add_state(
         'Ok', LandingOk(), {'Landing_Ok': 'Landing_Ok', 'done': 'done', 'canceled': 'canceled'}
     )
-    # model.swarm:45
+    # model.swarm:87
     machine.add_state('Bad', LandingBad(), {'done': 'done', 'canceled': 'canceled'})
     machine.set_start_state('Down')
     machine.set_name('Landing')

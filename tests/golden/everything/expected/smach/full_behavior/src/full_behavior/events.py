@@ -6,8 +6,8 @@ from sensor_msgs.msg import BatteryState
 
 from full_behavior.states import Event
 
-# model.swarm:11
+# model.swarm:39
 SEEN = Event('Seen', Found, 'bridge/events/seen', 'seen')
 
-# model.swarm:10
+# model.swarm:38
 LOW = Event('Low', BatteryState, 'battery', 'battery')

@@ -20,16 +20,16 @@ def build():
     userdata = initial_userdata()
     machine = Machine(['Stop'], userdata)
     with machine:
-        # model.swarm:53
-        # model.swarm:82
+        # model.swarm:96
+        # model.swarm:126
         # The battery.
         StateMachine.add(
             'Main',
             _main(),
             transitions={'done_Landing': 'Landing', 'done_Stop': 'Stop', 'preempted': 'preempted'},
         )
-        # model.swarm:85
-        # model.swarm:87
+        # model.swarm:129
+        # model.swarm:131
         # Down.
         StateMachine.add(
             'Landing',
@@ -42,15 +42,15 @@ def build():
 def initial_userdata():
     """Return userdata with params from ROS, and the initial values of variables."""
     userdata = smach.UserData()
-    # model.swarm:22
+    # model.swarm:62
     userdata.speed = param('~speed', float, 2.0)
-    # model.swarm:48
+    # model.swarm:91
     userdata.where = Pose2D()
-    # model.swarm:49
+    # model.swarm:92
     userdata.tries = 0
-    # model.swarm:50
+    # model.swarm:93
     userdata.ok = False
-    # model.swarm:34
+    # model.swarm:75
     userdata.landing_tries = 0
     return userdata
 
@@ -61,9 +61,9 @@ def _main():
         on=[On('done.state.Main.B', 'done_Landing'), On('done.state.Main', 'done_Stop')]
     )
     with concurrence:
-        # model.swarm:54
+        # model.swarm:97
         Concurrence.add('A', _main_a())
-        # model.swarm:75
+        # model.swarm:119
         Concurrence.add('B', _main_b())
     return concurrence
 
@@ -72,10 +72,10 @@ def _main_a():
     """Build region Main.A."""
     machine = StateMachine()
     with machine:
-        # model.swarm:56
-        # model.swarm:58
+        # model.swarm:99
+        # model.swarm:101
         # Where something was seen.
-        # model.swarm:60
+        # model.swarm:103
         # What next?
         StateMachine.add(
             'Go',
@@ -104,10 +104,10 @@ def _main_a():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:66
-        # model.swarm:68
+        # model.swarm:110
+        # model.swarm:112
         # It works.
-        # model.swarm:71
+        # model.swarm:115
         # It does not.
         StateMachine.add(
             'Pick',
@@ -125,7 +125,7 @@ def _main_a():
             ),
             transitions={'Go': 'Go', 'End': 'End', 'preempted': 'preempted'},
         )
-        # model.swarm:73
+        # model.swarm:117
         StateMachine.add('End', Final(), transitions={'preempted': 'preempted'})
     return machine
 
@@ -134,13 +134,13 @@ def _main_b():
     """Build region Main.B."""
     machine = StateMachine()
     with machine:
-        # model.swarm:78
+        # model.swarm:122
         StateMachine.add(
             'Ok',
             State(on=[On(events.LOW, guard=lambda userdata, event: event.percentage < 0.2)]),
             transitions={'Low': 'Lo', 'preempted': 'preempted'},
         )
-        # model.swarm:79
+        # model.swarm:123
         StateMachine.add('Lo', Final(), transitions={'preempted': 'preempted'})
     return machine
 
@@ -156,10 +156,10 @@ def _landing():
         on_entry=_landing_entry,
     )
     with machine:
-        # model.swarm:36
-        # model.swarm:38
+        # model.swarm:77
+        # model.swarm:79
         # Once is enough.
-        # model.swarm:43
+        # model.swarm:84
         # No more tries.
         StateMachine.add(
             'Down',
@@ -185,15 +185,15 @@ def _landing():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:44
+        # model.swarm:86
         StateMachine.add('Ok', Final(), transitions={'preempted': 'preempted'})
-        # model.swarm:45
+        # model.swarm:87
         StateMachine.add('Bad', Final(), transitions={'preempted': 'preempted'})
     return machine
 
 
 def _main_a_go_seen_effect(userdata, event):
-    # model.swarm:64
+    # model.swarm:107
     # There is more.
     userdata.where = event.where
     userdata.tries = 0
@@ -201,31 +201,31 @@ def _main_a_go_seen_effect(userdata, event):
 
 
 def _main_a_go_goal(userdata, goal):
-    # model.swarm:58
+    # model.swarm:101
     return GotoGoal(target=userdata.where, speed=userdata.speed)
 
 
 def _main_a_go_result(userdata, result):
-    # model.swarm:58
+    # model.swarm:101
     userdata.ok = result.reached
 
 
 def _main_a_pick_go_effect(userdata, event):
-    # model.swarm:69
+    # model.swarm:113
     userdata.tries = bounded(userdata.tries + 1, 'int32')
 
 
 def _landing_down_succeeded_effect(userdata, event):
-    # model.swarm:40
+    # model.swarm:81
     # Every try counts.
     userdata.landing_tries = bounded(userdata.landing_tries + 1, 'int32')
 
 
 def _landing_down_aborted_effect(userdata, event):
-    # model.swarm:41
+    # model.swarm:82
     userdata.landing_tries = bounded(userdata.landing_tries + 1, 'int32')
 
 
 def _landing_entry(userdata):
-    # model.swarm:34
+    # model.swarm:75
     userdata.landing_tries = 0
