@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import random
-from itertools import combinations, pairwise
+from itertools import combinations, combinations_with_replacement, pairwise
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
-from swarmdsl.tools.diagram.layout import Box, Picture, lay_out, layering
+from swarmdsl.tools.diagram.layout import Box, Picture, lay_out, layering, routing
+from swarmdsl.tools.diagram.layout.coordinates import monotone
 from swarmdsl.tools.diagram.layout.cycles import feedback_edges
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
 from swarmdsl.tools.diagram.measure import width, wrap
@@ -246,3 +247,35 @@ def test_lines_are_not_wider_than_asked_for(text: str, most: int) -> None:
         "".join(lines).split()
     ) == "".join(text.split())
     assert all(width(line, "line") <= most for line in lines)
+
+
+def test_many_lines_from_one_state_are_not_compared_in_pairs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    count, compared = 400, 0
+
+    def counted(one: object, other: object) -> int:
+        nonlocal compared
+        compared += 1
+        return 0
+
+    monkeypatch.setattr(routing, "_cost", counted)
+    states = tuple(Node(f"s{number}", "state", f"S{number}") for number in range(count))
+    edges = tuple(Edge(f"e{n}", "transition", "s0", f"s{n}", (f"E{n}",)) for n in range(1, count))
+    frame = Node("", "frame", "Machine", "statemachine", nodes=states)
+    lay_out(Diagram("statechart", "Machine", frame, edges), "down")
+
+    assert compared < count * count / 10
+
+
+@given(st.lists(st.integers(0, 9), max_size=7))
+def test_ends_stay_in_order_and_move_little(wished: list[int]) -> None:
+    """Compare with all non-decreasing numbers."""
+    found = monotone(wished)
+    least = min(
+        sum(abs(one - other) for one, other in zip(wished, each, strict=True))
+        for each in combinations_with_replacement(sorted(set(wished)), len(wished))
+    )
+
+    assert found == sorted(found)
+    assert sum(abs(one - other) for one, other in zip(wished, found, strict=True)) == least

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from heapq import heappop, heappush
-from itertools import pairwise
-from statistics import median_low
+from heapq import heappop, heappush, heapreplace
+from itertools import accumulate, pairwise
 
 from swarmdsl.tools.diagram.layout.layered_graph import Cell, End, Layers, Link, Segment, Vertex
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
@@ -209,11 +208,10 @@ class _CellSide:
         free = [each for each in found if each[0].at is None]
         free.sort(key=lambda each: _order(each[1]))
         merged = list(fixed)
-        for each in free:
+        orders = sorted(_order(other) for _, other, _ in fixed)
+        for number, each in enumerate(free):
             # Insert it between fixed ends so that it crosses none.
-            at = sum(_order(other) < _order(each[1]) for _, other, _ in fixed)
-            at += sum(end.at is None for end, _, _ in merged[:])
-            merged.insert(min(at, len(merged)), each)
+            merged.insert(bisect_left(orders, _order(each[1])) + number, each)
         self.ends = [end for end, _, _ in merged]
         self.others = [other for _, other, _ in merged]
         self.links = [link for _, _, link in merged]
@@ -261,7 +259,7 @@ class _CellSide:
                 min(max(self.others[at].across - across - gap * number, low), high)
                 for number, at in enumerate(run)
             ]
-            for number, (at, value) in enumerate(zip(run, _monotone(wished), strict=True)):
+            for number, (at, value) in enumerate(zip(run, monotone(wished), strict=True)):
                 self.ends[at].at = value + gap * number
 
 
@@ -269,15 +267,20 @@ def _order(end: End) -> tuple[int, int]:
     return end.vertex.order, end.at or 0
 
 
-def _monotone(values: Sequence[int]) -> list[int]:
-    """Closest non-decreasing numbers: pool adjacent violators, with medians."""
-    pools: list[list[int]] = []
+def monotone(values: Sequence[int]) -> list[int]:
+    """Return the closest non-decreasing numbers.
+
+    Each is the least of the highest values so far, after a value that is less than those before has
+    pulled the highest down to itself.
+    """
+    heap: list[int] = []  # negative values, highest first
+    found = []
     for value in values:
-        pools.append([value])
-        while len(pools) > 1 and median_low(pools[-2]) > median_low(pools[-1]):
-            last = pools.pop()
-            pools[-1] = sorted(pools[-1] + last)
-    return [median_low(pool) for pool in pools for _ in pool]
+        heappush(heap, -value)
+        if -heap[0] > value:
+            heapreplace(heap, -value)
+        found.append(-heap[0])
+    return list(accumulate(reversed(found), min))[::-1]
 
 
 def _sides(layers: Layers, cells: Sequence[Cell]) -> list[_CellSide]:

@@ -8,6 +8,7 @@ Hyperedges, 2004; with a greedy order as in Eades, Lin, Smyth 1993).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from heapq import heappop, heappush
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.tools.diagram.layout.layered_graph import (
@@ -146,6 +147,15 @@ def _assign_tracks(bars: list[_Crossbar]) -> int:
     if not bars:
         return 0
     bars.sort(key=lambda bar: (bar.low, bar.high))
+    if len(bars) <= _MAX_ORDERED:
+        _assign_with_few_crossings(bars)
+    else:
+        _assign_in_order(bars)
+    return max(bar.track for bar in bars) + 1
+
+
+def _assign_with_few_crossings(bars: Sequence[_Crossbar]) -> None:
+    """Compare each bar with each other one that it meets."""
     before: list[list[int]] = [[] for _ in bars]
     weight: list[dict[int, int]] = [{} for _ in bars]
     for at, one in enumerate(bars):
@@ -159,11 +169,21 @@ def _assign_tracks(bars: list[_Crossbar]) -> int:
             if first != second:
                 weight[at][number] = second - first
                 weight[number][at] = first - second
-    place = _greedy_order(weight) if len(bars) <= _MAX_ORDERED else list(range(len(bars)))
+    place = _greedy_order(weight)
     for at in sorted(range(len(bars)), key=place.__getitem__):
         tracks = [bars[each].track + 1 for each in before[at] if place[each] < place[at]]
         bars[at].track = max(tracks, default=0)
-    return max(bar.track for bar in bars) + 1
+
+
+def _assign_in_order(bars: Sequence[_Crossbar]) -> None:
+    """Put each bar on the track after the last one that a bar before it has there."""
+    met: list[tuple[int, int]] = []  # heap of (-track, high)
+    for bar in bars:
+        # The bars are sorted: none of the others meets one that ends before this one.
+        while met and met[0][1] + _NEAR < bar.low:
+            heappop(met)
+        bar.track = 1 - met[0][0] if met else 0
+        heappush(met, (-bar.track, bar.high))
 
 
 def _cost(one: _Crossbar, other: _Crossbar) -> int:
