@@ -19,6 +19,7 @@ import drawing
 import editing
 import engine
 import generation
+import growth
 import importing
 import large
 import parsing
@@ -38,6 +39,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "lsp": editing.section,
     "import": importing.section,
     "diagram": drawing.section,
+    "growth": growth.section,
     "ros1": ros1.section,
     "ros2": ros2.section,
 }

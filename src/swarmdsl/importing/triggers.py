@@ -51,6 +51,9 @@ class Triggers:
         self.paths = paths
         self.wrapped = wrapped
         self.data = data
+        # Numbers of final states, by the path of the state around them.
+        self._finals: dict[str, int] = {}
+        self._alike: dict[PartialState, bool] = {}
 
     def of(self, edges: list[Edge], draft: PartialState) -> tuple[Trigger, ...]:
         """Triggers of a transition, which has an edge for each event.
@@ -84,7 +87,11 @@ class Triggers:
                 assert owner is not None
                 if owner in self.wrapped:
                     raise UnsupportedError(f"the completion of `{owner.id}` cannot be handled here")
-                yield DoneTrigger(self.paths[owner], self.paths[final])
+                state = self.paths[owner]
+                if state not in self._finals:
+                    kinds = [child.kind for child in owner.children]
+                    self._finals[state] = kinds.count(StateKind.FINAL)
+                yield DoneTrigger(state, self.paths[final])
         elif event.startswith("done.state."):
             yield self._done(event.removeprefix("done.state."), draft)
         elif draft.payload_node("activity") is not None and event.startswith(("do.", "gives.")):
@@ -114,31 +121,32 @@ class Triggers:
         All final states of a state together are its completion. The portable profile writes
         `aborted` as two events unless a transition handles `preempted` separately.
         """
-        owners: dict[str, set[str]] = {}
-        for owner in (draft, *draft.children):
-            if owner in self.paths:
-                finals = {self.paths[e] for e in owner.children if e.kind is StateKind.FINAL}
-                owners[self.paths[owner]] = finals
-        together = draft.payload_node("activity") is not None and self._treats_alike(draft)
+        completed = self._completed(triggers)
+        together = self._treats_alike(draft)
         seen: set[Trigger] = set()
         for trigger in triggers:
             if together and isinstance(trigger, OutcomeTrigger) and trigger.outcome == "preempted":
                 continue
-            if isinstance(trigger, DoneTrigger) and trigger.final is not None:
-                finals = owners.get(trigger.state, set())
-                if all(DoneTrigger(trigger.state, final) in triggers for final in finals):
-                    trigger = DoneTrigger(trigger.state, None)
+            if isinstance(trigger, DoneTrigger) and trigger.state in completed:
+                trigger = DoneTrigger(trigger.state, None)
             if trigger not in seen:
                 seen.add(trigger)
                 yield trigger
 
+    def _completed(self, triggers: list[Trigger]) -> set[str]:
+        """Return the paths of the states all of whose final states are among the triggers."""
+        given: dict[str, set[str]] = {}
+        for trigger in triggers:
+            if isinstance(trigger, DoneTrigger) and trigger.final is not None:
+                given.setdefault(trigger.state, set()).add(trigger.final)
+        return {state for state in given if len(given[state]) == self._finals[state]}
+
     def _treats_alike(self, draft: PartialState) -> bool:
-        """Return True if `preempted` leads to the same transitions as `aborted`."""
-        given_up, failed = f"do.{draft.id}.preempted", f"do.{draft.id}.aborted"
-        by_node: dict[Node, set[str | None]] = {}
-        for edge in draft.edges:
-            by_node.setdefault(edge.node, set()).add(edge.event)
-        return all((given_up in events) == (failed in events) for events in by_node.values())
+        """Return True if `preempted` of an activity leads to the same transitions as `aborted`."""
+        if draft not in self._alike:
+            has_activity = draft.payload_node("activity") is not None
+            self._alike[draft] = has_activity and _has_equal_ways(draft)
+        return self._alike[draft]
 
     def _delay(self, node: Node) -> Expression:
         written = node.get("delay")
@@ -157,3 +165,11 @@ class Triggers:
         unit = Literal(1_000_000 if with_unit[3] == "ms" else 1_000_000_000, DURATION)
         number = self.data.read(node, "delayexpr", with_unit[1], INT)
         return Binary("*", number, unit, DURATION)
+
+
+def _has_equal_ways(draft: PartialState) -> bool:
+    given_up, failed = f"do.{draft.id}.preempted", f"do.{draft.id}.aborted"
+    by_node: dict[Node, set[str | None]] = {}
+    for edge in draft.edges:
+        by_node.setdefault(edge.node, set()).add(edge.event)
+    return all((given_up in events) == (failed in events) for events in by_node.values())

@@ -140,9 +140,9 @@ class ValueLinker:
         return enum
 
 
-def _values_of_all(owner: TopLevel) -> list[Expression] | None:
+def _values_of_all(owner: TopLevel) -> set[Expression] | None:
     """Return the expressions of a machine without a robot: defaults of params; else None."""
     if not isinstance(owner, StateMachine):
         return None
     items = (item for item in owner.items if isinstance(item, Param))
-    return [item.default for item in items if item.default is not None]
+    return {item.default for item in items if item.default is not None}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.codegen.swarm_printer.actions import activity_text, arguments, effect_text
@@ -128,20 +128,25 @@ class _Printer:
 
     def _transitions(self, state: State, place: Place) -> list[str]:
         levels = place.from_state(state)
+        regions = {each.id: each for each in state.states if each.kind is StateKind.REGION}
         return [
             line
             for each in state.transitions
-            for line in documented(each.doc, [_transition(each, state, place, levels)])
+            for line in documented(each.doc, [_transition(each, state, regions, place, levels)])
         ]
 
 
 def _transition(
-    transition: Transition, state: State, place: Place, levels: tuple[Level, ...]
+    transition: Transition,
+    state: State,
+    regions: Mapping[str, State],
+    place: Place,
+    levels: tuple[Level, ...],
 ) -> str:
     guard, effects, target = transition.guard, transition.effects, transition.target
     parts = ["internal"] if transition.internal else []
     if transition.triggers:
-        parts.append(_triggers(transition.triggers, state))
+        parts.append(_triggers(transition.triggers, state, regions))
     elif guard is None or target is None:
         # A state without activity and content is complete at once.
         if state.kind is not StateKind.SIMPLE or state.activity is not None:
@@ -166,24 +171,24 @@ def _branch(branch: Transition, place: Place) -> str:
     return " ".join([*parts, f"-> {place.path(branch.target, place.from_choice())}"])
 
 
-def _triggers(triggers: tuple[Trigger, ...], state: State) -> str:
+def _triggers(triggers: tuple[Trigger, ...], state: State, regions: Mapping[str, State]) -> str:
     timed = [trigger for trigger in triggers if isinstance(trigger, TimeTrigger)]
     if not timed:
-        return "on " + ", ".join(_trigger(trigger, state) for trigger in triggers)
+        return "on " + ", ".join(_trigger(trigger, state, regions) for trigger in triggers)
     if len(timed) < len(triggers):
         raise UnprintableError(f"a transition of `{state.id}` waits for a time and for more")
     return ", ".join(f"after {delay(trigger.delay)}" for trigger in timed)
 
 
-def _trigger(trigger: Trigger, owner: State) -> str:
+def _trigger(trigger: Trigger, owner: State, regions: Mapping[str, State]) -> str:
     match trigger:
         case EventTrigger(event=event):
             return event
         case OutcomeTrigger(state=owner.id, outcome=outcome):
             return outcome
         case DoneTrigger(state=state, final=final):
-            region = next((each for each in owner.states if each.id == state), None)
-            if state == owner.id or (region is not None and region.kind is StateKind.REGION):
+            region = regions.get(state)
+            if state == owner.id or region is not None:
                 done = "done" if region is None else f"{region.name}.done"
                 return done if final is None else f"{done}.{final.removeprefix(f'{state}.')}"
     raise UnprintableError(f"a transition of `{owner.id}` waits for another state")

@@ -37,14 +37,9 @@ class _Writer:
         self.names = identifiers(diagram)
         # PlantUML has no edges into or out of regions: if an edge crosses the border of a region,
         # the regions are drawn as nested states.
-        self.crossed = {
-            node.id
-            for node in diagram.frame.walk()
-            if node.kind == "parallel"
-            for region in node.nodes
-            for inside in [{each.id for each in region.walk()} - {region.id}]
-            if any((edge.source in inside) != (edge.target in inside) for edge in diagram.edges)
-        }
+        self.crossed = _crossed(diagram)
+        self.ports = {port.id: port for node in diagram.frame.walk() for port in node.ports}
+        self.entries = {edge.source: edge for edge in diagram.edges if edge.kind == "initial"}
 
     def statechart(self) -> Iterator[str]:
         yield "hide empty description"
@@ -62,12 +57,11 @@ class _Writer:
             yield from ("legend", *map(_text, lines), "endlegend")
 
     def states(self, owner: Node) -> Iterator[str]:
-        entries = {edge.source: edge for edge in self.diagram.edges if edge.kind == "initial"}
         for number, node in enumerate(owner.nodes):
             if number and owner.kind == "parallel" and owner.id not in self.crossed:
                 yield "--"
             if node.kind == "initial":
-                yield f"[*] --> {self.names[entries[node.id].target]}"
+                yield f"[*] --> {self.names[self.entries[node.id].target]}"
                 continue
             name = self.names[node.id]
             head = f'state "{_text(node.name)}" as {name}{_STEREOTYPES.get(node.kind, "")}'
@@ -107,13 +101,12 @@ class _Writer:
         yield "}"
 
     def edge(self, edge: Edge) -> str:
-        ports = {port.id: port for node in self.diagram.frame.walk() for port in node.ports}
         ends = []
         for node, port in ((edge.source, edge.source_port), (edge.target, edge.target_port)):
             if port is not None and not node:
                 ends.append((self.names[port], ""))
             else:
-                name = f'"{_text(ports[port].name)}"' if port is not None else ""
+                name = f'"{_text(self.ports[port].name)}"' if port is not None else ""
                 ends.append((self.names[node], name))
         (source, tail), (target, head) = ends
         label = f" : {_lines(edge.label)}" if edge.label else ""
@@ -123,6 +116,25 @@ class _Writer:
 
 def _lines(lines: Iterable[str]) -> str:
     return r"\n".join(map(_text, lines))
+
+
+def _crossed(diagram: Diagram) -> set[str]:
+    """Return the ids of parallel states with an edge that crosses the border of a region."""
+    # The regions around each node, with their parallel states.
+    regions: dict[str, dict[str, str]] = {}
+    stack: list[tuple[Node, str | None, dict[str, str]]] = [(diagram.frame, None, {})]
+    while stack:
+        node, parallel, around = stack.pop()
+        regions[node.id] = around
+        inside = around if parallel is None else {**around, node.id: parallel}
+        owner = node.id if node.kind == "parallel" else None
+        stack += [(each, owner, inside) for each in node.nodes]
+    crossed: set[str] = set()
+    for edge in diagram.edges:
+        ends = [regions.get(end, {}) for end in (edge.source, edge.target)]
+        for one, other in (ends, ends[::-1]):
+            crossed.update(one[region] for region in one.keys() - other.keys())
+    return crossed
 
 
 def _text(text: str) -> str:
