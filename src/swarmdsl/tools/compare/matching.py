@@ -6,7 +6,7 @@ Renamed and moved elements are found as git finds renamed files: by their share 
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Container, Hashable, Iterable, Iterator, Sequence
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.tools.compare.behaviour import TRANSITION_KIND, VERTEX_KIND
@@ -176,9 +176,8 @@ def _match_inner(before: Element, after: Element, matching: Matching) -> None:
                 waiting.append((inner, known[inner.name]))
 
 
-def _unmatched_states(owner: Element, matched: Iterable[Element]) -> list[Element]:
-    taken = set(matched)
-    return [each for each in owner.walk() if each.kind == VERTEX_KIND and each not in taken]
+def _unmatched_states(owner: Element, matched: Container[Element]) -> list[Element]:
+    return [each for each in owner.walk() if each.kind == VERTEX_KIND and each not in matched]
 
 
 def _pseudo_kind(state: Element) -> str:
