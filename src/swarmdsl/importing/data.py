@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import islice
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.scxml.document import Document, Node
@@ -171,14 +172,14 @@ class MachineData:
         event: Type | None = None,
     ) -> Expression:
         """Read an expression and report assumptions. Raises UnsupportedError."""
-        known = set(self.types)
+        known = len(self.types)
         try:
             made = self.expressions.read(text, expected, event)
         except UnsupportedError:
-            for name in self.types.keys() - known:
-                del self.types[name]
+            while len(self.types) > known:
+                self.types.popitem()
             raise
-        for name in self.types.keys() - known:
+        for name in list(islice(reversed(self.types), len(self.types) - known))[::-1]:
             place = self.document.at(node, attribute)
             what, assumed = f"`{name}` is not declared", f"a variable of `{self.types[name]}`"
             self.report.report("assumed", place, what=what, assumed=assumed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import snake_case
@@ -60,15 +60,16 @@ class Events:
             for node in contents(draft):
                 if node.name in ("send", "raise") and node.get("event"):
                     first.setdefault(node.attributes["event"], node)
+        beginnings = {each for text in (*first, *self.known) for each in _beginnings(text)}
         for draft in top.walk():
             for edge in draft.edges:
                 event = edge.event or ""
                 if not event.endswith(".*") or event.startswith(_INTERNAL):
                     continue
                 beginning = event.removesuffix(".*")
-                known = (f"{each}." for each in (*first, *self.known))
-                if not any(each.startswith(f"{beginning}.") for each in known):
+                if beginning not in beginnings:
                     first[beginning] = edge.node
+                    beginnings.update(_beginnings(beginning))
         for text, node in first.items():
             if text in self.known:
                 continue
@@ -108,9 +109,8 @@ class Events:
             self._words_of = len(self.known)
             self._by_words = {"": [event.name for event in self.known.values()]}
             for text, event in self.known.items():
-                words = text.split(".")
-                for count in range(1, len(words) + 1):
-                    self._by_words.setdefault(".".join(words[:count]), []).append(event.name)
+                for beginning in _beginnings(text):
+                    self._by_words.setdefault(beginning, []).append(event.name)
         return self._by_words.get(descriptor.removesuffix("*").removesuffix("."), [])
 
     def message(self, name: str) -> Named | None:
@@ -130,22 +130,34 @@ class Events:
         waiting = list(
             dict.fromkeys(e.event for e in draft.edges if e.event and _is_plain(e.event))
         )
+        by_topic: dict[str, list[str]] = {}
+        for event in reversed(waiting):
+            by_topic.setdefault(snake_case(event), []).append(event)
         left: list[Monitor] = []
+        paired: set[str] = set()
         for monitor in draft.monitors:
             tail = snake_case(monitor.topic.rpartition("/")[2])
-            match = next((each for each in waiting if tail and snake_case(each) == tail), None)
-            if match is None:
-                left.append(monitor)
+            if tail and by_topic.get(tail):
+                event = by_topic[tail].pop()
+                paired.add(event)
+                monitored.setdefault(event, monitor)
             else:
-                waiting.remove(match)
-                monitored.setdefault(match, monitor)
+                left.append(monitor)
+        others = (event for event in waiting if event not in paired)
         for monitor in left:
-            if waiting:
-                monitored.setdefault(waiting.pop(0), monitor)
+            if (other := next(others, None)) is not None:
+                monitored.setdefault(other, monitor)
             else:
                 what = f"the monitor of `{monitor.topic or monitor.type}`"
                 reason = "no transition handles its messages"
                 report.report("left-out", document.at(monitor.node), what=what, reason=reason)
+
+
+def _beginnings(event: str) -> Iterator[str]:
+    """Yield the descriptors that match an event: its first words."""
+    words = event.split(".")
+    for count in range(1, len(words) + 1):
+        yield ".".join(words[:count])
 
 
 def _is_own(event: str, draft: PartialState, ends: FinalEvents) -> bool:

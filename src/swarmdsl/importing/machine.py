@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.scxml.document import Document, Node
@@ -63,6 +63,7 @@ class MachineBuilder:
         # Exit effects run before those of the transition.
         left = [node for draft in top.walk() for node in draft.exit]
         self.changed_on_exit = self.content.changed(left)
+        self._known_heard: dict[PartialState, Mapping[str, set[Node]]] = {}
 
     def machine(self, name: str) -> StateMachine:
         """State machine of the document; unsupported content is reported."""
@@ -243,11 +244,23 @@ class MachineBuilder:
 
     def _blocks_others(self, edges: list[Edge], draft: PartialState) -> bool:
         """Return True if the edges prevent another transition."""
-        others = [e.event for e in draft.edges if e.node is not edges[0].node]
-        others += [e.event for outer in draft.ancestors() for e in outer.edges]
-        heard = {name for event in others if event for name in self.events.matching(event)}
         own = {name for edge in edges if edge.event for name in self.events.matching(edge.event)}
-        return bool(heard & own)
+        inner = self._heard(draft)
+        return any(
+            inner.get(name, set()) - {edges[0].node}
+            or any(name in self._heard(outer) for outer in draft.ancestors())
+            for name in own
+        )
+
+    def _heard(self, draft: PartialState) -> Mapping[str, set[Node]]:
+        """Return the elements of a state that handle an event, by its name."""
+        if draft not in self._known_heard:
+            found: dict[str, set[Node]] = {}
+            for edge in draft.edges:
+                for name in self.events.matching(edge.event) if edge.event else ():
+                    found.setdefault(name, set()).add(edge.node)
+            self._known_heard[draft] = found
+        return self._known_heard[draft]
 
     def _guard(
         self,

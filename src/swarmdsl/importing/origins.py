@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable
-from functools import cache
+from functools import cached_property
 
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
@@ -18,6 +18,8 @@ from swarmdsl.codegen.source_map import Entry, MappedText
 
 # Topics and servers are string literals, everything else has an identifier.
 _NAME = re.compile(r'(?:in|out|inout|action|service)\b[^"]*"([^"\\]+)"|([A-Za-z_]\w*)\Z')
+_ELEMENT = re.compile(r"""\b(?:id|name)\s*=\s*("[^"]*"|'[^']*')""")
+_STRING = re.compile(r'"(?:[^"\\]|\\.)*"')
 
 
 class Origins:
@@ -25,7 +27,6 @@ class Origins:
 
     def __init__(self, documents: Iterable[Source], described: Iterable[Source]) -> None:
         self._documents, self._described = tuple(documents), tuple(described)
-        self._found = cache(self._search)
 
     def relocate(self, file: OutputFile) -> OutputFile:
         """Replace locations in the model by locations in the imported files."""
@@ -37,17 +38,33 @@ class Origins:
 
     def _of(self, declared: Span | None) -> Span | None:
         name = _NAME.match(declared.text) if declared is not None else None
-        return self._found(name[1] or name[2]) if name is not None else None
+        return self._find(name[1] or name[2]) if name is not None else None
 
-    def _search(self, name: str) -> Span | None:
-        # The model capitalizes the name of a machine, so a second search ignores case.
-        of_element = rf"""\b(?:id|name)\s*=\s*(["']){re.escape(name)}\1"""
-        for flags in (re.RegexFlag(0), re.IGNORECASE):
-            for source in self._documents:
-                if (found := re.search(of_element, source.text, flags)) is not None:
-                    return Span(source, found.end() - 1 - len(name), found.end() - 1)
+    def _find(self, name: str) -> Span | None:
+        # The model capitalizes the name of a machine, so a second look ignores case.
+        elements, in_any_case = self._elements
         quoted = json.dumps(name, ensure_ascii=False)
+        known = elements.get(name) or in_any_case.get(name.lower())
+        return known or self._strings.get(quoted)
+
+    @cached_property
+    def _elements(self) -> tuple[dict[str, Span], dict[str, Span]]:
+        """The first place of each name in the documents, and of each name in lower case."""
+        found: dict[str, Span] = {}
+        in_lower_case: dict[str, Span] = {}
+        for source in self._documents:
+            for given in _ELEMENT.finditer(source.text):
+                start, end = given.start(1) + 1, given.end(1) - 1
+                place = Span(source, start, end)
+                found.setdefault(source.text[start:end], place)
+                in_lower_case.setdefault(source.text[start:end].lower(), place)
+        return found, in_lower_case
+
+    @cached_property
+    def _strings(self) -> dict[str, Span]:
+        """The first place of each string in the descriptions."""
+        found: dict[str, Span] = {}
         for source in self._described:
-            if (start := source.text.find(quoted)) >= 0:
-                return Span(source, start + 1, start + len(quoted) - 1)
-        return None
+            for given in _STRING.finditer(source.text):
+                found.setdefault(given[0], Span(source, given.start() + 1, given.end() - 1))
+        return found
