@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable
 from pathlib import Path
-from types import FrameType
 
 import pytest
+
+from ..instructions import executed, is_proportional
 
 BENCHMARKS = Path(__file__).resolve().parents[2] / "benchmarks"
 sys.path.insert(0, str(BENCHMARKS))
@@ -55,25 +55,5 @@ def test_twice_the_model_is_twice_the_work(phase: str, family: str, tmp_path: Pa
     works = []
     for count in (2, FEW, 2 * FEW, 4 * FEW):  # the first time, modules are imported
         action = PHASES[phase](Model(tmp_path / str(count), FAMILIES[family](count)))
-        works.append(work(action))
-    _, once, twice, four_times = works
-    assert four_times - twice < 2.2 * (twice - once), works
-
-
-def work(action: Callable[[], object]) -> int:
-    """Return the number of executed instructions, which also counts iterations."""
-    instructions = 0
-
-    def count(frame: FrameType, event: str, _argument: object) -> object:
-        nonlocal instructions
-        instructions += event == "opcode"
-        frame.f_trace_opcodes, frame.f_trace_lines = True, False
-        return count
-
-    before = sys.gettrace()
-    sys.settrace(count)
-    try:
-        action()
-    finally:
-        sys.settrace(before)
-    return instructions
+        works.append(executed(action))
+    assert is_proportional(works[1:]), works
