@@ -65,6 +65,18 @@ def test_other_files_are_not_read(tmp_path: Path) -> None:
     assert all(word in whats for word in ("`<include>`", "data `x`", "`invoke`")), whats
 
 
+def test_length_of_attributes_and_texts() -> None:
+    long = "x " * 500_001
+    in_attribute = f"<state id='A'><transition event='{long}' target='A'/></state>"
+    assert said(f"{HEAD}{in_attribute}</scxml>") == [
+        ("not-xml", "invalid XML: attribute `event` has more than 1,000,000 characters")
+    ]
+    in_parts = "<!-- -->".join(["x" * 100_000] * 11)
+    assert said(
+        f"{HEAD}<state id='A'><onentry><script>{in_parts}</script></onentry></state></scxml>"
+    ) == [("not-xml", "invalid XML: an element has more than 1,000,000 characters of text")]
+
+
 def test_depth_of_elements_and_expressions() -> None:
     deep = "".join(f"<state id='s{n}'>" for n in range(10_000)) + "</state>" * 10_000
     assert said(f"{HEAD}{deep}</scxml>") == [

@@ -18,6 +18,8 @@ _WORD = re.compile(r"\S+")
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 _DOCTYPE = "<!DOCTYPE"
 _DEEPEST = 250
+_LONGEST = 1_000_000
+"""Maximum length of an attribute or text: expressions take hundreds of times as much memory."""
 
 
 Place = tuple[int, int]
@@ -125,10 +127,9 @@ def parse(
         place = Span(source, start, start + len(_DOCTYPE))
         report.report("xml-document-type", place, help="remove it: SCXML needs none")
         return None
-    except _TooDeep:
+    except _TooLarge as fault:
         start = _characters(source.text, builder.reached)
-        reason = f"elements are nested more than {_DEEPEST} levels deep"
-        report.report("not-xml", Span(source, start, start + 1), reason=reason)
+        report.report("not-xml", Span(source, start, start + 1), reason=str(fault))
         return None
     except expat.ExpatError as error:
         start = min(_characters(source.text, parser.ErrorByteIndex), len(source.text))
@@ -154,8 +155,8 @@ class _DocumentType(Exception):  # noqa: N818 - it only ends the parser
     """A document type was found."""
 
 
-class _TooDeep(Exception):  # noqa: N818 - it only ends the parser
-    """The elements are nested too deeply."""
+class _TooLarge(Exception):  # noqa: N818 - it only ends the parser
+    """The elements are nested too deeply, or have too much text."""
 
 
 class _Builder:
@@ -165,7 +166,9 @@ class _Builder:
         self.root: Node | None = None
         self.inside: list[Node] = []
         self.reached = 0
-        self.comment = ""
+        # Parts of the text of the elements in `inside`, and of the comment before the next one.
+        self.texts: list[list[str]] = []
+        self.comments: list[str] = []
         self.parser = parser = expat.ParserCreate("utf-8", "}")
         parser.buffer_text = True
         parser.StartElementHandler = self.start
@@ -183,29 +186,40 @@ class _Builder:
                 break
         parser = self.parser
         node = Node(name, attributes, parent, parser.CurrentByteIndex, parser.CurrentLineNumber)
-        if self.comment:
-            node.comment, self.comment = self.comment, ""
+        if self.comments:
+            node.comment = "\n".join(self.comments)
+            self.comments = []
         if parent is None:
             self.root = node
         else:
             parent.children.append(node)
         inside.append(node)
+        self.texts.append([])
+        self.reached = parser.CurrentByteIndex
         if len(inside) > _DEEPEST:
-            self.reached = parser.CurrentByteIndex
-            raise _TooDeep
+            raise _TooLarge(f"elements are nested more than {_DEEPEST} levels deep")
+        for name, value in attributes.items():
+            if len(value) > _LONGEST:
+                raise _TooLarge(f"attribute `{name}` has more than {_LONGEST:,} characters")
 
     def end(self, name: str) -> None:
-        self.inside.pop()
-        self.comment = ""
+        node, parts = self.inside.pop(), self.texts.pop()
+        if parts:
+            node.text = "".join(parts)
+            if len(node.text) > _LONGEST:
+                self.reached = node.start
+                raise _TooLarge(f"an element has more than {_LONGEST:,} characters of text")
+        self.comments = []
 
     def add_comment(self, text: str) -> None:
         plain = text[1:-1] if text[:1] == text[-1:] == " " else text.strip()
-        self.comment = f"{self.comment}\n{plain}" if self.comment else plain
+        if plain or self.comments:
+            self.comments.append(plain)
 
     def add_text(self, text: str) -> None:
         # White space matters inside of text only: after a comment, say.
-        if self.inside[-1].text or not text.isspace():
-            self.inside[-1].text += text
+        if self.texts[-1] or not text.isspace():
+            self.texts[-1].append(text)
 
     def refuse(self, *declared: object) -> None:
         self.reached = self.parser.CurrentByteIndex
