@@ -185,12 +185,12 @@ def _activities(count: int) -> Files:
     )
 
 
-_DEPTH = 20
+_DEPTH = 25
 
 
 def _nested(count: int) -> Files:
-    """Towers of states in each other, to a depth of 20."""
-    towers = max(1, count // _DEPTH)
+    """Towers of states in each other, to a depth of 25."""
+    towers = 1 + count // _DEPTH
     inside = "".join(f"state S{at} {{ initial S{at + 1}\non Num -> F\n" for at in range(_DEPTH))
     leaf = f"state S{_DEPTH} {{ on Go -> T<j> }}\n{'}' * _DEPTH}"
     return model(

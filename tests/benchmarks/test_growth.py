@@ -24,6 +24,7 @@ MENDED = [
     ("plantuml", "regions with events out"),
     ("plantuml", "parts and connectors"),
     ("import", "final states with done"),
+    ("simulate", "eventless chain"),
 ]
 """Phases that once took more than four times as long for four times the model."""
 

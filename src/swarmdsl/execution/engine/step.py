@@ -41,8 +41,7 @@ class MicrostepBuilder:
         self.machine = machine
         self.active = active
         self.histories = histories
-        numbers = [h for around in machine.histories for h in around]
-        self.held = {each: histories[i] for i, each in enumerate(numbers)}
+        self.held = dict(zip(machine.every_history, histories, strict=True))
         self.entered = 0
         self.by_default = 0
         self.from_history: dict[int, Edge] = {}

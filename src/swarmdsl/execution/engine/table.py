@@ -241,7 +241,8 @@ class Machine:
         """States with an eventless transition."""
         for number, state in enumerate(self.states):
             self._link(number, state)
-        self.blank = (0,) * sum(map(len, self.histories))
+        self.every_history = tuple(each for around in self.histories for each in around)
+        self.blank = (0,) * len(self.every_history)
         """Initial content of the histories."""
         self.configurations: dict[tuple[int, tuple[int, ...]], Any] = {}
         """Cache of `configuration.Configuration`, by active states and histories."""
