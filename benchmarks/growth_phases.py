@@ -159,8 +159,8 @@ def _editor(model: Model) -> Action:
     file = workspace.file(model.path)
     assert file is not None
     text = file.source.text
-    at = text.index("\n", len(text) // 2)
     word = text.rindex("Go")
+    at = text.index("\n", word)
 
     def act() -> None:
         completions(workspace, file, at)
