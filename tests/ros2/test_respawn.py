@@ -12,6 +12,7 @@ import pytest
 
 HERE = Path(__file__).resolve().parent
 WORK = ("/lab/work", "lab_msgs/action/Work")
+RESULT = ("/lab/work/_action/get_result", "lab_msgs/action._work/Work_GetResult")
 ASK = ("/lab/ask", "lab_msgs/srv/Ask")
 WORKING = "do.Busy.Hands.Working"
 ASKING = "do.Busy.Head.Thinking.Asking"
@@ -26,13 +27,18 @@ class Lab:
         self.module = module
         self.processes: list[Any] = []
         self.fakes = self._process()
+        self.fakes.publisher("/go", "lab_msgs/msg/Order")
 
     def begin(self, **parameters: Any) -> Any:
         """Start the node, and let it call its servers."""
         self.node = self.ros.node(f"lab_behavior.{self.module}", "/lab", **parameters)
-        for each in self.processes:
-            each.listeners("/go")
         self.node.wait_in("Idle")
+        for number, each in enumerate(self.processes):
+            # Their servers are known to the node as soon as it hears them.
+            each.listeners("/told")
+            each.publish("/told")
+            self.node.wait_for("Told", number + 1)
+        self.fakes.listeners("/go")
         self.fakes.publish("/go", name="box", speed=1.0)
         return self.node
 
@@ -45,7 +51,7 @@ class Lab:
 
     def _process(self) -> Any:
         made = self.ros.fakes()
-        made.publisher("/go", "lab_msgs/msg/Order")
+        made.publisher("/told", "lab_msgs/msg/Report")
         self.processes.append(made)
         return made
 
@@ -71,7 +77,7 @@ def test_an_action_server_that_starts_again(
         ros.prefer(variant("tests/ros2/models", target=target))
     lab = Lab(ros, "lab" if target == "ros2" else "lab_fsm")
     server = lab.server(WORK, {"outcome": "never", "feedback": [{"share": 0.5}]})
-    node = lab.begin(timeouts__server=1.0, tries=0)
+    node = lab.begin(timeouts__server=5.0, tries=0)
     node.wait_for("WorkFeedback")  # after it has accepted the goal
     server.process.kill()
     lab.server(WORK, "never")
@@ -85,7 +91,7 @@ def test_a_service_server_that_starts_again(ros: Any) -> None:
     lab = Lab(ros)
     lab.fakes.action(*WORK, "never")
     server = lab.server(ASK, "never")
-    node = lab.begin(timeouts__server=0.5)
+    node = lab.begin(timeouts__server=10.0)
     server.wait("request", ASK[0])
     server.process.kill()
     lab.server(ASK, "never")
@@ -97,7 +103,7 @@ def test_a_service_server_that_starts_again(ros: Any) -> None:
 def test_an_action_server_beside_which_another_one_starts(ros: Any) -> None:
     lab = Lab(ros)
     server = lab.server(WORK, "never")
-    node = lab.begin(timeouts__server=1.0)
+    node = lab.begin(timeouts__server=60.0, tries=0)
     server.wait("goal", WORK[0])
     lab.server(WORK, "never")
     wait_in_log(node, CHANGED)
@@ -110,12 +116,25 @@ def test_one_of_two_action_servers_that_goes(ros: Any) -> None:
     """Both have the goal, and the other one goes on with it."""
     lab = Lab(ros)
     servers = [lab.server(WORK, "never") for _ in range(2)]
-    node = lab.begin(timeouts__server=1.0)
+    node = lab.begin(timeouts__server=60.0, tries=0)
     for each in servers:
         each.wait("goal", WORK[0])
     servers[0].do("gone", name=WORK[0])
     wait_in_log(node, CHANGED)
     servers[1].do("finish", name=WORK[0], outcome="succeeded", number=1)
+
+    node.wait_for(f"{WORKING}.succeeded")
+
+
+def test_a_server_that_answers_without_knowing_the_goal(ros: Any) -> None:
+    """Another one works on it, and is asked for the result again."""
+    lab = Lab(ros)
+    stranger = lab.server(RESULT, "succeeded", "never")  # its status is UNKNOWN
+    server = lab.server(WORK, "never")
+    node = lab.begin(timeouts__server=60.0, tries=0)
+    server.wait("goal", WORK[0])
+    stranger.wait("request", RESULT[0], 2)
+    server.do("finish", name=WORK[0], outcome="succeeded", number=1)
 
     node.wait_for(f"{WORKING}.succeeded")
 

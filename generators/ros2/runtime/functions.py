@@ -207,9 +207,10 @@ class _ActionCall(_Call):
         def hear(status):
             known = [bytes(each.goal_info.goal_id.uuid) for each in status.status_list]
             if self._inquiry is made and bytes(self._handle.goal_id.uuid) in known:
-                self._servers = servers
                 self._stop_inquiry()
-                self._host.logger.info(f'{self} has other servers, and is still worked on')
+                if servers != self._servers:
+                    self._servers = servers
+                    self._host.logger.info(f'{self} has other servers, and is still worked on')
 
         def give_up():
             if self._inquiry is made:
@@ -261,16 +262,27 @@ class _ActionCall(_Call):
             self._end('aborted')
             return
         self._handle = handle
-        self._then(handle.get_result_async(), self._finished)
+        self._ask_for_result()
         if self._cancelled:
             self._stop()
+
+    def _ask_for_result(self):
+        if not self._over:
+            self._then(self._handle.get_result_async(), self._finished)
 
     def _finished(self, future):
         if self._over:
             return
         answer = self._answer(future)
-        if answer is not None:
+        if answer is None:
+            return
+        if answer.status != GoalStatus.STATUS_UNKNOWN:
             self._end(_OUTCOMES.get(answer.status, 'aborted'), answer.result)
+            return
+        # All servers are asked, and the first to answer does not know the goal, or not yet.
+        if self._inquiry is None:
+            self._inquire(self._find_servers())
+        self._host.later(_WATCH, self._ask_for_result)
 
     def _stop(self):
         if self._handle is not None:
