@@ -22,10 +22,10 @@ from rclpy.node import Node
 from lab_behavior import node
 from lab_behavior.{module} import main
 
-def for_ever(*_):
+def for_ever(*_, **more):
     {hang}
 
-node._LATE = 0.5
+node._LATE = 3.0
 {what} = for_ever
 main()
 """
@@ -66,3 +66,66 @@ def test_a_node_ends_although_the_middleware_hangs(
     assert process.returncode == code, said
     # A node that is killed by force tells where it hangs.
     assert ("in for_ever" in said) == (hang == HELD)
+
+
+@pytest.mark.parametrize("what", ["rclpy.init", "Node.__init__", "Node.create_publisher"])
+def test_a_node_ends_although_it_never_begins(ros: Any, what: str) -> None:
+    program = ros.scratch / "program.py"
+    hang = f"print('hangs', flush=True); {FREE}"
+    program.write_text(PROGRAM.format(module="lab", what=what, hang=hang), encoding="utf-8")
+    process = ros.start(program, stdout=subprocess.PIPE)
+    assert process.stdout.readline() == "hangs\n"
+    process.send_signal(signal.SIGTERM)
+
+    assert process.wait(60) == 1
+
+
+ORDER = """
+import threading
+import rclpy
+from rclpy.executors import Executor
+from lab_behavior.lab import main
+
+waits = threading.Lock()
+wait_in_ros, shut_down, end_ros = (
+    Executor.wait_for_ready_callbacks, Executor.shutdown, rclpy.try_shutdown
+)
+
+def wait(self, *words, **more):
+    with waits:
+        return wait_in_ros(self, *words, **more)
+
+def shut_down_executor(self, timeout_sec=None):
+    print('executor spins' if waits.locked() else 'executor', flush=True)
+    return shut_down(self, timeout_sec)
+
+def shut_down_ros(**more):
+    print('ROS', flush=True)
+    end_ros(**more)
+
+Executor.wait_for_ready_callbacks = wait
+Executor.shutdown = shut_down_executor
+rclpy.try_shutdown = shut_down_ros
+main()
+"""
+
+
+@pytest.mark.parametrize("target", ["ros2", "yasmin"])
+def test_an_executor_is_shut_down_when_it_spins_no_more(
+    ros: Any, variant: Callable[..., Path], target: str
+) -> None:
+    text = ORDER
+    if target == "yasmin":
+        text = ORDER.replace("lab_behavior.lab", "lab_behavior.lab_fsm")
+        ros.prefer(HERE.parent / "yasmin" / "stand_in")
+        ros.prefer(variant("tests/ros2/models", target=target))
+    fakes = ros.fakes()
+    fakes.publisher("/go", "lab_msgs/msg/Order")
+    words = ["--ros-args", "-r", "__ns:=/lab"]
+    process = ros.start("-c", text, *words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    fakes.listeners("/go")
+    process.send_signal(signal.SIGTERM)
+
+    said, _ = process.communicate(timeout=60)
+    assert process.returncode == 0, said
+    assert [line for line in said.splitlines() if line[:1] not in ("", "[")] == ["executor", "ROS"]

@@ -7,6 +7,7 @@ import queue
 import signal
 import sys
 import threading
+import traceback
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
@@ -18,7 +19,7 @@ from .parameters import StartError
 from .values import SECOND
 
 _LATE = 5.0
-"""Time after which a node that is shutting down is killed, in seconds."""
+"""Time that ROS may take to start or to shut down after a signal, in seconds."""
 _MARGIN = 1.0
 """Time that everything except the servers may take to stop, in seconds."""
 _STDERR = 2
@@ -42,69 +43,105 @@ class StateMachineNode(Node):
 
 def run(behavior, name, args=None):
     """Run the node until its machine ends or a signal comes, and end the process."""
-    # Without handlers of rclpy, ROS still works after a signal, so goals can be cancelled.
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     # Not a threading.Event: a signal may interrupt a thread that holds its lock.
     ending = queue.SimpleQueue()
     for each in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(each, lambda *_: ending.put(False))
-    code = 1
-    try:
-        code = _spin(behavior, name, ending)
-    finally:
-        rclpy.try_shutdown()
+        signal.signal(each, lambda *_: ending.put(None))
+    spinner = _Spinner(behavior, name, args, lambda: ending.put(None))
+    spinner.start()
+    ending.get()
+    code = spinner.end()
     # The middleware may hang when Python ends.
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(code)
 
 
-def _spin(behavior, name, ending):
-    try:
-        node = StateMachineNode(behavior, name, lambda: ending.put(False))
-    except StartError as error:
-        rclpy.logging.get_logger(name).fatal(str(error))
-        _end_in(_LATE, 1)
-        return 1
-    # No callback blocks, so one thread is enough. It is not this thread, because signals only
-    # reach a thread that does not wait in ROS.
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    spinner = threading.Thread(target=_work, args=(executor, ending), daemon=True)
-    spinner.start()
-    broken = ending.get()
-    stopping = node.host.cancel_timeout / SECOND + _MARGIN
-    _end_in(stopping + 2 * _MARGIN + _LATE, 1)
-    stopped = threading.Event()
-    executor.create_task(node.host.end, stopped.set)
-    stopped.wait(stopping)
-    executor.shutdown(timeout_sec=_MARGIN)
-    spinner.join(_MARGIN)
-    failed = node.failed or broken
-    _end_in(_LATE, int(failed))
-    # The node does not destroy clients of actions, and ROS may hang if they are left.
-    node.host.release()
-    executor.remove_node(node)
-    node.destroy_node()
-    return int(failed)
+class _Spinner(threading.Thread):
+    """
+    Starts the node, runs it and shuts it down.
+
+    Signals only reach the main thread while it does not wait in ROS. No callback blocks, so one
+    thread is enough for all of them.
+    """
+
+    def __init__(self, behavior, name, args, on_end):
+        super().__init__(name='node', daemon=True)
+        self._behavior = behavior
+        self._name = name
+        self._args = args
+        self._on_end = on_end
+        self._begun = threading.Event()
+        self._is_to_end = False
+        self._is_broken = False
+        self._node = None
+        self._executor = None
+
+    def run(self):
+        """Run the node until it is to end."""
+        try:
+            # Without handlers of rclpy, ROS still works after a signal, so goals can be cancelled.
+            rclpy.init(args=self._args, signal_handler_options=SignalHandlerOptions.NO)
+            self._spin()
+        except StartError as error:
+            rclpy.logging.get_logger(self._name).fatal(str(error))
+            self._is_broken = True
+        except Exception:
+            traceback.print_exc()
+            self._is_broken = True
+        finally:
+            self._begun.set()
+            self._on_end()
+        self._shut_down()
+
+    def end(self):
+        """End the machine and the node; return the exit code."""
+        limit = _end_in(_LATE, 1)
+        self._begun.wait()
+        limit.cancel()
+        if self._executor is not None and not self._is_broken:
+            stopping = self._node.host.cancel_timeout / SECOND + _MARGIN
+            limit = _end_in(stopping + _LATE, 1)
+            stopped = threading.Event()
+            self._executor.create_task(self._node.host.end, stopped.set)
+            stopped.wait(stopping)
+            limit.cancel()
+        code = int(self._is_broken or self._node.failed)
+        _end_in(_LATE, code)
+        self._is_to_end = True
+        if self._executor is not None:
+            self._executor.create_task(int)  # wakes it
+        self.join()
+        return code
+
+    def _spin(self):
+        self._node = StateMachineNode(self._behavior, self._name, self._on_end)
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(self._node)
+        self._begun.set()
+        while not self._is_to_end:
+            self._executor.spin_once()
+
+    def _shut_down(self):
+        """Shut down the executor, which spins no more, then the node, then ROS."""
+        if self._executor is not None:
+            self._executor.shutdown(timeout_sec=_MARGIN)
+            # The node does not destroy clients of actions, and ROS may hang if they are left.
+            self._node.host.release()
+            self._node.destroy_node()
+        rclpy.try_shutdown()
 
 
 def _end_in(seconds, code):
     """
-    Limit the time until the process has ended, also in the middleware.
+    Limit the time until the process has ended, also in the middleware; return the timer.
 
     A timer of Python does not run while the middleware hangs in a call for which it keeps the lock
     of the interpreter. `faulthandler` needs no lock: it prints where all threads are, and ends the
-    process with exit code 1.
+    process with exit code 1. The next call replaces it.
     """
     late = threading.Timer(seconds, os._exit, (code,))
     late.daemon = True
     late.start()
     faulthandler.dump_traceback_later(seconds + _MARGIN, exit=True, file=_STDERR)
-
-
-def _work(executor, ending):
-    try:
-        executor.spin()
-    finally:  # returns by itself only after an error
-        ending.put(True)
+    return late
