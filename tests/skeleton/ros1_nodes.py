@@ -19,3 +19,12 @@ FILLED = {
     "reached": ["SUCCEEDED", 1.1, "", [0.5]],
     "cancelled": ["PREEMPTED", 0.0, "left", []],
 }
+# Sends a goal, and does not wait for its end.
+SENDER = """
+import actionlib, demo.msg, rospy
+rospy.init_node('sender')
+client = actionlib.SimpleActionClient('cmd/climb', demo.msg.ClimbAction)
+client.wait_for_server()
+client.send_goal(demo.msg.ClimbGoal(height=1.0))
+rospy.spin()
+"""

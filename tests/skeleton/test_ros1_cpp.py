@@ -19,7 +19,7 @@ from swarmdsl.cli import run as swarmc
 
 from .catkin_workspace import make, missing_of_catkin
 from .conftest import HERE, MODEL, STAND_IN, graph_module
-from .ros1_nodes import FILLED, NODES, SKELETONS
+from .ros1_nodes import FILLED, NODES, SENDER, SKELETONS
 
 Write = Callable[..., Any]
 pytestmark = [pytest.mark.long, pytest.mark.timeout(900)]
@@ -169,6 +169,35 @@ def test_a_goal_has_a_result_when_its_node_is_stopped(graph: Any, catkin: Path, 
 
     assert ask("stopped", str(climb.pid)) == ["ABORTED", 0.0, "left", []]
     assert climb.wait(60) == 0
+
+
+NEVER = """
+#include <climb/climb.h>
+#include <csignal>
+namespace climb
+{
+Climb::Outcome Climb::execute(const Goal&, Result&, std::string&)
+{
+  std::raise(SIGTERM);
+  ros::WallDuration(3600).sleep();
+  return Outcome::succeeded;
+}
+void Climb::on_state(const demo::Sample&) {}
+}  // namespace climb
+"""
+
+
+def test_a_node_ends_although_its_goal_does_not(graph: Any, catkin: Path, start: Any) -> None:
+    source = catkin / "src" / "climb" / "src"
+    (source / "climb.cpp").write_text(NEVER, encoding="utf-8")
+    node = (source / "climb_node.cpp").read_text(encoding="utf-8")
+    (source / "climb_node.cpp").write_text(node.replace("LATE = 20", "LATE = 2"), encoding="utf-8")
+    make(graph, catkin, "-O0", "climb_node")
+    command = cpp_commands(catkin)["climb"]
+    modules = catkin / "devel" / "lib" / "python3" / "dist-packages"
+    start({"climb": command, "sender": [graph.python, "-c", SENDER]}, [modules])
+
+    assert start.running["climb"].wait(60) == 1
 
 
 def test_a_generated_machine_is_answered_by_the_server_of_a_skeleton(

@@ -5,6 +5,7 @@ Where Debian's packages of ROS 1 are missing, the tests are skipped and say whic
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from collections.abc import Callable
@@ -16,7 +17,7 @@ import pytest
 from swarmdsl.cli import run as swarmc
 
 from .conftest import HERE, MODEL, graph_module
-from .ros1_nodes import FILLED, NODES, SKELETONS
+from .ros1_nodes import FILLED, NODES, SENDER, SKELETONS
 
 Write = Callable[..., Any]
 
@@ -67,6 +68,33 @@ def test_a_goal_has_a_result_when_its_node_is_stopped(
 
     assert ask("stopped", str(climb.pid)) == ["ABORTED", 0.0, "left", []]
     assert climb.wait(60) == 0
+
+
+NEVER = """
+import os
+import signal
+import time
+from climb.base import ClimbBase
+class Climb(ClimbBase):
+    def execute(self, goal):
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(10**6)
+"""
+
+
+def test_a_node_ends_although_its_goal_does_not(
+    graph: Any, python_nodes: Path, start: Any, tmp_path: Path
+) -> None:
+    shutil.copytree(python_nodes / "climb", tmp_path / "climb")
+    source = tmp_path / "climb" / "src"
+    (source / "climb" / "implementation.py").write_text(NEVER, encoding="utf-8")
+    (command,) = (python_commands(graph, tmp_path)[name] for name in ["climb"])
+    for file, name in ((Path(command[-1]), "LATE"), (source / "climb" / "base.py", "GRACE")):
+        text = re.sub(rf"^{name} = .*", f"{name} = 2", file.read_text(), flags=re.MULTILINE)
+        file.write_text(text, encoding="utf-8")
+    start({"climb": command, "sender": [graph.python, "-c", SENDER]}, [source])
+
+    assert start.running["climb"].wait(60) == 1
 
 
 def test_python_tests_of_users_pass(graph: Any, messages: Path, python_nodes: Path) -> None:

@@ -79,6 +79,46 @@ def test_cpp_goals_end_on_stubs(cpp: Path, tmp_path: Path, optimisation: str) ->
     ]
 
 
+# A climb whose goal never ends, and the signal during it.
+NEVER = """
+#include <thread>
+#include "climb/climb.hpp"
+namespace climb
+{
+Climb::Outcome Climb::execute(const Goal &, Result &, std::string &)
+{
+  std::this_thread::sleep_for(std::chrono::hours(1));
+  return Outcome::succeeded;
+}
+void Climb::on_state(const demo::msg::Sample &) {}
+}
+void rclcpp::executors::MultiThreadedExecutor::spin()
+{
+  using Goal = rclcpp_action::ServerGoalHandle<demo::action::Climb>;
+  std::static_pointer_cast<rclcpp_action::Server<demo::action::Climb>>(
+    node->actions.at("cmd/climb"))->accepted(std::make_shared<Goal>(demo::action::Climb::Goal()));
+  rclcpp::shutdown();
+}
+"""
+
+
+def test_cpp_node_ends_although_its_goal_does_not_on_stubs(cpp: Path, tmp_path: Path) -> None:
+    node = (cpp / "climb" / "src" / "climb_node.cpp").read_text(encoding="utf-8")
+    (tmp_path / "node.cpp").write_text(node.replace("LATE{20}", "LATE{1}"), encoding="utf-8")
+    base = (cpp / "climb" / "src" / "climb_base.cpp").read_text(encoding="utf-8")
+    # Its parameter is needed.
+    base = base.replace('"frame", described', '"frame", std::string(), described')
+    (tmp_path / "base.cpp").write_text(base, encoding="utf-8")
+    (tmp_path / "climb.cpp").write_text(NEVER, encoding="utf-8")
+    sources = [tmp_path / f"{name}.cpp" for name in ("node", "base", "climb")]
+    assert compiled(sources, cpp / "climb", "-o", tmp_path / "node") == ""
+    run = subprocess.run(
+        [tmp_path / "node"], capture_output=True, text=True, timeout=60, check=False
+    )
+
+    assert (run.returncode, run.stderr) == (1, "the node does not end, and is killed\n")
+
+
 def test_cpp_service_that_fails_is_withdrawn_on_stubs(cpp: Path, tmp_path: Path) -> None:
     sources = [*(cpp / "camera" / "src" / f"camera{part}.cpp" for part in ("", "_base"))]
     sources.append(HERE / "code" / "ros2" / "request.cpp")
@@ -243,6 +283,56 @@ def test_a_node_ends_when_it_is_told_to_while_it_begins(
         capture_output=True, text=True, timeout=60, check=False,
     )  # fmt: skip
     assert (run.returncode, run.stderr) == (0, "")
+
+
+# A node that is told to stop, in which WHAT hangs.
+HANGING = """
+import ctypes, os, signal, time
+import beep.node
+import rclpy
+from rclpy.node import Node
+def hang(*_, **more):
+    os.kill(os.getpid(), signal.SIGTERM)
+    {hang}
+class Beep(beep.node.Beep):
+    def __init__(self):
+        super().__init__()
+        self.create_timer(0.01, self.look)
+    def look(self):
+        os.kill(os.getpid(), signal.SIGTERM)
+beep.node.LATE = 3.0
+beep.node.Beep = Beep
+{what} = hang
+beep.node.main()
+"""
+FREE = "time.sleep(10**6)"
+HELD = "ctypes.PyDLL(None).sleep(10**6)"
+
+
+@pytest.mark.parametrize(
+    ("what", "hang", "code"),
+    [
+        ("Beep.look", FREE, 0),
+        ("Node.__init__", FREE, 1),
+        ("Node.destroy_node", FREE, 1),
+        ("Node.destroy_node", HELD, 1),
+        ("rclpy.try_shutdown", HELD, 1),
+    ],
+    ids=["callback", "start", "free", "held", "shutdown"],
+)
+def test_a_node_ends_although_something_hangs(
+    write: Write, ros2: tuple[Path, dict[str, str]], tmp_path: Path, what: str, hang: str, code: int
+) -> None:
+    write(tmp_path, ros="2")
+    python, variables = ros2
+    path = os.pathsep.join([str(tmp_path / "beep"), variables["PYTHONPATH"]])
+    run = subprocess.run(
+        [python, "-c", HANGING.format(what=what, hang=hang)],
+        env={**variables, "PYTHONPATH": path},
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert run.returncode == code, run.stderr
+    assert ("in hang" in run.stderr) == (code == 1)
 
 
 def test_python_nodes_do_what_is_filled_in(write: Write, start: Any, tmp_path: Path) -> None:

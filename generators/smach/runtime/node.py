@@ -1,5 +1,6 @@
 """Run a state machine as a ROS node."""
 
+import faulthandler
 import queue
 import signal
 import sys
@@ -18,6 +19,8 @@ GRACE = 1.5
 LAST_WORDS = 0.1
 # Time in which the node has to unregister, in seconds.
 LEAVE = 10
+# Time in which the process has to end, in seconds.
+LATE = 20
 
 
 def run(name, behavior, params=()):
@@ -71,6 +74,8 @@ class _Ending(threading.Thread):
     def run(self):
         """Wait for the first signal."""
         number = self._signals.get()
+        # Prints where all threads are, and exits: the master may never answer.
+        faulthandler.dump_traceback_later(LATE, exit=True)
         if number is not None:
             rospy.signal_shutdown('signal {}'.format(number))
 

@@ -257,8 +257,9 @@ class MultiThreadedExecutor
 public:
   explicit MultiThreadedExecutor(
     const ExecutorOptions & = ExecutorOptions(), std::size_t = 0) {}
-  void add_node(std::shared_ptr<Node>, bool = true) {}
-  void spin() {}
+  void add_node(std::shared_ptr<Node> added, bool = true) {node = added;}
+  void spin();  // what happens while a node spins is up to the test
+  std::shared_ptr<Node> node;
 };
 }  // namespace executors
 
