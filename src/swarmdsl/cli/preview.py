@@ -72,6 +72,7 @@ def preview(
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.base.diagnostics.render import render
+    from swarmdsl.base.forced_end import forced_end
     from swarmdsl.cli.exit_code import briefly
     from swarmdsl.cli.watch import Concluded, watch_files
     from swarmdsl.driver.config.command_line import run_settings
@@ -107,6 +108,7 @@ def preview(
 
     nodes = [each.removeprefix(PREFIX) for each in traces if each.startswith(PREFIX)]
     with ExitStack() as stack:
+        stack.enter_context(forced_end())
         try:
             stack.enter_context(listening(nodes, snapshot, tell))
         except UnavailableError as error:

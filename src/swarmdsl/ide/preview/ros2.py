@@ -24,7 +24,7 @@ _TYPE = "std_msgs/msg/String"
 _POLL_INTERVAL = 0.5
 """Seconds between two polls of the ROS graph."""
 _GRACE = 5.0
-"""Seconds that callbacks may take to end."""
+"""Seconds that callbacks and ROS may take to end."""
 
 
 class UnavailableError(Exception):
@@ -62,43 +62,70 @@ def listening(
             "source the setup file of ROS 2 (`. /opt/ros/DISTRO/setup.sh`) and run a swarmc "
             "that is installed for its Python",
         ) from error
-    context = rclpy.Context()
-    try:
-        rclpy.init(context=context)
-        node = rclpy.create_node(
-            f"swarmc_preview_{os.getpid()}",
-            context=context,
-            enable_rosout=False,
-            start_parameter_services=False,
-        )
-    except Exception as error:
-        context.try_shutdown()
-        raise UnavailableError(
-            f"{error}".partition("\n")[0], "run `ros2 doctor` for details"
-        ) from error
-    executor = make_executor(context=context)
-    executor.add_node(node)
-    listener = _NodeListener(rclpy.qos, string, node, names, snapshot, tell)
-    node.create_timer(_POLL_INTERVAL, listener.poll)
-    stop = Event()
 
-    def spin() -> None:
-        while not stop.is_set():
-            executor.spin_once()  # the timer ends it
-
-    thread = Thread(target=spin, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        stop.set()
-        thread.join(_GRACE)
-        # `shutdown` destroys what the executor uses, so it must not spin any more. A thread that
-        # goes on ends with the process.
-        if not thread.is_alive():
+    def listen(begun: Callable[[], None]) -> None:
+        context = rclpy.Context()
+        try:
+            rclpy.init(context=context)
+            node = rclpy.create_node(
+                f"swarmc_preview_{os.getpid()}",
+                context=context,
+                enable_rosout=False,
+                start_parameter_services=False,
+            )
+            executor = make_executor(context=context)
+            executor.add_node(node)
+            listener = _NodeListener(rclpy.qos, string, node, names, snapshot, tell)
+            node.create_timer(_POLL_INTERVAL, listener.poll)
+        except Exception:
+            context.try_shutdown()
+            raise
+        begun()
+        try:
+            while not stop.is_set():
+                executor.spin_once()  # the timer ends it
+        finally:
             executor.shutdown()
             node.destroy_node()
             context.try_shutdown()
+
+    stop = Event()
+    with _in_thread(listen, stop):
+        yield
+
+
+@contextmanager
+def _in_thread(listen: Callable[[Callable[[], None]], None], stop: Event) -> Iterator[None]:
+    """Run a function that calls its argument when it has begun, and returns after `stop`.
+
+    All calls of ROS are in this thread, because they may hang and then hear of no signal. It ends
+    with the process if it does not end in time. Raises UnavailableError if it does not begin.
+    """
+    begun = Event()
+    failures: list[Exception] = []
+
+    def run() -> None:
+        try:
+            listen(begun.set)
+        except Exception as error:
+            if begun.is_set():
+                raise
+            failures.append(error)
+            begun.set()
+
+    thread = Thread(target=run, daemon=True)
+    thread.start()
+    try:
+        begun.wait()
+        if failures:
+            raise UnavailableError(
+                f"{failures[0]}".partition("\n")[0], "run `ros2 doctor` for details"
+            ) from failures[0]
+        yield
+    finally:
+        stop.set()
+        if begun.is_set():
+            thread.join(_GRACE)
 
 
 class _NodeListener:

@@ -28,6 +28,8 @@ _POLICY = (
 _KEEP_ALIVE = 15.0
 # Number of recent updates kept for slow pages.
 _HISTORY = 100
+_GRACE = 2.0
+"""Seconds that the server may take to end."""
 _MAX_BODY = 1 << 16
 """Maximum length of a POST body in bytes."""
 
@@ -147,7 +149,9 @@ def serving(snapshot: Snapshot, port: int, editor: Editor | None = None) -> Iter
     try:
         yield f"http://{_HOST}:{server.server_port}/"
     finally:
-        server.shutdown()
+        ending = threading.Thread(target=server.shutdown, daemon=True)
+        ending.start()
+        ending.join(_GRACE)
         server.server_close()
 
 
