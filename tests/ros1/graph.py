@@ -123,11 +123,13 @@ class Graph:
 
         wait_until(linked, f"nobody hears {topic}")
 
-    def interrupt(self, command: list[str], call: str, environment: dict[str, str]) -> int:
+    def interrupt(
+        self, command: list[str], call: str, environment: dict[str, str], answers: bool = True
+    ) -> int:
         """The exit code of a node to which SIGTERM comes while it waits for a call of the master.
 
-        `call` is the first of that name: `registerPublisher`. Raises TimeoutExpired for a node
-        that does not end.
+        `call` is the first of that name: `registerPublisher`. The master answers late, or not
+        before the node has ended. Raises TimeoutExpired for a node that does not end.
         """
         master = self.master
 
@@ -138,9 +140,12 @@ class Graph:
 
             def _dispatch(self, method: str, arguments: Any) -> Any:
                 if method == call and self.process is not None:
-                    self.process.send_signal(signal.SIGTERM)
-                    self.process = None
-                    time.sleep(0.3)
+                    process, self.process = self.process, None
+                    process.send_signal(signal.SIGTERM)
+                    if answers:
+                        time.sleep(0.3)
+                    else:
+                        process.wait()
                 return getattr(master, method)(*arguments)
 
         between = Between()

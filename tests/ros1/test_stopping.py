@@ -93,3 +93,14 @@ def test_while_it_begins(call: str, world: World) -> None:
     script = work.package / "scripts" / "work"
     environment = work.graph.environment(work.modules, ROS_NAMESPACE=work.namespace)
     assert work.graph.interrupt([work.graph.python, str(script)], call, environment) == 0
+
+
+def test_although_the_master_does_not_answer(world: World) -> None:
+    work = world(MODEL)
+    (source,) = work.package.rglob("node.py")
+    text = source.read_text(encoding="utf-8")
+    source.write_text(text.replace("\nLATE = 20", "\nLATE = 2"), encoding="utf-8")
+    script = work.package / "scripts" / "work"
+    environment = work.graph.environment(work.modules, ROS_NAMESPACE=work.namespace)
+    command = [work.graph.python, str(script)]
+    assert work.graph.interrupt(command, "getParam", environment, answers=False) == 1
