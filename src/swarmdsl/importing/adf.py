@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from typing import Any, Literal
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.numerals import fits_64_bits
 from swarmdsl.base.source import Source, Span
 from swarmdsl.importing.json_file import JsonContent, read_json
 from swarmdsl.importing.library import Library
@@ -41,6 +42,8 @@ from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
 
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
+# 64 bits of nanoseconds.
+_MOST_SECONDS = 2**63 // 1_000_000_000
 _CATEGORIES: dict[str, Literal["abstraction", "swarm"]] = {
     "abstraction-lib": "abstraction",
     "swarm-lib": "swarm",
@@ -135,7 +138,7 @@ class _Reader:
         if name != written:
             self.report.report("renamed", self.content.at(written), name=written, new=name)
         api = self.content.inside(described, "api")
-        if described.get("category") not in _CATEGORIES:
+        if str(described.get("category")) not in _CATEGORIES:
             self.library.guesses.add((name, "category"))
         if not isinstance(api.get("comm_model"), dict):
             self.library.guesses.add((name, "communication"))
@@ -254,9 +257,11 @@ class _Reader:
     def _constants(self, message: dict[str, Any]) -> Iterator[Constant]:
         for constant in self.content.objects(message, "constants"):
             name, value = str(constant.get("name", "")), constant.get("value")
+            type_ = data_type(str(constant.get("class", "")))
             fault = _forbidden(value)
+            if type_ == DURATION and isinstance(value, (int, float)) and abs(value) > _MOST_SECONDS:
+                fault = "ROS has no duration of this length"
             if is_plain(name) and isinstance(value, (bool, int, float, str)) and not fault:
-                type_ = data_type(str(constant.get("class", "")))
                 doc = _line(constant.get("description"))
                 known = Value(value, _TYPES[type(value)])
                 if type_ == DURATION and not isinstance(value, (bool, str)):
@@ -299,7 +304,9 @@ def _param_type(class_: str, value: object) -> Type:
 
 
 def _forbidden(value: object) -> str:
-    """Return the reason why no model contains a string, or nothing."""
+    """Return the reason why no model contains a string or number, or nothing."""
+    if isinstance(value, (int, float)) and not fits_64_bits(value):
+        return "no type of a model has so large a number"
     forbidden = forbidden_character(value) if isinstance(value, str) else None
     return f"a string of a model cannot contain {forbidden}" if forbidden else ""
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from lark import Tree
 
+from swarmdsl.base.numerals import integer
 from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.execution.scxml.grammar import parse
 from swarmdsl.ir import Literal, Primitive, Type
@@ -65,7 +66,7 @@ class TypeInference:
         children = tree.children
         match tree.data:
             case "number":
-                return number(str(children[0]), None).type
+                return FLOAT if isinstance(number_value(str(children[0])), float) else INT
             case "text":
                 return STRING
             case "name":
@@ -111,13 +112,17 @@ class TypeInference:
 
 def number(text: str, expected: Type | None) -> Literal:
     """Literal of a number; an expected duration is in milliseconds."""
-    if text[1:2] in ("x", "X"):
-        value: int | float = int(text, 16)
-    else:
-        value = int(text) if text.isdigit() else float(text)
+    value = number_value(text)
     if expected == DURATION:
         return Literal(round(value * 1_000_000), DURATION)
     return Literal(value, FLOAT if isinstance(value, float) else INT)
+
+
+def number_value(text: str) -> int | float:
+    """Return the value of a number."""
+    if text[1:2] in ("x", "X"):
+        return int(text, 16)
+    return integer(text) if text.isdigit() else float(text)
 
 
 def is_number(tree: Any) -> bool:

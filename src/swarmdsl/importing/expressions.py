@@ -10,6 +10,7 @@ from typing import Any
 
 from lark import Tree
 
+from swarmdsl.base.numerals import fits_64_bits
 from swarmdsl.execution.scxml.grammar import Unreadable, parse, unquoted
 from swarmdsl.importing.expression_patterns import (
     COMPARISONS,
@@ -24,6 +25,7 @@ from swarmdsl.importing.expression_patterns import (
     is_event,
     is_name,
     number,
+    number_value,
     quotient_of,
     remainder,
     without_zero,
@@ -136,7 +138,12 @@ class _ExpressionReader:
         children = tree.children
         match tree.data:
             case "number":
-                return number(str(children[0]), expected)
+                text = str(children[0])
+                if not fits_64_bits(number_value(text)):
+                    raise UnsupportedError("no type of a model has so large a number")
+                if expected == DURATION and number_value(text) > _MAX_MILLISECONDS:
+                    raise UnsupportedError("ROS has no duration of this length")
+                return number(text, expected)
             case "text":
                 text = unquoted(children[0])
                 if forbidden := forbidden_character(text):
@@ -310,5 +317,4 @@ def _is_too_long(tree: Any) -> bool:
         tree = tree.children[1]
     if tree.data != "number":
         return False
-    value = number(str(tree.children[0]), None).value
-    return isinstance(value, (int, float)) and value > _MAX_MILLISECONDS
+    return number_value(str(tree.children[0])) > _MAX_MILLISECONDS

@@ -6,12 +6,12 @@ between the name of a node and its parameters.
 
 from __future__ import annotations
 
-import math
 import re
 
 import yaml
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.numerals import fits_64_bits
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
 from swarmdsl.importing.names import NamePool, is_plain, value_names
@@ -253,4 +253,4 @@ def _scalar(node: yaml.Node) -> bool | int | float | str | None:
 def _can_be_written(value: float | str) -> bool:
     if isinstance(value, str):
         return forbidden_character(value) is None
-    return math.isfinite(value) and (type(value) is float or -(2**63) <= value < 2**63)
+    return fits_64_bits(value) and (type(value) is float or value < 2**63)

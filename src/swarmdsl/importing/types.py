@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.numerals import integer
 from swarmdsl.ir import Array, Named, Primitive, Type
 from swarmdsl.syntax.types import PRIMITIVES
 
@@ -34,7 +35,7 @@ def data_type(text: str) -> Type:
     """Type of a field or parameter."""
     array = _ARRAY.fullmatch(text)
     if array is not None:
-        return Array(data_type(array[1]), int(array[2]) if array[2] else None)
+        return Array(data_type(array[1]), integer(array[2]) if array[2] else None)
     name = _ALIASES.get(text, text)
     if name in PRIMITIVES:
         return Primitive(name)
@@ -48,10 +49,10 @@ def written_type(text: str) -> Type | None:
     array = _WRITTEN_ARRAY.fullmatch(text)
     if array is not None:
         element = written_type(array[1])
-        size = int(array[3]) if array[3] else None
+        size = integer(array[3]) if array[3] else None
         return Array(element, size, bool(array[2])) if element is not None else None
     name, bounded, bound = text.partition("<=")
     if name in PRIMITIVES and bound.isdigit() == bool(bounded):
-        return Primitive(name, int(bound) if bounded else None)
+        return Primitive(name, integer(bound) if bounded else None)
     named = _WRITTEN_NAME.fullmatch(text)
     return Named(named[1], named[2]) if named is not None else None

@@ -8,6 +8,7 @@ from swarmdsl import ir
 from swarmdsl.analysis.port_groups import PortKey, PortTopic, port_groups
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.base.naming import snake_case
+from swarmdsl.base.numerals import integer
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.docs import lower_docs
 from swarmdsl.lowering.expressions import lower_expression
@@ -106,13 +107,13 @@ def _role(role: Role, robots: Iterable[RobotValues], context: Context) -> ir.Rol
         _values(role.values, context),
         tuple(
             ir.RobotValues(
-                int(robot.index),
+                integer(robot.index),
                 _values(robot.values, context),
                 robot.doc,
                 lower_docs(robot.values),
                 robot.span,
             )
-            for robot in sorted(robots, key=lambda robot: int(robot.index))
+            for robot in sorted(robots, key=lambda robot: integer(robot.index))
         ),
         role.doc,
         lower_docs(role.values),

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.base.numerals import integer
 from swarmdsl.syntax.ast import Member, Param, PartValue, RobotValues, Role, Swarm
 from swarmdsl.syntax.types import Primitive
 
@@ -21,7 +22,7 @@ def check_robot_values(swarm: Swarm, context: Context) -> None:
     robots = [item for item in swarm.items if isinstance(item, RobotValues)]
     first: dict[tuple[str, int], RobotValues] = {}
     for robot in robots:
-        key = (robot.role.name, int(robot.index))
+        key = (robot.role.name, integer(robot.index))
         earlier = first.setdefault(key, robot)
         if earlier is not robot:
             context.check_single([earlier.role.span, robot.role.span], f"`{_name(robot)}`")
@@ -37,7 +38,9 @@ def check_robot_values(swarm: Swarm, context: Context) -> None:
 
 def _check_index(robot: RobotValues, role: Role, context: Context) -> None:
     most = _most(role)
-    if most is not None and int(robot.index) >= most:
+    if most is None and len(robot.index) > _MOST_DIGITS:
+        most = 10**_MOST_DIGITS
+    if most is not None and integer(robot.index) >= most:
         context.report.report(
             "unknown-robot",
             robot.role.span,
@@ -67,7 +70,7 @@ def _check_complete(role: Role, robots: Iterable[RobotValues], context: Context)
     if member is None or member in context.incomplete:
         return
     given = {str(value.name) for value in role.values}
-    own = {int(robot.index): {str(v.name) for v in robot.values} for robot in robots}
+    own = {integer(robot.index): {str(v.name) for v in robot.values} for robot in robots}
     most = _most(role)
     for param in all_items(member, Param):
         name = str(param.name)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.numerals import integer
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import TypeRef
 from swarmdsl.syntax.types import PRIMITIVES, Array, Named, Primitive, Type
@@ -35,7 +36,7 @@ def written_type(ref: TypeRef) -> Type | None:
 def written_element(ref: TypeRef) -> Type | None:
     """Type of a reference without its brackets; None for the name of a declaration."""
     if ref.name in _PRIMITIVES:
-        return Primitive(ref.name, int(bound_of(ref))) if ref.bound else _PRIMITIVES[ref.name]
+        return Primitive(ref.name, integer(bound_of(ref))) if ref.bound else _PRIMITIVES[ref.name]
     package, slash, name = ref.name.partition("/")
     return Named(package, name) if slash else None
 
@@ -43,7 +44,7 @@ def written_element(ref: TypeRef) -> Type | None:
 def array_of(element: Type, ref: TypeRef) -> Array:
     """Array type of a reference with one valid pair of brackets."""
     ((bounded, size),) = brackets_of(ref)
-    return Array(element, int(size) if size else None, bool(bounded))
+    return Array(element, integer(size) if size else None, bool(bounded))
 
 
 def brackets_of(ref: TypeRef) -> list[tuple[str, str]]:

@@ -28,6 +28,10 @@ _ALWAYS_DEFINED = frozenset(("and", "or", "not", "==", "!=", "<", "<=", ">", ">=
 # Values of 64 bits: an `int64` or a `uint64`, and a duration in nanoseconds.
 _WHOLE, _LENGTHS = range(-(2**63), 2**64), range(-(2**63), 2**63)
 
+MOST_CHARACTERS = 1 << 16
+"""The longest string that an expression with constants makes."""
+_MOST_TOGETHER = 1 << 24
+
 
 class _UndefinedError(Exception):
     """An operation on known operands has no result that any target can hold."""
@@ -40,6 +44,8 @@ class Folding:
         self._known: dict[ExpressionTree, Folded | Exception | None] = {}
         self._constants: dict[Constant, Folded | None] = {}
         self._numbers: dict[EnumType, Mapping[str, int]] = {}
+        # Characters of all strings that were made: a model could double a string in each line.
+        self._characters = 0
 
     def value(self, tree: ExpressionTree) -> Folded | None:
         """Return the value of an expression, durations in nanoseconds; None if it is unknown.
@@ -96,6 +102,8 @@ class Folding:
         try:
             negation = (word, len(values)) == ("-", 1)
             result = _negative(values[0]) if negation else _apply(word, values)
+            if result is not None:
+                self._check_room(result)
         except _UndefinedError as error:
             return str(error)
         except TypeError:
@@ -142,7 +150,17 @@ class Folding:
 
     def _applied(self, word: str, operands: tuple[ExpressionTree, ...]) -> Folded | None:
         values = [self._fold(operand) for operand in operands]
-        return None if None in values else _apply(word, values)
+        if None in values:
+            return None
+        result = _apply(word, values)
+        if isinstance(result, str):
+            self._characters += len(result)
+            self._check_room(result)
+        return result
+
+    def _check_room(self, result: Folded) -> None:
+        if isinstance(result, str) and self._characters > _MOST_TOGETHER:
+            raise _UndefinedError(f"all strings would be longer than {_MOST_TOGETHER} characters")
 
     def _logic(self, decisive: bool, operands: tuple[ExpressionTree, ...]) -> Folded | None:
         values = [self._fold(operand) for operand in operands]
@@ -173,6 +191,8 @@ def _checked(result: Folded) -> Folded:
         raise _UndefinedError("it would be too large for a `float64`")
     if isinstance(result, int) and result not in _WHOLE:
         raise _UndefinedError("it does not fit in 64 bits")
+    if isinstance(result, str) and len(result) > MOST_CHARACTERS:
+        raise _UndefinedError(f"it would be longer than {MOST_CHARACTERS} characters")
     return result
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swarmdsl.base.numerals import integer
 from swarmdsl.syntax.ast import EnumType
 from swarmdsl.syntax.types import Primitive
 
@@ -22,6 +23,6 @@ def numbers(enum: EnumType) -> dict[str, int]:
     found: dict[str, int] = {}
     number = -1
     for value in enum.values:
-        number = int(value.value) if value.value else number + 1
+        number = integer(value.value) if value.value else number + 1
         found.setdefault(str(value.name), number)
     return found

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from random import Random
 from typing import Any
 
+from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.execution.simulate.durations import AT_ONCE, ONE_SECOND, Length
 from swarmdsl.syntax.types import SELF_FIELDS
@@ -35,7 +36,7 @@ class Robot:
         found = _IN_ROLE.fullmatch(name)
         if found is None:
             return cls(name)
-        return cls(name, found[1], index=int(found[2]), count=int(found[2]) + 1)
+        return cls(name, found[1], index=integer(found[2]), count=integer(found[2]) + 1)
 
     @property
     def words(self) -> tuple[str, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.project.rosidl.fault import InterfaceError
@@ -95,7 +96,7 @@ def _type(span: Span, package: str) -> tuple[TypeRef, int | None]:
         raise InterfaceError(
             span, f"`{array}` is no size of an array", "write `[]`, `[16]` or `[<=16]`"
         )
-    if bound is not None and (name not in TEXTS or not int(bound)):
+    if bound is not None and (name not in TEXTS or not integer(bound)):
         raise InterfaceError(
             span, f"`{span.text}` is no type", "strings can have a bound: `string<=10`"
         )
@@ -104,7 +105,7 @@ def _type(span: Span, package: str) -> tuple[TypeRef, int | None]:
     elif name not in _BUILT_IN and "/" not in name:
         name = f"{package}/{name}"
     return TypeRef(span, name, f"<={bound}" if bound is not None else "", array), (
-        int(bound) if bound is not None else None
+        integer(bound) if bound is not None else None
     )
 
 

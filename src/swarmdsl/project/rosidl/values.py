@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.numerals import integer
 from swarmdsl.base.source import Span
 from swarmdsl.project.rosidl.fault import InterfaceError
 from swarmdsl.syntax.ast import Value
@@ -45,7 +46,7 @@ def read_values(span: Span, type_: str, bound: int | None, array: str) -> Values
     values = tuple(read_value(element, type_, bound) for element in _elements(span))
     size = re.search(r"\d+", array)
     if size is not None:
-        limit = int(size[0])
+        limit = integer(size[0])
         if len(values) > limit or (len(values) < limit and "<" not in array):
             at_most = "at most " if "<" in array else ""
             raise InterfaceError(span, f"expected {at_most}{limit} values, found {len(values)}")

@@ -7,6 +7,7 @@ from collections import Counter
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import camel_case, snake_case
+from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import dataclass
 from swarmdsl.tools.scaffold.names import check_project_name, check_type_name, command_line_span
 
@@ -37,7 +38,7 @@ class Robots:
     def minimum(self) -> int:
         """Minimum number of robots, which is the number in a simulation."""
         lowest = self.count.partition("..")[0]
-        return int(lowest) if lowest.isdecimal() else 1
+        return integer(lowest) if lowest.isdecimal() else 1
 
 
 @dataclass(frozen=True)
@@ -132,5 +133,5 @@ def _is_multiplicity(text: str) -> bool:
         return False
     lowest, highest = found.groups()
     if highest is None:
-        return lowest is None or int(lowest) > 0
-    return highest == "*" or int(highest) >= max(1, int(lowest))
+        return lowest is None or integer(lowest) > 0
+    return highest == "*" or integer(highest) >= max(1, integer(lowest))

@@ -11,6 +11,8 @@ import re
 from enum import Enum
 from typing import NamedTuple
 
+from swarmdsl.base.numerals import integer
+
 # Terminal escape sequences (ECMA-48, 5.4 and 8.3.89): colours and links.
 _ESCAPES = re.compile(r"\x1b(?:\[[0-?]*[ -/]*[@-~]|\][^\x07\x1b]*(?:\x07|\x1b\\)|[@-Z\\-_])")
 # Prefix that ros2 launch and colcon put before the output of a process.
@@ -63,12 +65,12 @@ def parse_line(content: bytes) -> LogLine:
     text = _ESCAPES.sub("", content[:_MAX_LENGTH].decode(errors="replace")).rstrip("\r\n")
     process = match[0] if (match := _PROCESS.match(text)) else ""
     text = text.removeprefix(process)
-    found = [Location(path, int(line)) for path, line in _QUOTED.findall(text)]
+    found = [Location(path, integer(line)) for path, line in _QUOTED.findall(text)]
     kind = LineKind.PYTHON if found and text.lstrip().startswith("File ") else LineKind.PLAIN
     if not found:
         for word in _TOKEN.finditer(text):
             if (place := _LOCATION.match(word[0])) is not None:
-                found.append(Location(place[1], int(place[2])))
+                found.append(Location(place[1], integer(place[2])))
         if found:
             kind = _kind(text)
     depth = len(text) - len(text.lstrip())
