@@ -44,6 +44,14 @@ TEXTS = {
         ("out/.swarmdsl.json", "The generated files of a build, with their origins in the model."),
         ("out/.swarmdsl.texts", "The content of the last builds, to merge edits with."),
     ),
+    "LIMITS": (
+        ("files", "Regular files are read and written; pipes, devices and sockets are errors."),
+        ("8 MB", "Each model, interface, document, scenario or test (SW1217); in editors 2 MB."),
+        ("256 MB", "Each trace, file of events, and generated file. Logs have no limit."),
+        ("100,000", "Files and folders below a folder that is searched (SW0018)."),
+        ("16 MB", "Models below a folder that is searched, or in a revision, together (SW0018)."),
+        ("65,536", "Characters of a string that constants are put together to (SW0707)."),
+    ),
 }
 _SAYS = "compile swarms of robots"
 # Options of all commands, which are listed once.

@@ -35,6 +35,7 @@ NO_MODEL = {
     *("damaged-region", "other-model"),
     *("broken-library", "bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic"),
     *("not-a-warning", "outside-project", "outside-workspace", "no-source-map"),
+    "too-many-files",
 }
 # Of SCXML documents, not of models; `tests/scxml` has them and their pages.
 OF_DOCUMENTS = {name for name, entry in CODES.items() if "SW08" < entry.code < "SW09"}
@@ -46,7 +47,7 @@ UNTEXTUAL = {
     *OF_DOCUMENTS,
     *("unreadable-file", "nothing-to-compile", "broken-library"),
     *("bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic", "not-a-warning"),
-    *("outside-project", "outside-workspace"),
+    *("outside-project", "outside-workspace", "too-many-files"),
 }
 
 

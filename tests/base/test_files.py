@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -12,14 +13,14 @@ from swarmdsl.driver import pipeline
 @pytest.fixture
 def locked(monkeypatch: pytest.MonkeyPatch) -> None:
     """Refuse to read `locked.swarm`, also to a user who may read everything."""
-    read = Path.read_bytes
+    opened = os.open
 
-    def refuse(path: Path) -> bytes:
-        if path.name == "locked.swarm":
+    def refuse(path: str | Path, flags: int, mode: int = 0o777) -> int:
+        if Path(path).name == "locked.swarm":
             raise PermissionError(13, "Permission denied", str(path))
-        return read(path)
+        return opened(path, flags, mode)
 
-    monkeypatch.setattr(Path, "read_bytes", refuse)
+    monkeypatch.setattr(os, "open", refuse)
 
 
 @pytest.mark.usefixtures("locked")

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import threading
 from pathlib import Path
 
 import pytest
@@ -217,17 +215,6 @@ def test_a_function_that_a_state_names_gets_a_skeleton(climb: list[str], tmp_pat
     mine.write_text("// mine\n", encoding="utf-8")
     assert run([*climb, "--force"]) == 0
     assert mine.read_text(encoding="utf-8") == "// mine\n"
-
-
-def test_a_state_machine_comes_through_a_pipe(climb: list[str], tmp_path: Path) -> None:
-    pipe = tmp_path / "pipe"
-    os.mkfifo(pipe)
-    writer = threading.Thread(target=pipe.write_text, args=[CLIMB.format(function="lift")])
-    writer.start()
-    climb[climb.index("--scxml") + 1] = str(pipe)
-    assert run(climb) == 0
-    writer.join()
-    assert (tmp_path / "out" / "lift" / "src" / "lift.cpp").exists()
 
 
 def test_skeletons_in_python(climb: list[str], tmp_path: Path) -> None:

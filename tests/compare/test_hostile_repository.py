@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
+from swarmdsl.tools.compare import revisions
 
 MODEL = "package p\nevent E : std_msgs/Empty\n"
 MERGED = ("base.swarm", "ours.swarm", "theirs.swarm")
@@ -205,3 +206,16 @@ def test_doctor_runs_no_module_of_the_folder(
     run(["doctor"])
     assert str(tmp_path) not in capfd.readouterr().out
     assert not (tmp_path / "marker").exists()
+
+
+def test_a_revision_that_is_too_large(
+    git: Git, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Git gives its content in one piece."""
+    monkeypatch.setattr(revisions, "MOST_TOGETHER", 2**20)
+    folder = tmp_path / "repository"
+    (folder / "model.swarm").write_text(" " * (2**20 + 1))
+    git("add", ".")
+    git("commit", "--quiet", "-m", "large")
+    assert run(["diff", "--against", "HEAD", str(folder)]) == 2
+    assert "its repository has more than 1 MB of models" in capsys.readouterr().err

@@ -11,7 +11,7 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.cli import run
-from swarmdsl.importing import command, files, import_adf, import_scxml
+from swarmdsl.importing import command, import_adf, import_scxml
 from swarmdsl.importing.json_file import MAX_DEPTH
 
 # Each takes some seconds at most.
@@ -163,18 +163,17 @@ def test_descriptions_of_the_wrong_kind() -> None:
             assert names, content
 
 
-def test_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "MAX_BYTES", 2**20)
+def test_size(tmp_path: Path) -> None:
     path = tmp_path / "large.xml"
-    path.write_text(f"{HEAD}{STATE}</scxml>{' ' * 2**20}", encoding="utf-8")
+    path.write_text(f"{HEAD}{STATE}</scxml>{' ' * 2**23}", encoding="utf-8")
 
     done = command.run("scxml", [path], [], None, force=False)
     assert [(f.name, f.message) for f in done.report] == [
-        ("too-large", f"`{path}` is larger than 1 MB")
+        ("too-large", f"`{path}` is larger than 8 MB")
     ]
 
 
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="there is no file without an end")
 def test_a_file_without_an_end(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["import", "adf", os.devnull.replace("null", "zero")]) == 1
-    assert "SW1217" in capsys.readouterr().err
+    assert "`/dev/zero` is a device, not a file" in capsys.readouterr().err

@@ -69,14 +69,14 @@ def test_without_list_and_texts_every_file_is_the_users(tmp_path):
 def locked_away(tmp_path, monkeypatch):
     """A file that was generated and cannot be read, by no user."""
     write_ok(files(a="1", b="1"), tmp_path)
-    place, open_plan = tmp_path / "t/a", open
+    place, open_plan = tmp_path / "t/a", os.open
 
-    def open_others(path, *arguments, **named):
+    def open_others(path, *arguments):
         if path == str(place):
             raise PermissionError(13, "Permission denied", path)
-        return open_plan(path, *arguments, **named)
+        return open_plan(path, *arguments)
 
-    monkeypatch.setattr("builtins.open", open_others)
+    monkeypatch.setattr(os, "open", open_others)
     return place
 
 

@@ -11,6 +11,8 @@ from itertools import takewhile
 from pathlib import Path
 from types import TracebackType
 
+from swarmdsl.base.read_files import exists
+
 
 class Staging:
     """Files written next to their final place, under unique names.
@@ -68,7 +70,7 @@ class Staging:
         """Make a folder, and those above it, where they are missing."""
         if folder in self._there:
             return
-        missing = list(takewhile(lambda above: not above.exists(), (folder, *folder.parents)))
+        missing = list(takewhile(lambda above: not exists(above), (folder, *folder.parents)))
         for above in reversed(missing):
             above.mkdir(exist_ok=True)
             self._folders.append(above)

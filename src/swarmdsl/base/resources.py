@@ -5,13 +5,15 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+from swarmdsl.base.read_files import is_file, read_file
+
 _PACKAGE = Path(__file__).resolve().parents[1]
 
 
 def checkout_root() -> Path | None:
     """Return the root of the source checkout, None if the package is installed."""
     root = _PACKAGE.parents[1]
-    return root if (root / "grammar" / "swarm.tx").is_file() else None
+    return root if is_file(root / "grammar" / "swarm.tx") else None
 
 
 def library() -> Path:
@@ -37,5 +39,5 @@ def grammar_checksum() -> int:
 
     checksum = 0
     for path in sorted(grammar().glob("*.tx")):
-        checksum = crc32(path.read_bytes(), checksum)
+        checksum = crc32(read_file(path), checksum)
     return checksum

@@ -70,7 +70,7 @@ def run(arguments: Sequence[str]) -> int:
         sys.stderr.write("\n")
         return INTERRUPTED
     except Exception as error:
-        if isinstance(error, OSError) and error.errno in _STDOUT_FAULTS:
+        if isinstance(error, OSError) and error.errno in _STDOUT_FAULTS and not error.filename:
             _close_stdout()
             sys.stderr.write(f"swarmc: cannot write the output: {error.strerror}\n")
             return ERRORS
@@ -107,7 +107,7 @@ def _run_plainly(arguments: Sequence[str]) -> int | None:
 
 
 # Errors of all other input and output are diagnostics.
-_STDOUT_FAULTS = frozenset({errno.ENOSPC, errno.EIO, errno.EBADF})
+_STDOUT_FAULTS = frozenset({errno.ENOSPC, errno.EIO, errno.EBADF, errno.EFBIG, errno.EDQUOT})
 
 
 def _close_stdout() -> None:

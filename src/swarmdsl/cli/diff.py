@@ -88,6 +88,7 @@ def diff(
     the current folder. The exit code is 0 without differences (with --breaking: without
     breaking ones), 1 with differences, and 2 if a model cannot be read.
     """
+    from swarmdsl.base.read_files import exists
     from swarmdsl.tools.compare import report
     from swarmdsl.tools.compare.comparison import compare
     from swarmdsl.tools.compare.revisions import is_revision, parse_model
@@ -100,7 +101,7 @@ def diff(
     if allow and not breaking:
         raise click.UsageError("`--allow` needs `--breaking`")
     first, last = models[0], Path(models[-1])
-    if against is None and not Path(first).exists() and is_revision(first, last):
+    if against is None and not exists(first) and is_revision(first, last):
         way = f"write `swarmc diff --against {first} {last}`"
         raise click.UsageError(f"`{first}` is not a file but a revision of git: {way}")
     after = parse_model(models[-1])

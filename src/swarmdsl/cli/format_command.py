@@ -10,6 +10,7 @@ import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import counted
+from swarmdsl.base.read_files import MOST
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.rewriting import Layout
 from swarmdsl.driver.format_files import STDIN, layout_of, layouts_of, write
@@ -59,7 +60,11 @@ def _layouts(
 ) -> tuple[list[Layout], int]:
     if not _is_stdin(paths):
         return layouts_of(paths or (Path(),), report, migrate=migrate)
-    layout = layout_of(STDIN, sys.stdin.buffer.read(), report, migrate=migrate)
+    content = sys.stdin.buffer.read(MOST + 1)
+    if len(content) > MOST:
+        report.report("too-large", path=STDIN, most=MOST // 2**20)
+        return [], 1
+    layout = layout_of(STDIN, content, report, migrate=migrate)
     return ([layout], 0) if layout is not None else ([], 1)
 
 

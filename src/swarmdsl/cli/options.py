@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import click
 
+from swarmdsl.base.read_files import is_folder
 from swarmdsl.cli.parameters import FORMAT, LEVELS, Option
 from swarmdsl.cli.suggestions import Choice
 
@@ -62,7 +63,7 @@ def check_picture(path: Path, option: str, suffix: str, others: Mapping[str, str
     their formats.
     """
     named = path.suffix.lower()
-    if path.is_dir() or named == suffix or named not in {*others, *_PICTURES}:
+    if is_folder(path) or named == suffix or named not in {*others, *_PICTURES}:
         return
     way = f"name a file that ends with `{suffix}`"
     if named in others:

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.base.diagnostics.render import FORMATS
+from swarmdsl.base.read_files import exists
 from swarmdsl.base.records import dataclass
 
 
@@ -104,4 +105,4 @@ def _is_plain(text: str, kind: type[str] | type[Path]) -> bool:
     """Return True if Click takes the text as a value too; it requires files to be readable."""
     if not text or text.startswith("-"):
         return False
-    return kind is str or not Path(text).exists() or os.access(text, os.R_OK)
+    return kind is str or not exists(text) or os.access(text, os.R_OK)

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import is_folder
 from swarmdsl.base.source import Span
 from swarmdsl.driver.config import find_file
 from swarmdsl.driver.config.settings import Settings
@@ -32,7 +33,7 @@ def may_write_models(
     """
     project = find_file(paths[0] if paths else Path())
     given = [*paths, *also]
-    roots = [*given, *(path.parent for path in given if not path.is_dir())]
+    roots = [*given, *(path.parent for path in given if not is_folder(path))]
     roots += [project.parent] if project is not None else []
     if not paths:
         roots.append(Path())

@@ -13,9 +13,6 @@ from swarmdsl.importing import import_adf, import_scxml
 from swarmdsl.ir import System
 from swarmdsl.project.read_source import read_source
 
-MAX_BYTES = 16 * 2**20
-"""Maximum size of an imported file in bytes."""
-
 
 def read_files(
     format_: Literal["scxml", "adf", "amf"],
@@ -41,8 +38,8 @@ def read_files(
 
 
 def read_sources(paths: Sequence[Path], report: Diagnostics) -> list[Source]:
-    """Read each readable file once, since it may be a pipe."""
-    sources = (read_source(path, None, report, "a file", MAX_BYTES) for path in paths)
+    """Read each readable file."""
+    sources = (read_source(path, None, report, "a file") for path in paths)
     return [source for source in sources if source is not None]
 
 

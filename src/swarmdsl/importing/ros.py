@@ -12,10 +12,10 @@ from pathlib import Path
 from swarmdsl.analysis.resolve.type_names import written_type
 from swarmdsl.base import resources
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import is_folder
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver import pipeline
-from swarmdsl.importing.files import MAX_BYTES
 from swarmdsl.importing.names import type_names
 from swarmdsl.importing.params import NodeParams, read_params
 from swarmdsl.ir import (
@@ -57,16 +57,16 @@ def import_ros(
     owners: dict[str, NodeParams] = {}
     files = 0
     for folder in folders:
-        parameters = find_parameters(folder) if folder.is_dir() else []
+        parameters = find_parameters(folder) if is_folder(folder) else []
         found = find_interfaces(folder, None, report, required=not parameters)
         files += len(found) + len(parameters)
         for each in found:
-            source = read_source(each.path, None, report, "a file", MAX_BYTES)
+            source = read_source(each.path, None, report, "a file")
             if source is not None and lookup(Named(each.package, each.name), each.kind) is None:
                 read = parse_interface(source, each.package, each.name, each.kind, report)
                 _add(_interface(read, report), interfaces, source, report)
         for file in parameters:
-            source = read_source(file.path, None, report, "a file", MAX_BYTES)
+            source = read_source(file.path, None, report, "a file")
             if source is not None:
                 read_params(source, file.package, owners, report)
     system = System(

@@ -10,6 +10,7 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from swarmdsl.base.atomic_write import Staging
+from swarmdsl.base.read_files import exists
 from swarmdsl.output import journal, manifest, texts
 from swarmdsl.output.changes import Action, Change, Renames
 from swarmdsl.output.disk import Disk
@@ -68,7 +69,7 @@ def resume(disk: Disk) -> Renames:
 
 def _has_changes(plan: Plan) -> bool:
     listed = plan.manifest.files or plan.manifest.parked
-    stored = (plan.disk.out / manifest.NAME).exists() and not plan.texts.missing
+    stored = exists(plan.disk.out / manifest.NAME) and not plan.texts.missing
     return bool(plan.changes or plan.manifest != plan.before or (listed and not stored))
 
 

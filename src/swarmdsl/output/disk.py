@@ -10,6 +10,14 @@ from functools import cached_property
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import (
+    MOST_RECORDED,
+    OddFileError,
+    exists,
+    is_file,
+    is_folder,
+    read_file,
+)
 
 _CACHES = ("__pycache__",)
 
@@ -23,6 +31,9 @@ _FIXES = {
     errno.EIO: "check the disk, and build again",
     errno.ENAMETOOLONG: "give the element of the model a shorter name",
 }
+
+# Nothing can be there, so that nothing can be written there.
+_NO_PLACE = (errno.ENOTDIR, errno.ELOOP, errno.ENAMETOOLONG)
 
 
 class UnreadableError(OSError):
@@ -70,20 +81,14 @@ class Disk:
         """
         place = self.place(path)
         try:
-            mode = os.stat(place).st_mode  # noqa: PTH116
+            return read_file(place, MOST_RECORDED)
         except FileNotFoundError:
             return None
-        except PermissionError as error:
-            raise _unreadable(error) from error
-        if stat.S_ISDIR(mode):
-            raise IsADirectoryError(0, "it is a folder", str(Path(place)))
-        if not stat.S_ISREG(mode):
-            # Reading a pipe or a device could block forever.
-            raise OSError(0, "it is not an ordinary file", str(Path(place)))
-        try:
-            with open(place, "rb", buffering=0) as file:  # noqa: PTH123
-                return file.read()
+        except OddFileError as error:
+            raise OSError(0, error.strerror, str(Path(place))) from error
         except OSError as error:
+            if error.errno in _NO_PLACE:
+                raise
             raise _unreadable(error) from error
 
     def mode(self, path: str) -> int:
@@ -111,7 +116,7 @@ class Disk:
     def obstacle(self, path: str) -> Path:
         """Return the file at a place where a path needs a folder."""
         above = (self.out / path).parents
-        return next(place for place in above if place.exists() and not place.is_dir())
+        return next(place for place in above if exists(place) and not is_folder(place))
 
     def files(self, folder: str) -> Iterator[str]:
         """Yield regular files below a folder, without Python caches.
@@ -122,7 +127,7 @@ class Disk:
             folders[:] = sorted(name for name in folders if name not in _CACHES)
             for name in sorted(names):
                 found = Path(place, name)
-                if found.is_file() and not found.is_symlink():
+                if is_file(found) and not found.is_symlink():
                     yield found.relative_to(self.out).as_posix()
 
     def remove(self, path: str) -> None:

@@ -14,6 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from swarmdsl.base.atomic_write import Staging
+from swarmdsl.base.read_files import MOST_RECORDED, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.relative_paths import stays_inside
 from swarmdsl.output import manifest
@@ -74,7 +75,7 @@ def read(disk: Disk) -> Journal | None:
     It is written before anything else, so that an incomplete one means that nothing was changed.
     """
     try:
-        stored = json.loads((disk.out / NAME).read_bytes())
+        stored = json.loads(read_file(disk.out / NAME, MOST_RECORDED))
         *steps, listed = (Step(**step) for step in stored["steps"])
         renames = tuple((str(old), str(new)) for old, new in stored["renames"])
         paths = [path for step in (*steps, listed) for path in step.paths]

@@ -11,6 +11,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
+from swarmdsl.base.read_files import MOST_RECORDED, read_file
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.relative_paths import stays_inside
 from swarmdsl.output import source_maps, user_regions
@@ -60,7 +61,7 @@ def read(out: Path, name: str = NAME) -> Manifest:
 
 def _stored(out: Path, name: str) -> dict[str, Any]:
     try:
-        stored = json.loads((out / name).read_bytes())
+        stored = json.loads(read_file(out / name, MOST_RECORDED))
     except (FileNotFoundError, NotADirectoryError):
         return {}
     except json.JSONDecodeError as error:

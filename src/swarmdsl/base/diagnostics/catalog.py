@@ -48,6 +48,7 @@ CODES: dict[str, Code] = {
     "not-a-warning": Code("SW0015", "error", "`{name}` is an error and cannot be downgraded"),
     "outside-workspace": Code("SW0016", "error", "`{path}` is outside the workspace"),
     "outside-project": Code("SW0017", "error", "`{path}` is outside the project"),
+    "too-many-files": Code("SW0018", "error", "cannot search `{path}`: {reason}"),
     # ---- syntax
     "syntax-error": Code("SW0101", "error", "{message}"),
     "unclosed-bracket": Code("SW0102", "error", "this `{bracket}` is never closed"),

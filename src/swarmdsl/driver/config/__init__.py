@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import is_file
 from swarmdsl.base.source import Source
 from swarmdsl.driver.config.settings import FILE_NAME, Settings
 from swarmdsl.project.read_source import read_source
@@ -38,7 +39,7 @@ def read_project(path: Path, report: Diagnostics, source: Source | None = None) 
 def find_file(start: Path) -> Path | None:
     """Find the project file in the folder of `start` or the closest one above."""
     for found in places(start):
-        if os.path.isfile(found):  # noqa: PTH113
+        if is_file(found):
             return Path(found if start.is_absolute() else os.path.relpath(found))
     return None
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, Level
+from swarmdsl.base.read_files import is_file
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
 from swarmdsl.codegen import registry
@@ -82,7 +83,7 @@ class _Reader:
 
     def _libraries(self) -> Iterator[Path]:
         for keys, path in self._paths(("project", "libraries")):
-            if os.path.isfile(path):  # noqa: PTH113 - takes any path, a far too long one too
+            if is_file(path):
                 self._report_wrong(keys, "folders", f"the file `{path}`")
             yield path
 

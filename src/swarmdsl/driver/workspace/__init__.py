@@ -23,6 +23,7 @@ from swarmdsl.analysis.checks.facts import FactCache
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.linker import link
 from swarmdsl.base.diagnostics.collector import MOST_HINTS, Diagnostic, Diagnostics, placed
+from swarmdsl.base.read_files import MOST
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config.settings import Settings
 from swarmdsl.driver.workspace.documents import DocumentStore
@@ -60,7 +61,7 @@ class Workspace:
         *,
         texts: Mapping[Path, str] = _NO_TEXTS,
         within: Container[Path] | None = None,
-        most: int | None = None,
+        most: int = MOST,
     ) -> None:
         self._paths = paths
         self.settings = settings

@@ -9,6 +9,7 @@ from itertools import accumulate, pairwise
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import MOST
 from swarmdsl.base.source import Piece, Source, Span
 from swarmdsl.driver.workspace.fragments import Fragment, Levels
 from swarmdsl.project.loader import File, Reader, parsed_interface, report_empty
@@ -133,7 +134,7 @@ class DocumentStore(Reader):
     """
 
     def __init__(
-        self, levels: Levels, within: Container[Path] | None = None, most: int | None = None
+        self, levels: Levels, within: Container[Path] | None = None, most: int = MOST
     ) -> None:
         self.documents: dict[str, Document] = {}
         self.in_use: set[str] = set()
@@ -198,7 +199,7 @@ class DocumentStore(Reader):
         content = self._edited.get(os.path.realpath(path))
         if content is None and self.allows(path, at, report):
             content = read_bytes(path, at, report, most=self._most)
-        elif content is not None and self._most is not None and len(content) > self._most:
+        elif content is not None and len(content) > self._most:
             report.report("too-large", at, path=path, most=self._most // 2**20)
             return None
         return decoded(path, content, at, report) if content is not None else None

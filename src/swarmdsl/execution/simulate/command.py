@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
@@ -16,7 +18,9 @@ import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.read_files import MOST_RECORDED, lines_of
 from swarmdsl.base.records import dataclass
+from swarmdsl.base.write_stream import write_stream
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.driver.config.toml import parse_toml
@@ -25,7 +29,7 @@ from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
 from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader, lines_of
+from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
 from swarmdsl.execution.simulate.scenario import Scenario
@@ -47,6 +51,7 @@ _ENDINGS: dict[Ending, str] = {
 }
 _NO_LATENCY = ("members answer each other without delay: give the network a latency",)
 _STANDARD_INPUT = 0
+_AT_ONCE = 1 << 16
 _MOST_SHOWN = 5
 """Maximum number of states shown of a loop."""
 
@@ -96,7 +101,8 @@ def _prepare(request: Request, report: Diagnostics) -> _Play | None:
         return None
     inputs: list[Input] = []
     if request.events is not None and request.events != _STDIN:
-        source = read_source(Path(request.events), None, report, "a file of events")
+        path = Path(request.events)
+        source = read_source(path, None, report, "a file of events", MOST_RECORDED)
         inputs = Reader(subject, cast, report).file(source) if source is not None else []
     return None if report.has_errors else _Play(request, subject, scenario, cast, inputs)
 
@@ -137,6 +143,15 @@ def _document(path: Path, report: Diagnostics) -> Document | None:
     return Document(source, machine) if source is not None and machine is not None else None
 
 
+def _report_unwritten(path: Path, error: OSError, report: Diagnostics) -> None:
+    reason = str(error.strerror)
+    report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
+
+
+def _typed_bytes() -> bytes:
+    return os.read(_STANDARD_INPUT, _AT_ONCE)
+
+
 class _Play:
     """A run with its outputs."""
 
@@ -164,7 +179,7 @@ class _Play:
         report = Diagnostics()
         several = len(self._request.replay) > 1
         for path in self._request.replay:
-            source = read_source(path, None, report, "a trace")
+            source = read_source(path, None, report, "a trace", MOST_RECORDED)
             if source is None:
                 continue
             found = replay(source, self._subject, self._cast, report)
@@ -183,25 +198,30 @@ class _Play:
         ending = "until an endless loop"
         summary = Summary(self._subject, self._cast)
         self._listeners.append(summary.note)
-        with ExitStack() as stack:
-            stream = self._stream(stack, report)
-            picture = self._picture(stack, report)
-            if report.has_errors:
-                tell(report)
-                return False
-            if stream is not None:
-                self._listeners.append(self._writer(stream))
-            if stream is None or not stream.isatty():
-                self._show_board(stack)
-            try:
-                ending = _ENDINGS[self._run(tell)]
-            except LoopError as error:
-                self._report_loop(error, report)
-            except KeyboardInterrupt:
-                interrupted, ending = True, "until it was interrupted"
-            sys.stdout.flush()
-            if picture is not None:
-                picture()
+        try:
+            with ExitStack() as stack:
+                stream = self._stream(stack, report)
+                picture = self._picture(stack, report)
+                if report.has_errors:
+                    tell(report)
+                    return False
+                if stream is not None:
+                    self._listeners.append(self._writer(stream))
+                if stream is None or not stream.isatty():
+                    self._show_board(stack)
+                try:
+                    ending = _ENDINGS[self._run(tell)]
+                except LoopError as error:
+                    self._report_loop(error, report)
+                except KeyboardInterrupt:
+                    interrupted, ending = True, "until it was interrupted"
+                sys.stdout.flush()
+                if picture is not None:
+                    picture()
+        except OSError as error:
+            if error.filename is None:
+                raise  # of standard output
+            _report_unwritten(Path(error.filename), error, report)
         for (machine, reason), count in self._world.failures.items():
             times = "once" if count == 1 else f"{count} times"
             report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
@@ -246,7 +266,7 @@ class _Play:
         """Yield the events on standard input; report errors immediately."""
         reader = Reader(self._subject, self._cast, Diagnostics())
         try:
-            for each in reader.stream(lines_of(_STANDARD_INPUT)):
+            for each in reader.stream(chain.from_iterable(lines_of(_typed_bytes))):
                 self._report_and_clear(reader, tell)
                 yield each
         except OSError as error:
@@ -290,10 +310,9 @@ class _Play:
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         try:
-            stream = stack.enter_context(path.open("w", encoding="utf-8", newline="\n"))
+            stream = stack.enter_context(write_stream(path))
         except OSError as error:
-            reason = str(error.strerror)
-            report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
+            _report_unwritten(path, error, report)
             return None
         self._written.append(path)
         return stream

@@ -6,12 +6,12 @@ from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.diagnostics.render.printable import printable
-from swarmdsl.base.find_files import files_below
 from swarmdsl.driver.config import find_file
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.project.read_source import read_source
+from swarmdsl.project.search import found_below
 
 _MOST = 5
 """Maximum number of events in the hint."""
@@ -28,7 +28,7 @@ def deadlock_hint(awaited: list[str], subject: Subject, start: Path) -> str:
 
 def _scenario(folder: Path, subject: Subject) -> str | None:
     """Find a scenario of this model in a folder that sends messages."""
-    for path in files_below(folder, ".toml"):
+    for path in found_below(folder, ".toml", Diagnostics()) or ():
         report = Diagnostics()
         source = read_source(path, None, report)
         document = parse_toml(source, report) if source is not None else None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -167,16 +166,6 @@ class Reader:
 
     def _wrong(self, place: Span, name: str, expected: str, found: Any) -> None:
         self.report.report("wrong-value", place, name=name, expected=expected, found=kind(found))
-
-
-def lines_of(descriptor: int) -> Iterator[bytes]:
-    """Yield the lines of an open file as they arrive. Raises OSError."""
-    rest = b""
-    while chunk := os.read(descriptor, 1 << 16):
-        *lines, rest = (rest + chunk).split(b"\n")
-        yield from lines
-    if rest:
-        yield rest
 
 
 def _at(place: Span, word: str) -> Span:

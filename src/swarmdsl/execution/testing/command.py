@@ -9,6 +9,7 @@ from typing import TextIO
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
+from swarmdsl.base.write_stream import write_stream
 from swarmdsl.execution.simulate.coverage import Coverage
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.testing.case import InvalidTest
@@ -123,7 +124,8 @@ class _Session:
             )
         if request.junit is not None:
             try:
-                request.junit.write_bytes(junit(self._outcomes))
+                with write_stream(request.junit) as stream:
+                    stream.write(junit(self._outcomes).decode())
             except OSError as error:
                 reason = str(error.strerror or error).lower()
                 report.report("cannot-write", path=request.junit, reason=reason)

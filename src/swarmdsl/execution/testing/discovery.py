@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.find_files import files_below
+from swarmdsl.base.read_files import is_folder
+from swarmdsl.project.search import found_below
 
 SUFFIX = ".swarmtest.toml"
 
@@ -16,7 +17,7 @@ def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
     """Return the named test files and those in named folders; report missing ones."""
     found: dict[str, Path] = {}
     for path in paths:
-        if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
+        if not is_folder(path):
             if path.name.endswith(".toml") or not os.path.lexists(path):
                 found.setdefault(os.path.realpath(path), path)
             else:
@@ -28,11 +29,11 @@ def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
                     help="name its folder: the tests are beside the model",
                 )
             continue
-        inside = files_below(path, SUFFIX)
-        if not inside:
+        inside = found_below(path, SUFFIX, report)
+        if inside is not None and not inside:
             help_ = f"tests are in files called `NAME{SUFFIX}`"
             report.report("no-tests", path=path, help=help_)
-        for each in inside:
+        for each in inside or ():
             found.setdefault(os.path.realpath(each), each)
     return list(found.values())
 

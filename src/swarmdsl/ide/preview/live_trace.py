@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import stat
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
@@ -12,9 +11,11 @@ from time import sleep
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import MOST, OddFileError, lines_of, open_file
 from swarmdsl.execution.simulate.trace_line import read_line
 from swarmdsl.ide.preview.pictures import Steps
 from swarmdsl.ide.preview.serving import Snapshot
+from swarmdsl.project.read_source import report_unreadable
 
 STDIN = "-"
 _POLL_INTERVAL = 0.1
@@ -38,11 +39,14 @@ def follow(names: Sequence[str], snapshot: Snapshot, tell: Callable[[Diagnostics
 
 def _read(name: str, reader: TraceReader) -> None:
     """Follow a file to its end, or forever if it has none."""
-    for chunk in _stream() if name == STDIN else _chunks(Path(name)):
-        if chunk is None:
-            reader.forget()
-        else:
-            reader.read(chunk)
+    try:
+        for chunk in _stream() if name == STDIN else _chunks(Path(name)):
+            if chunk is None:
+                reader.forget()
+            else:
+                reader.read(chunk)
+    except OddFileError as error:
+        reader.report_odd(error)
 
 
 class TraceReader:
@@ -110,6 +114,12 @@ class TraceReader:
             return machine
         return f"{machine} ({self._name})" if machine else self._name
 
+    def report_odd(self, error: OddFileError) -> None:
+        """Report a pipe or device, which is not followed."""
+        report = Diagnostics()
+        report_unreadable(Path(self._name), error, None, report, "a trace")
+        self._tell(report)
+
     def _report_invalid(self, reason: str) -> None:
         if self._is_valid:
             self._is_valid = False
@@ -145,17 +155,11 @@ def _chunks(path: Path) -> Iterator[list[bytes] | None]:
     """Yield new complete lines of a file; None each time that the file restarts."""
     while True:
         try:
-            about = path.stat()
-        except OSError:
-            sleep(_POLL_INTERVAL)
-            continue
-        try:
-            with path.open("rb", buffering=0) as file:
+            with open_file(path) as file:
                 yield None
-                if not stat.S_ISREG(about.st_mode):
-                    yield from _lines_of(lambda: os.read(file.fileno(), _CHUNK))
-                else:
-                    yield from _regular(path, file.fileno())
+                yield from _regular(path, file.fileno())
+        except OddFileError:
+            raise
         except OSError:
             sleep(_POLL_INTERVAL)
 
@@ -167,6 +171,8 @@ def _regular(path: Path, descriptor: int) -> Iterator[list[bytes]]:
         chunk = os.read(descriptor, _CHUNK)
         at += len(chunk)
         *lines, rest = (rest + chunk).split(b"\n")
+        if len(rest) > MOST:
+            lines, rest = [*lines, rest], b""
         yield lines
         if not chunk:
             sleep(_POLL_INTERVAL)
@@ -177,12 +183,4 @@ def _regular(path: Path, descriptor: int) -> Iterator[list[bytes]]:
 
 def _stream() -> Iterator[list[bytes] | None]:
     """Yield lines of standard input as they arrive."""
-    yield from _lines_of(lambda: os.read(sys.stdin.fileno(), _CHUNK))
-
-
-def _lines_of(read: Callable[[], bytes]) -> Iterator[list[bytes]]:
-    rest = b""
-    while chunk := read():
-        *lines, rest = (rest + chunk).split(b"\n")
-        yield lines
-    yield [rest]
+    yield from lines_of(lambda: os.read(sys.stdin.fileno(), _CHUNK))

@@ -12,6 +12,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from urllib.parse import parse_qs
 
+from swarmdsl.base.read_files import read_file
 from swarmdsl.ide.preview.editors import Editor, OpenResult, file_of
 from swarmdsl.ide.preview.pictures import Message, Pictures, Steps
 
@@ -193,7 +194,7 @@ class _Handler(BaseHTTPRequestHandler):
             self.send_error(HTTPStatus.NOT_FOUND)
             return
         self._begin(_TYPES[file.suffix])
-        self.wfile.write(file.read_bytes())
+        self.wfile.write(read_file(file))
 
     def do_POST(self) -> None:
         # Browsers let no foreign page send JSON without a preflight, which is not answered.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+from swarmdsl.base.read_files import is_file
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.project.libraries import place_of
@@ -22,7 +23,7 @@ def document_links(file: File) -> Iterator[tuple[Span, Path]]:
     for owner in owners(file):
         for world in nodes_of(owner, World):
             path = Path(file.source.name).parent / world.file
-            if path.is_file():
+            if is_file(path):
                 yield _unquoted(world.file.span.absolute), path
 
 

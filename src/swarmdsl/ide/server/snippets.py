@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
 
+from swarmdsl.base.read_files import read_text
 from swarmdsl.base.records import dataclass
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.candidates import containers
@@ -31,7 +32,7 @@ class Snippet:
 def table() -> dict[tuple[str, ...], list[Snippet]]:
     """Return all snippets by the keywords that must be possible at the cursor."""
     found: dict[tuple[str, ...], list[Snippet]] = {}
-    known = json.loads(_TABLE.read_text(encoding="utf-8"))
+    known = json.loads(read_text(_TABLE))
     for name, each in known.items():
         snippet = Snippet(f"{name} ...", "\n".join(each["text"]), each["about"])
         found.setdefault(tuple(each["where"]), []).append(snippet)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from swarmdsl.analysis.checks import validate
 from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.base.read_files import exists, is_file, is_folder, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.rewriting import Layout
 from swarmdsl.driver import pipeline
@@ -65,7 +66,7 @@ def read_existing(path: Path, report: Diagnostics) -> Existing | None:
     """
     if not os.path.lexists(path):
         return None
-    if path.exists() and not (path.is_file() or path.is_dir()):
+    if exists(path) and not (is_file(path) or is_folder(path)):
         reason = "it is not a regular file"
         report.report(
             "cannot-write", path=path, reason=reason, help="omit `-o` to write to standard output"
@@ -110,7 +111,7 @@ def update_files(
 
 def _layout(name: str, text: str, report: Diagnostics) -> Layout | None:
     """Return a changed file in canonical layout with its original line ends."""
-    before = Path(name).read_bytes()
+    before = read_file(name)
     windows = before.partition(b"\n")[0].endswith(b"\r")
     content = text.replace("\n", "\r\n") if windows else text
     found = Diagnostics()

@@ -8,10 +8,13 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.find_files import TooManyFilesError, walk
+from swarmdsl.base.read_files import exists, is_folder, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.project.libraries import SUFFIX
 from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS, Kind
+from swarmdsl.project.search import report_too_many
 
 _MANIFEST = "package.xml"
 # Files that make the build tools of ROS ignore a folder.
@@ -73,10 +76,10 @@ def find_interfaces(
     """
     if look is not None:
         look(folder)
-    if not folder.exists():
+    if not exists(folder):
         report.report("file-not-found", at, path=folder, help=_WANTED)
         return []
-    if not folder.is_dir():
+    if not is_folder(folder):
         report.report(
             "not-a-file",
             at,
@@ -166,10 +169,17 @@ class _Finder:
                 if name.endswith((".yaml", ".yml")):
                     yield ParameterPath(package, folder / name)
 
+    def _walk(self) -> Iterator[tuple[str, list[str], list[str]]]:
+        try:
+            yield from walk(self._top, self._unreadable, followlinks=True)
+        except TooManyFilesError as error:
+            report_too_many(error, self._at, self._report)
+            self.reported = True
+
     def _folders(self) -> Iterator[tuple[Path, list[str]]]:
         """Folders that may have interfaces, each with the names of its files."""
         seen: set[str] = set()
-        for folder, inner, names in os.walk(self._top, onerror=self._unreadable, followlinks=True):
+        for folder, inner, names in self._walk():
             real = os.path.realpath(folder)
             if real in seen or not _IGNORED.isdisjoint(names):
                 inner.clear()
@@ -213,18 +223,18 @@ class _Finder:
         if manifest not in self._manifests:
             if self._look is not None:
                 self._look(manifest)
-            self._manifests[manifest] = self._read(manifest) if manifest.is_file() else None
+            self._manifests[manifest] = self._read(manifest) if exists(manifest) else None
         return self._manifests[manifest]
 
     def _read(self, manifest: Path) -> str | None:
         from xml.etree import ElementTree
 
         try:
-            name = ElementTree.parse(manifest).findtext("name", "").strip()
+            name = ElementTree.fromstring(read_file(manifest)).findtext("name", "").strip()
         except OSError as error:
             self._unreadable(error)
             return None
-        except ElementTree.ParseError as error:
+        except (ElementTree.ParseError, ValueError) as error:
             self._cannot_read(manifest, f"it is not XML: {error}")
             return None
         return name or None

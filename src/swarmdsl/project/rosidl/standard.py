@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Literal
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import read_text
 from swarmdsl.base.source import Source
 from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS, Interface, Kind, parse_interface
 from swarmdsl.syntax.ast import Documented
@@ -64,7 +65,7 @@ def _texts() -> dict[str, dict[tuple[str, str], str]]:
     """Source text of each interface, by package, then by kind and name."""
     texts: dict[str, dict[tuple[str, str], str]] = {}
     for file in FILES:
-        _, *parts = _HEADING.split((FOLDER / file).read_text(encoding="utf-8"))
+        _, *parts = _HEADING.split(read_text(FOLDER / file))
         for package, kind, name, text in zip(*(parts[i::4] for i in range(4)), strict=True):
             texts.setdefault(package, {})[kind, name] = text
     return texts

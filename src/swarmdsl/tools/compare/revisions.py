@@ -7,7 +7,9 @@ import re
 from pathlib import Path, PurePosixPath
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.find_files import MOST_TOGETHER
 from swarmdsl.base.git import run_git
+from swarmdsl.base.read_files import exists, is_folder
 from swarmdsl.base.records import dataclass
 
 # Sources of a model, and files that configure a project or name a package of interfaces.
@@ -43,7 +45,7 @@ def parse_against(text: str, path: Path) -> Revision:
 def parse_model(text: str) -> Path | Revision:
     """Parse a path or, if no such path exists, `REVISION:PATH`."""
     revision, colon, path = text.partition(":")
-    if Path(text).exists() or not colon or len(revision) < 2:  # one letter: a Windows drive
+    if exists(text) or not colon or len(revision) < 2:  # one letter: a Windows drive
         return Path(text)
     return Revision(revision, path)
 
@@ -73,8 +75,13 @@ def extract(revision: Revision, folder: Path, report: Diagnostics) -> Path | Non
         git.fail(str(revision), f"a link leads out of the repository to `{path}`")
         return None
     inner = path.relative_to(top)
-    entries = git.run("ls-tree", "-r", "-z", "--full-tree", commit)
-    files = dict(list_files(entries or b""))
+    entries = git.run("ls-tree", "-r", "-z", "-l", "--full-tree", commit)
+    listed = list_files(entries or b"")
+    if sum(size for _, _, size in listed) > MOST_TOGETHER:
+        much = f"{MOST_TOGETHER // 2**20} MB of models"
+        git.fail(str(revision), f"its repository has more than {much}")
+        return None
+    files = {path: object_ for path, object_, _ in listed}
     place = PurePosixPath(inner.as_posix())
     if not any(place == name or place in name.parents for name in files):
         git.fail(str(revision), "it contains no model")
@@ -111,7 +118,7 @@ class _Git:
         self._path = path
         self._report = report
         folders = (path, *path.absolute().parents)
-        self._folder = next(folder for folder in folders if folder.is_dir())
+        self._folder = next(folder for folder in folders if is_folder(folder))
 
     def run(self, *arguments: str, given: bytes = b"") -> bytes | None:
         """Output of a git command; None if it fails."""
@@ -142,16 +149,17 @@ class _Git:
         self._report.report("no-revision", None, name=name, reason=reason)
 
 
-def list_files(entries: bytes) -> list[tuple[PurePosixPath, str]]:
-    """Files of a tree that models may need, with their object names."""
+def list_files(entries: bytes) -> list[tuple[PurePosixPath, str, int]]:
+    """Files of a tree that models may need, with their object names and sizes."""
     found = []
     for entry in entries.decode(errors="surrogateescape").split("\0"):
         about, _, name = entry.partition("\t")
         path = PurePosixPath(name)
         if about and (path.suffix in _SUFFIXES or path.name in _NAMES):
-            mode, _, object_ = about.split(" ")
+            mode, _, object_, size = about.split()
             if mode in _FILES:
-                found.append((path, object_))
+                # A partial clone knows no size of what it lacks.
+                found.append((path, object_, int(size) if size.isdecimal() else 0))
     return found
 
 

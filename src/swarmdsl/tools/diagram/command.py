@@ -8,6 +8,7 @@ from pathlib import Path
 
 from swarmdsl.base.atomic_write import Staging
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.read_files import exists, is_folder
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.base.suggest import suggest
@@ -57,7 +58,7 @@ def draw(
     if report.has_errors:
         return DrawResult(report, checked.files)
     suffix = SUFFIXES[format_]
-    to_file = out is not None and not out.is_dir() and (out.suffix == suffix or out.exists())
+    to_file = out is not None and not is_folder(out) and (out.suffix == suffix or exists(out))
     if len(chosen) > 1 and (out is None or to_file):
         where = f"file `{out}`" if out is not None else "standard output"
         help_ = _selection_hint(chosen)
@@ -65,9 +66,9 @@ def draw(
         return DrawResult(report, checked.files)
     if out is None:
         return DrawResult(report, checked.files, write(chosen[0]))
-    is_folder = out.is_dir() or len(chosen) > 1 or (not out.suffix and not out.exists())
+    inside = is_folder(out) or len(chosen) > 1 or (not out.suffix and not exists(out))
     texts = {
-        out / f"{each.stem}{suffix}" if is_folder else out: write(each).encode() for each in chosen
+        out / f"{each.stem}{suffix}" if inside else out: write(each).encode() for each in chosen
     }
     return DrawResult(report, checked.files, written=_write(texts, report))
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from swarmdsl.base.atomic_write import Staging
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import MOST_RECORDED, exists, is_file, is_folder, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
@@ -49,8 +50,8 @@ def run(paths: tuple[Path, ...], out: Path | None, *, libraries: bool) -> Docume
 def _path(out: Path | None, name: str) -> Path:
     if out is None:
         return Path(f"{name}{_SUFFIX}")
-    is_folder = out.is_dir() or (not out.suffix and not out.exists())
-    return out / f"{name}{_SUFFIX}" if is_folder else out
+    inside = is_folder(out) or (not out.suffix and not exists(out))
+    return out / f"{name}{_SUFFIX}" if inside else out
 
 
 def _signed(text: str) -> bytes:
@@ -68,7 +69,7 @@ def _write(path: Path, content: bytes, report: Diagnostics) -> bool:
     # Keep a symbolic link and replace its target.
     place = Path(os.path.realpath(path))
     try:
-        if place.is_file() and not _is_ours(place.read_bytes()):
+        if is_file(place) and not _is_ours(read_file(place, MOST_RECORDED)):
             reason = "it was edited or not written by swarmc"
             help_ = "move it away, or choose another file with `-o`"
             report.report("would-overwrite", path=path.as_posix(), reason=reason, help=help_)

@@ -12,6 +12,7 @@ from urllib.parse import quote
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup, escape
 
+from swarmdsl.base.read_files import read_text
 from swarmdsl.base.xml_writer import legal
 from swarmdsl.tools.diagram.svg import style
 from swarmdsl.tools.document.page import Cell, Code, Figure, Inline, Page
@@ -40,12 +41,12 @@ def html(page: Page, anchors: Mapping[str, str]) -> str:
         "breakable": breakable,
     }
     environment.tests["figure"] = lambda value: isinstance(value, Figure)
-    script = (_FILES / "page.js").read_text(encoding="utf-8")
+    script = read_text(_FILES / "page.js")
     text = environment.get_template("page.html.jinja").render(
         page=page,
         script=Markup(script),
         script_hash=b64encode(sha256(script.encode()).digest()).decode(),
-        styles=Markup(style() + (_FILES / "page.css").read_text(encoding="utf-8")),
+        styles=Markup(style() + read_text(_FILES / "page.css")),
     )
     return legal(text)
 

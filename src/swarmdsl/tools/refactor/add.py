@@ -8,6 +8,7 @@ from pathlib import Path
 
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Label, Level, Severity
+from swarmdsl.base.read_files import read_file
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.rewriting import Change, Layout, rewritten
 from swarmdsl.base.source import Source
@@ -92,7 +93,7 @@ def add(
             break
         _insert(*missing, workspace, contents)
     report.include(_new_diagnostics(before, workspace.report))
-    layouts = [Layout(str(path), path.read_bytes(), text) for path, text in contents.items()]
+    layouts = [Layout(str(path), read_file(path), text) for path, text in contents.items()]
     names, named = [layout.name for layout in layouts], [given_file] if given_file else []
     if report.has_errors or not may_write_models(names, paths, report, named):
         return AddResult(report, workspace.files)
@@ -105,7 +106,7 @@ def _insert(file: File, change: Change, workspace: Workspace, contents: dict[Pat
     """Apply a change to the workspace, and to the contents that are written."""
     path = Path(file.source.name)
     start, end, text = change = _align(file, change)
-    layout = rewritten(str(path), contents.get(path, path.read_bytes()), [change])
+    layout = rewritten(str(path), contents.get(path, read_file(path)), [change])
     contents[path] = layout.after
     whole = file.source.text
     workspace.update({path: whole[:start] + text + whole[end:]})

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
-from swarmdsl.base.find_files import files_below
+from swarmdsl.base.read_files import read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.rewriting import Change, Layout, rewritten
 from swarmdsl.base.source import Source, Span
@@ -19,6 +19,7 @@ from swarmdsl.driver.workspace.renaming import RefusedError, replaced
 from swarmdsl.driver.workspace.renaming import rename as places_of
 from swarmdsl.driver.write_bounds import may_write_models
 from swarmdsl.project.read_source import read_source
+from swarmdsl.project.search import found_below
 from swarmdsl.tools.refactor.names import NamedElement, all_elements, find_elements, suggest_path
 from swarmdsl.tools.scaffold.names import command_line_span
 
@@ -66,7 +67,7 @@ def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) 
     changes |= _test_changes(
         workspace, paths, (found.path[-1], new), namesakes, replaced(spans, new), report
     )
-    layouts = [rewritten(str(path), path.read_bytes(), made) for path, made in changes.items()]
+    layouts = [rewritten(str(path), read_file(path), made) for path, made in changes.items()]
     _check_style(workspace, spans, new, report)
     names = [layout.name for layout in layouts]
     if not may_write_models(names, paths, report) or not (dry_run or write(layouts, report)):
@@ -131,7 +132,7 @@ def _test_changes(
     Old names that remain are reported.
     """
     old, new = names
-    sources = list(_toml_files_containing(paths, old))
+    sources = list(_toml_files_containing(paths, old, report))
     if not sources:
         return {}
     hint = "change it too if it refers to the renamed element"
@@ -159,12 +160,14 @@ def _test_changes(
     return changes
 
 
-def _toml_files_containing(paths: Sequence[Path], name: str) -> Iterator[tuple[Path, Source]]:
+def _toml_files_containing(
+    paths: Sequence[Path], name: str, report: Diagnostics
+) -> Iterator[tuple[Path, Source]]:
     """Yield the TOML files beside the model that contain a name."""
     project = find_file(paths[0] if paths else Path())
     folders = [project.parent] if project is not None else [*paths] or [Path()]
     for folder in folders:
-        for path in files_below(folder, ".toml"):
+        for path in found_below(folder, ".toml", report) or ():
             source = read_source(path, None, Diagnostics()) if path.name != "swarm.toml" else None
             if source is not None and name in source.text:
                 yield path, source

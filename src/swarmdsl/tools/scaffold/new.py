@@ -7,6 +7,7 @@ from pathlib import Path
 
 from swarmdsl.base.atomic_write import Staging
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import is_folder
 from swarmdsl.base.records import dataclass
 from swarmdsl.tools.scaffold.plan import Plan, check_plan
 from swarmdsl.tools.scaffold.project import project_files
@@ -52,6 +53,6 @@ def is_taken(folder: Path) -> bool:
 
 def _is_empty_folder(path: Path) -> bool:
     try:
-        return path.is_dir() and not os.listdir(path)  # noqa: PTH208 - one entry is enough
+        return is_folder(path) and not os.listdir(path)  # noqa: PTH208 - one entry is enough
     except OSError:
         return False

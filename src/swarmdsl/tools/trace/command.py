@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from io import FileIO
 from pathlib import Path
 from typing import BinaryIO
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import is_file, open_file
 from swarmdsl.driver.config import find_settings
 from swarmdsl.output import manifest
-from swarmdsl.project.read_source import read_bytes
+from swarmdsl.project.read_source import report_unreadable
 from swarmdsl.tools.trace.annotations import Annotator
 from swarmdsl.tools.trace.generated_files import OutputFolders, nearby_folders
 from swarmdsl.tools.trace.stream import Tracer
@@ -42,7 +44,7 @@ def run(
     stdout.write(tracer.end())
     stdout.flush()
     for out in outs:
-        if not (out / manifest.NAME).is_file():
+        if not is_file(out / manifest.NAME):
             _report_missing(out, "nothing was built into it", report)
     for out in folders.unmapped:
         _report_missing(out, "it was built by a version of swarmc that wrote none", report)
@@ -58,15 +60,13 @@ def _pieces(logs: Sequence[Path], stdin: BinaryIO, report: Diagnostics) -> Itera
         yield from _read(stdin)
     for path in logs:
         try:
-            file = path.open("rb")
-        except (OSError, ValueError):
-            read_bytes(path, None, report, "a log")  # reports the error
-            continue
-        with file:
-            yield from _read(file)
+            with open_file(path) as file:
+                yield from _read(file)
+        except OSError as error:
+            report_unreadable(path, error, None, report, "a log")
 
 
-def _read(stream: BinaryIO) -> Iterator[bytes]:
+def _read(stream: BinaryIO | FileIO) -> Iterator[bytes]:
     # `read1` returns available data; `read` would wait for the full amount.
     while data := getattr(stream, "read1", stream.read)(_AT_ONCE):
         yield data

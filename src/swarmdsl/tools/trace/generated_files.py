@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from functools import cached_property, lru_cache
 from pathlib import Path
 
+from swarmdsl.base.read_files import MOST_RECORDED, is_file, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.output import manifest, user_regions
 from swarmdsl.output.merge import matches
@@ -34,7 +35,7 @@ class GeneratedFile:
     @cached_property
     def _content(self) -> bytes:
         try:
-            return (self.out / self.path).read_bytes()
+            return read_file(self.out / self.path, MOST_RECORDED)
         except OSError:
             return b""
 
@@ -104,7 +105,7 @@ class OutputFolders:
         if folder in self._visited:
             return
         self._visited.add(folder)
-        if not os.path.isfile(os.path.join(folder, manifest.NAME)):  # noqa: PTH113, PTH118 - often
+        if not is_file(os.path.join(folder, manifest.NAME)):  # noqa: PTH118 - often
             return
         out = Path(folder)
         try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.base.read_files import read_text
 
 _PAGES = Path(__file__).resolve().parent
 
@@ -24,4 +25,4 @@ def find_code(word: str) -> str | None:
 
 def page(code: str) -> str:
     """Return the page of a code, in Markdown."""
-    return page_path(code).read_text(encoding="utf-8")
+    return read_text(page_path(code))
