@@ -11,6 +11,7 @@ ARGS :=
 WORKERS := auto
 PARALLEL = $(BIN)/pytest -n $(WORKERS)
 MUTANTS ?= 10000
+CASES ?= 20000
 BENCH_READY := benchmarks/node_modules/.ready
 EXTENSION := editors/vscode
 EXTENSION_READY := $(EXTENSION)/node_modules/.package-lock.json
@@ -84,10 +85,11 @@ docs: $(VENV)/.docs ## Build the handbook in build/site; a link that leads nowhe
 bench: $(READY) $(BENCH_READY) ## Measure, beside other programs, for docs/performance.md; BENCH=cold,parse for some of it.
 	$(BIN)/python benchmarks/bench.py $(BENCH)
 
-fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
+fuzz: $(READY) ## Run commands with 10,000 models with random mistakes, and in 20,000 other cases; MUTANTS=100000 CASES=100000 for more.
 	$(BIN)/pytest -q --timeout 0 tests/syntax/test_mutations.py tests/syntax/test_segments.py tests/pegen tests/workspace --mutants $(MUTANTS)
 	$(BIN)/pytest -q --timeout 0 tests/swarm_printer/test_property.py tests/importing/test_adf_back.py tests/importing/test_portable.py \
 		--hypothesis-profile chance
+	$(BIN)/pytest -q tests/fuzz --cases $(CASES)
 
 parser: $(READY) ## Make the parser from the grammar.
 	$(BIN)/python -m swarmdsl.syntax.pegen

@@ -57,6 +57,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--mutants", type=int, default=400, help="how many models with random mistakes are checked"
     )
+    parser.addoption(
+        "--cases",
+        type=int,
+        default=300,
+        help="how many commands run with odd files, documents with mistakes, and any arguments",
+    )
 
 
 @pytest.fixture
