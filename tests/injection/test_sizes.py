@@ -71,20 +71,46 @@ def test_numbers_in_descriptions(number: str, folder: Path, swarmc: Callable[...
 
 @pytest.mark.parametrize("line", ['{"t": %s}', '{"event": "Go", "after": %s}'])
 @pytest.mark.parametrize("option", ["--events", "--replay"])
+@pytest.mark.parametrize("number", [DIGITS, "9" * 400], ids=len)
 def test_numbers_in_recordings(
-    line: str, option: str, folder: Path, swarmc: Callable[..., Ran]
+    number: str, line: str, option: str, folder: Path, swarmc: Callable[..., Ran]
 ) -> None:
     (folder / "machine.scxml").write_text(MACHINE.format(1))
-    (folder / "lines.jsonl").write_text(line % DIGITS)
+    (folder / "lines.jsonl").write_text(line % number)
     assert swarmc("simulate", "machine.scxml", option, "lines.jsonl").code == 1
 
 
-@pytest.mark.parametrize("text", ["seed = {}", 'until = "{} s"', "[member.a]\ncount = {}"])
-def test_numbers_in_scenarios(text: str, folder: Path, swarmc: Callable[..., Ran]) -> None:
+@pytest.mark.parametrize("text", ["seed = {}", 'until = "{} s"', "[network]\nloss = {}"])
+@pytest.mark.parametrize("number", [DIGITS, "9" * 20, f"0x{DIGITS}"], ids=len)
+def test_numbers_in_scenarios(
+    number: str, text: str, folder: Path, swarmc: Callable[..., Ran]
+) -> None:
     (folder / "machine.scxml").write_text(MACHINE.format(1))
-    (folder / "scenario.toml").write_text(text.format(DIGITS))
+    (folder / "scenario.toml").write_text(text.format(number))
     done = swarmc("simulate", "machine.scxml", "--scenario", "scenario.toml")
     assert done.code == 1
+
+
+FLOATING = """package a
+message a/Level {{ value : float64  whole : int32 }}
+event Go : a/Level
+statemachine M {{ initial A
+ state A {{ on Go -> End }}
+ final End }}
+member B {{ behavior M }}
+"""
+
+
+@pytest.mark.parametrize("number", ["9" * 400, "1" + "0" * 30, "-" + "9" * 400], ids=len)
+@pytest.mark.parametrize("key", ["value", "whole"])
+def test_numbers_in_data(key: str, number: str, folder: Path, swarmc: Callable[..., Ran]) -> None:
+    """Whole numbers where a model has others."""
+    (folder / "model.swarm").write_text(FLOATING.format())
+    (folder / "events.jsonl").write_text(f'{{"event": "Go", "data": {{"{key}": {number}}}}}')
+    scenario = f'[[messages]]\nevent = "Go"\nat = "1 s"\ndata = {{ {key} = {number} }}\n'
+    (folder / "scenario.toml").write_text(scenario)
+    for option in ("--events=events.jsonl", "--scenario=scenario.toml"):
+        assert swarmc("simulate", "model.swarm", option).code == 1
 
 
 def test_numbers_in_logs(folder: Path, swarmc: Callable[..., Ran]) -> None:

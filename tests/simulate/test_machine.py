@@ -324,8 +324,8 @@ def test_a_param_of_a_swarm_needs_a_value_of_its_role(simulate: Simulate) -> Non
         ("[" * 100_000, "SW1003]: invalid event line: it is nested too deeply", "2:1"),
         (
             '{"after": ' + "9" * 5000 + "}",
-            "SW1003]: invalid event line: a number has too",
-            "2:1",
+            "SW1003]: invalid event line: a number has more than 64 bits",
+            "2:11",
         ),
         ('{"event": "Strat"}', "SW0202]: no event called `Strat`", "2:12"),
         ('{"event": "Start", "afer": 5}', "SW0012]: an event has no key `afer`", "2:21"),

@@ -7,12 +7,14 @@ accepted source finds these.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from contextlib import suppress
 from typing import Any, NamedTuple
 
 import tomli
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.numerals import fits_64_bits
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
 
@@ -65,7 +67,26 @@ def parse_toml(source: Source, report: Diagnostics) -> Document | None:
             reason = f"`{place.text}` overwrites what is given before it"
         report.report("bad-toml", place, path=source.name, reason=reason)
         return None
-    return Document(source, values, _Places(source, len(source.text)).find())
+    places = _Places(source, len(source.text)).find()
+    if (keys := _too_large((), values)) is not None:
+        place = places[keys].value if keys in places else Span(source, 0, 0)
+        reason = "a number has more than 64 bits"
+        report.report("bad-toml", place, path=source.name, reason=reason)
+        return None
+    return Document(source, values, places)
+
+
+def _too_large(keys: Keys, value: Any) -> Keys | None:
+    """Return the way to a number that TOML does not have, None if there is none."""
+    if isinstance(value, int):
+        return None if fits_64_bits(value) else keys
+    inner: Iterable[tuple[str | int, Any]] = ()
+    if isinstance(value, dict):
+        inner = value.items()
+    elif isinstance(value, list):
+        inner = enumerate(value)
+    found = (_too_large((*keys, key), each) for key, each in inner)
+    return next((each for each in found if each is not None), None)
 
 
 def _last_key(source: Source, end: int) -> Span:

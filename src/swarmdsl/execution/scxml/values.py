@@ -34,7 +34,7 @@ def number(value: Any) -> float | int:
     if isinstance(value, bool):
         return int(value)
     if isinstance(value, (int, float)):
-        return value
+        return value if isinstance(value, float) else whole(value)
     if isinstance(value, str):
         written = value.strip()
         if _HEXADECIMAL.fullmatch(written):

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.numerals import fits_64_bits, integer
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import suggest
@@ -65,7 +66,11 @@ class Reader:
             return None
         try:
             value = json.loads(
-                text, parse_constant=_no_number, parse_float=_real, object_pairs_hook=_fields
+                text,
+                parse_constant=_no_number,
+                parse_int=_whole,
+                parse_float=_real,
+                object_pairs_hook=_fields,
             )
         except json.JSONDecodeError as error:
             start = place.start + min(error.pos, max(len(text) - 1, 0))
@@ -79,10 +84,6 @@ class Reader:
             reason, word = error.args
             start = place.start + max(text.find(word), 0)
             self._bad(Span(place.source, start, start + len(word)), reason)
-            return None
-        except ValueError:
-            # Limit of Python for the digits of an integer.
-            self._bad(place, "a number has too many digits")
             return None
         if not isinstance(value, dict):
             self._bad(place, f"expected an object, not {kind(value)}")
@@ -189,6 +190,13 @@ class _JsonError(ValueError):
 
 def _no_number(word: str) -> Any:
     raise _JsonError(f"`{word}` is not a JSON number", word)
+
+
+def _whole(word: str) -> int:
+    value = integer(word.lstrip("-"))
+    if not fits_64_bits(value):
+        raise _JsonError("a number has more than 64 bits", word)
+    return -value if word.startswith("-") else value
 
 
 def _real(word: str) -> float:

@@ -13,6 +13,9 @@ NAMES = ("configuration", "entered", "exited", "started", "cancelled", "sent")
 NOT_FINITE = ("NaN", "Infinity", "-Infinity")
 """Numbers that JSON does not have, as strings; `float` reads them."""
 
+# 292 years: the maximum in ROS.
+_LONGEST = 2**63 // 1_000_000
+
 
 def named_numbers(data: Any) -> Any:
     """Replace numbers that JSON does not have by their names."""
@@ -52,7 +55,7 @@ def read_line(text: str | bytes) -> dict[str, Any] | str:
 def _fault(value: dict[str, Any]) -> str:
     """Return the reason why a line is invalid, or ""."""
     time = value.get("t")
-    if not isinstance(time, int) or isinstance(time, bool) or time < 0:
+    if not isinstance(time, int) or isinstance(time, bool) or not 0 <= time <= _LONGEST:
         return "`t` must be a number of milliseconds"
     if not isinstance(value.get("event", 0), (str, type(None))):
         return "`event` must be an event name or `null`"

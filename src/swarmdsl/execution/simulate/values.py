@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import listed
+from swarmdsl.base.numerals import fits_64_bits
 from swarmdsl.base.suggest import did_you_mean, suggest
 from swarmdsl.codegen.shared.default_values import default_fields, default_result, result_fields
 from swarmdsl.execution.simulate.durations import duration
@@ -121,7 +122,7 @@ def _primitive(name: str, value: Any, way: Way) -> Any:
             return length
         raise _misfit(way, 'a time like "1.5 s"', value)
     if name in FLOATS:
-        if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if isinstance(value, float) or (type(value) is int and fits_64_bits(value)):
             return float(value)
         if value in NOT_FINITE:
             return float(value)
@@ -144,6 +145,8 @@ def kind(value: Any) -> str:
     match value:
         case None:
             return "nothing"
+        case int() if not fits_64_bits(value):
+            return "so large a number"
         case bool():
             return f"`{str(value).lower()}`"
         case int() | float() | str():
