@@ -129,8 +129,8 @@ class _Git:
             return None
         if done.returncode == 0:
             return done.stdout
-        if done.stderr:
-            message = done.stderr.decode(errors="replace").strip().splitlines()[-1]
+        if lines := done.stderr.decode(errors="replace").strip().splitlines():
+            message = lines[-1]
             self.fail(str(self._path), message.removeprefix("fatal: "))
         return None
 
