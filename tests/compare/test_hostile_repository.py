@@ -219,3 +219,14 @@ def test_a_revision_that_is_too_large(
     git("commit", "--quiet", "-m", "large")
     assert run(["diff", "--against", "HEAD", str(folder)]) == 2
     assert "its repository has more than 1 MB of models" in capsys.readouterr().err
+
+
+def test_a_link_to_itself(git: Git, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = tmp_path / "repository"
+    (folder / "model.swarm").write_text(MODEL)
+    git("add", ".")
+    git("commit", "--quiet", "-m", "model")
+    loop = folder / "loop.swarm"
+    loop.symlink_to(loop)
+    assert run(["diff", "--against", "HEAD", str(loop)]) == 2
+    assert "error[SW1401]" in capsys.readouterr().err

@@ -180,6 +180,16 @@ def test_only_the_first_invalid_line_is_reported(snapshot: Snapshot, tmp_path: P
     )
 
 
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are of POSIX")
+def test_a_pipe_is_not_followed(snapshot: Snapshot, tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    told: SimpleQueue[Diagnostics] = SimpleQueue()
+    follow([str(pipe)], snapshot, told.put)
+    (found,) = told.get(timeout=60)
+    assert found.message == f"`{pipe}` is a pipe, not a trace"
+
+
 @pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
 def test_standard_input_is_followed(
     snapshot: Snapshot, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

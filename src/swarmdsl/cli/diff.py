@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from contextlib import ExitStack
 from pathlib import Path
@@ -158,7 +159,7 @@ def _system(model: Path | Revision, shown: _Shown, stack: ExitStack) -> System |
     if isinstance(model, Path):
         path = model
     else:
-        folder = Path(stack.enter_context(TemporaryDirectory())).resolve()
+        folder = Path(os.path.realpath(stack.enter_context(TemporaryDirectory())))
         shown.add(folder, model.revision)
         path = extract(model, folder, report)
     if path is not None:

@@ -70,7 +70,7 @@ def extract(revision: Revision, folder: Path, report: Diagnostics) -> Path | Non
     if commit is None:
         git.fail(revision.revision, "no such revision in git")
         return None
-    path, top = Path(revision.path).resolve(), Path(root).resolve()
+    path, top = Path(os.path.realpath(revision.path)), Path(os.path.realpath(root))
     if not path.is_relative_to(top):
         git.fail(str(revision), f"a link leads out of the repository to `{path}`")
         return None

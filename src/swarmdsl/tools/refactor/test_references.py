@@ -7,6 +7,7 @@ same name, comments and strings stay.
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
@@ -46,7 +47,7 @@ def find_references(
     """Find references in a test file or scenario with the model before and after."""
     assert source.path is not None  # it was read from a file
     if source.path.name.endswith(SUFFIX):
-        paths = {path.resolve() for path in files}
+        paths = {Path(os.path.realpath(path)) for path in files}
         return _references_in(source, old, new, _tests(before, paths), _tests(after, paths))
     document = parse_toml(source, Diagnostics())
     if document is None or not document.values.keys() <= set(TABLES):
@@ -159,5 +160,5 @@ class _ModelsWith(Models):
         return super().of(named, test_file, report)
 
     def _is_ours(self, path: Path) -> bool:
-        place = path.resolve()
+        place = Path(os.path.realpath(path))
         return place in self._files or any(place in each.parents for each in self._files)
