@@ -46,7 +46,8 @@ TEXTS = {
     ),
     "LIMITS": (
         ("files", "Regular files are read and written; pipes, devices and sockets are errors."),
-        ("8 MB", "Each model, interface, document, scenario or test (SW1217); in editors 2 MB."),
+        ("8 MB", "Each model and interface file (SW1217); in editors 2 MB."),
+        ("2 MB", "Each document of XML, JSON, YAML or TOML: imports, projects, scenarios, tests."),
         ("256 MB", "Each trace, file of events, and generated file. Logs have no limit."),
         ("100,000", "Files and folders below a folder that is searched (SW0018)."),
         ("16 MB", "Models below a folder that is searched, or in a revision, together (SW0018)."),

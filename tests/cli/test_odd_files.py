@@ -229,3 +229,21 @@ def test_models_that_are_too_large_together(
     done = swarmc("check", ".")
     assert done.code == 1
     assert "error[SW0018]: cannot search `.`: it has more than 1 MB of .swarm files" in done.out
+
+
+def test_documents_that_are_too_large(project: Path, swarmc: Callable[..., Ran]) -> None:
+    """What parsers of XML, JSON, YAML and TOML need for them would fill the memory."""
+    for name in ("large.toml", "large.scxml", "large.json", "package/config/large.yaml"):
+        with (project / name).open("wb") as file:
+            file.truncate(read_files.MOST_DATA + 1)
+    for command in (
+        "simulate model.swarm --scenario large.toml",
+        "simulate large.scxml",
+        "import scxml large.scxml",
+        "import adf large.json",
+        "import ros package",
+        "test large.toml",
+    ):
+        done = swarmc(*command.split())
+        assert done.code == 1
+        assert "is larger than 2 MB" in done.out + done.err

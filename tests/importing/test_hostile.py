@@ -165,11 +165,11 @@ def test_descriptions_of_the_wrong_kind() -> None:
 
 def test_size(tmp_path: Path) -> None:
     path = tmp_path / "large.xml"
-    path.write_text(f"{HEAD}{STATE}</scxml>{' ' * 2**23}", encoding="utf-8")
+    path.write_text(f"{HEAD}{STATE}</scxml>{' ' * 2**21}", encoding="utf-8")
 
     done = command.run("scxml", [path], [], None, force=False)
     assert [(f.name, f.message) for f in done.report] == [
-        ("too-large", f"`{path}` is larger than 8 MB")
+        ("too-large", f"`{path}` is larger than 2 MB")
     ]
 
 

@@ -15,7 +15,9 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 MOST = 8 * 2**20
-"""The largest document: a model, an import, a project file, a scenario, a test."""
+"""The largest model."""
+MOST_DATA = 2 * 2**20
+"""The largest document of XML, JSON, YAML or TOML: their parsers take long and much memory."""
 MOST_RECORDED = 256 * 2**20
 """The largest file that a program writes: a trace, a file of events, a list of generated files."""
 

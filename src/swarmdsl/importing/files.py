@@ -8,6 +8,7 @@ from typing import Literal
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import snake_case
+from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.source import Source
 from swarmdsl.importing import import_adf, import_scxml
 from swarmdsl.ir import System
@@ -39,7 +40,7 @@ def read_files(
 
 def read_sources(paths: Sequence[Path], report: Diagnostics) -> list[Source]:
     """Read each readable file."""
-    sources = (read_source(path, None, report, "a file") for path in paths)
+    sources = (read_source(path, None, report, "a file", MOST_DATA) for path in paths)
     return [source for source in sources if source is not None]
 
 

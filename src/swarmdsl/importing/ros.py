@@ -12,7 +12,7 @@ from pathlib import Path
 from swarmdsl.analysis.resolve.type_names import written_type
 from swarmdsl.base import resources
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.read_files import is_folder
+from swarmdsl.base.read_files import MOST_DATA, is_folder
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver import pipeline
@@ -61,12 +61,12 @@ def import_ros(
         found = find_interfaces(folder, None, report, required=not parameters)
         files += len(found) + len(parameters)
         for each in found:
-            source = read_source(each.path, None, report, "a file")
+            source = read_source(each.path, None, report, "a file", MOST_DATA)
             if source is not None and lookup(Named(each.package, each.name), each.kind) is None:
                 read = parse_interface(source, each.package, each.name, each.kind, report)
                 _add(_interface(read, report), interfaces, source, report)
         for file in parameters:
-            source = read_source(file.path, None, report, "a file")
+            source = read_source(file.path, None, report, "a file", MOST_DATA)
             if source is not None:
                 read_params(source, file.package, owners, report)
     system = System(

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.read_files import is_file
+from swarmdsl.base.read_files import MOST_DATA, is_file
 from swarmdsl.base.source import Source
 from swarmdsl.driver.config.settings import FILE_NAME, Settings
 from swarmdsl.project.read_source import read_source
@@ -31,7 +31,7 @@ def read_project(path: Path, report: Diagnostics, source: Source | None = None) 
     from swarmdsl.driver.config.schema import read_settings
     from swarmdsl.driver.config.toml import parse_toml
 
-    source = source or read_source(path, None, report)
+    source = source or read_source(path, None, report, most=MOST_DATA)
     document = parse_toml(source, report) if source is not None else None
     return read_settings(document, path.parent, report) if document is not None else Settings()
 

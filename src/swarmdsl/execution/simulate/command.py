@@ -18,7 +18,7 @@ import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.diagnostics.render.printable import printable
-from swarmdsl.base.read_files import MOST_RECORDED, lines_of
+from swarmdsl.base.read_files import MOST_DATA, MOST_RECORDED, lines_of
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.write_stream import write_stream
 from swarmdsl.driver import pipeline
@@ -111,7 +111,7 @@ def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scena
     """Read a scenario, or return the default one."""
     if path is None:
         return Scenario()
-    source = read_source(path, None, report, "a scenario")
+    source = read_source(path, None, report, "a scenario", MOST_DATA)
     document = parse_toml(source, report) if source is not None else None
     if document is None:
         return None
@@ -138,7 +138,7 @@ def _subject(request: Request, report: Diagnostics) -> Subject | None:
 
 
 def _document(path: Path, report: Diagnostics) -> Document | None:
-    source = read_source(path, None, report)
+    source = read_source(path, None, report, most=MOST_DATA)
     machine = read_scxml(source, report) if source is not None else None
     return Document(source, machine) if source is not None and machine is not None else None
 

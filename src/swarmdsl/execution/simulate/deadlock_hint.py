@@ -6,6 +6,7 @@ from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.driver.config import find_file
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.simulate.scenario_file import read_scenario
@@ -30,7 +31,7 @@ def _scenario(folder: Path, subject: Subject) -> str | None:
     """Find a scenario of this model in a folder that sends messages."""
     for path in found_below(folder, ".toml", Diagnostics()) or ():
         report = Diagnostics()
-        source = read_source(path, None, report)
+        source = read_source(path, None, report, most=MOST_DATA)
         document = parse_toml(source, report) if source is not None else None
         if document is None:
             continue

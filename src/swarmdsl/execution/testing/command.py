@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TextIO
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.write_stream import write_stream
 from swarmdsl.execution.simulate.coverage import Coverage
@@ -78,7 +79,7 @@ class _Session:
 
     def _file(self, path: Path) -> None:
         report = Diagnostics()
-        source = read_source(path, None, report)
+        source = read_source(path, None, report, most=MOST_DATA)
         tests = read_tests(source, self._models, report) if source is not None else None
         cases = tests.cases if tests is not None else ()
         chosen = [c for c in cases if selected(f"{path.as_posix()}::{c.name}", self._pattern)]

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.driver import pipeline
@@ -96,7 +97,7 @@ def _compiled(paths: Iterable[Path], test_file: Path, report: Diagnostics) -> Mo
         if path.suffix != _SCXML:
             models.append(path)
             continue
-        source = read_source(path, None, report)
+        source = read_source(path, None, report, most=MOST_DATA)
         machine = read_scxml(source, report) if source is not None else None
         if source is None or machine is None:
             return None

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.find_files import TooManyFilesError, walk
-from swarmdsl.base.read_files import exists, is_folder, read_file
+from swarmdsl.base.read_files import MOST_DATA, exists, is_folder, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.project.libraries import SUFFIX
@@ -230,7 +230,9 @@ class _Finder:
         from xml.etree import ElementTree
 
         try:
-            name = ElementTree.fromstring(read_file(manifest)).findtext("name", "").strip()
+            name = (
+                ElementTree.fromstring(read_file(manifest, MOST_DATA)).findtext("name", "").strip()
+            )
         except OSError as error:
             self._unreadable(error)
             return None

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
-from swarmdsl.base.read_files import read_file
+from swarmdsl.base.read_files import MOST_DATA, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.rewriting import Change, Layout, rewritten
 from swarmdsl.base.source import Source, Span
@@ -168,6 +168,10 @@ def _toml_files_containing(
     folders = [project.parent] if project is not None else [*paths] or [Path()]
     for folder in folders:
         for path in found_below(folder, ".toml", report) or ():
-            source = read_source(path, None, Diagnostics()) if path.name != "swarm.toml" else None
+            source = (
+                read_source(path, None, Diagnostics(), most=MOST_DATA)
+                if path.name != "swarm.toml"
+                else None
+            )
             if source is not None and name in source.text:
                 yield path, source
