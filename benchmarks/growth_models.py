@@ -135,7 +135,7 @@ def _members(count: int) -> Files:
     """Members with a machine, parts and a role each."""
     return model(
         "sensor Eye { out seen : std_msgs/Int32 }\n"
-        "controller Pilot { in seen : std_msgs/Int32 param gain : float64 = 1.0 }\n"
+        "controller Pilot { in seen : std_msgs/Int32; param gain : float64 = 1.0 }\n"
         + repeated(
             "statemachine M<i> {\n  param speed : float64 = 1.0\n  initial S0\n"
             "  state S0 { on Num -> F }\n  final F\n}\n"
@@ -221,7 +221,7 @@ def _files(count: int) -> Files:
 def _roles(count: int) -> Files:
     """Roles of one swarm that receive what another one sends."""
     return model(
-        "message Told { header : std_msgs/Header swarmio : swarmros/EventHeader n : int32 }\n"
+        "message Told { header : std_msgs/Header, swarmio : swarmros/EventHeader, n : int32 }\n"
         "swarm event Tell : Told\n"
         "statemachine M {\n  initial S0\n  state S0 { on Tell -> F }\n  final F\n}\n"
         "statemachine N {\n  initial S0\n  state S0 { on Go / send Tell(n = 1) -> F }\n"
@@ -234,7 +234,7 @@ def _roles(count: int) -> Files:
 def _events(count: int) -> Files:
     """Swarm events that one machine sends and receives."""
     return model(
-        "message Told { header : std_msgs/Header swarmio : swarmros/EventHeader }\n"
+        "message Told { header : std_msgs/Header, swarmio : swarmros/EventHeader }\n"
         + repeated("swarm event E<i> : Told", count)
         + "\nstatemachine M {\n  initial S0\n"
         + repeated("  state S<i> { on E<i> / send E<i>() -> S<j> }", count)
@@ -311,7 +311,7 @@ def _long_text(count: int) -> Files:
 def _sends(count: int) -> Files:
     """Events that one transition sends."""
     return model(
-        "message Told { header : std_msgs/Header swarmio : swarmros/EventHeader n : int32 }\n"
+        "message Told { header : std_msgs/Header, swarmio : swarmros/EventHeader, n : int32 }\n"
         "swarm event Tell : Told\n"
         "statemachine M {\n  initial S0\n  state S0 {\n    on Go /\n"
         + repeated("      send Tell(n = <i>),", count)

@@ -10,8 +10,10 @@ import pytest
 
 from swarmdsl.cli import run
 
-BEFORE = "swarm event Go : std_msgs/Empty\n"
+BEFORE = (
+    "swarm event Go : std_msgs/Empty\n"
     "statemachine M { initial A; state A { on Go -> B } final B }\n"
+)
 AFTER = BEFORE.replace("Empty", "String")
 
 

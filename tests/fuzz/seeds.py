@@ -4,8 +4,8 @@ from __future__ import annotations
 
 MODEL = """package sar
 import ros "lamp_msgs"
-message lamps/Level { value : float64  names : string[] }
-enum Mode : int32 { OFF = 1  ON }
+message lamps/Level { value : float64, names : string[] }
+enum Mode : int32 { OFF = 1, ON }
 event Go : lamps/Level
 event Stop : std_msgs/Empty
 event Back : std_msgs/Empty

@@ -92,7 +92,7 @@ def test_numbers_in_scenarios(
 
 
 FLOATING = """package a
-message a/Level {{ value : float64  whole : int32 }}
+message a/Level {{ value : float64, whole : int32 }}
 event Go : a/Level
 statemachine M {{ initial A
  state A {{ on Go -> End }}

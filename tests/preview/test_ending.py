@@ -20,7 +20,7 @@ from swarmdsl.ide.preview.serving import Snapshot
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 
 PATIENCE = 60
-MODEL = "package work\nstatemachine Work { initial A state A { after 1 s -> B } final B }\n"
+MODEL = "package work\nstatemachine Work { initial A; state A { after 1 s -> B } final B }\n"
 # A mutex that is locked twice: a call of C that no signal interrupts. FREE lets other threads of
 # Python run meanwhile, HELD does not.
 HANG = """
