@@ -124,8 +124,9 @@ def _values(effects: Iterable[Effect]) -> Iterator[Expression]:
         match effect:
             case Assignment(value=value):
                 yield value
-            case Send(arguments=arguments):
+            case Send(arguments=arguments, to=to):
                 yield from (value for _, value in arguments)
+                yield from to.values if to is not None else ()
 
 
 def _unsupported(construct: str, event: Event, report: Diagnostics) -> None:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from keyword import iskeyword
 
 from swarmdsl.codegen.python import Call, Source, layout
+from swarmdsl.codegen.shared import python_address
 from swarmdsl.ir import Assignment, Effect, Expression, Named, Send
 
 from .expressions import DATA, attribute, python_expression, stored
@@ -24,12 +25,17 @@ def _effect(effect: Effect, module: Module) -> list[str]:
     match effect:
         case Assignment(variable=variable, path=path, value=value):
             return [_store(variable, path, value, module)]
-        case Send(event=name, arguments=arguments):
+        case Send(event=name, arguments=arguments, to=to):
             type_ = module.system.event(name).type
             assert isinstance(type_, Named)
             message = filled(module.imports.interface(type_, "msg"), arguments, module)
             module.imports.own("engine", "Event")
-            call = Call("machine.emit", (Call("Event", (name, message)),))
+            keywords: tuple[tuple[str, object], ...] = ()
+            if to is not None:
+                module.imports.own("engine", "Envelope")
+                address = python_address(to, lambda each: python_expression(each, module.imports))
+                keywords = (("envelope", Call("Envelope", (), (("to", Source(address)),))),)
+            call = Call("machine.emit", (Call("Event", (name, message), keywords),))
             return [layout(call, 1, STEP, width=WIDTH)]
 
 

@@ -25,6 +25,7 @@ from swarmdsl.ir import (
     Array,
     Binary,
     Call,
+    EnvelopeField,
     Expression,
     FieldAccess,
     Literal,
@@ -102,6 +103,8 @@ def _for_python(expression: Expression, imports: Imports) -> Expression:
         case Literal(name=name) if name:
             text = _literal(replace(expression, name=""))
             return replace(expression, name=imports.constants.name(name, text))
+        case EnvelopeField(header=header) if header is not None:
+            return _for_python(header, imports)
         case FieldAccess(base=base, field=field, type=type_):
             inner, field = _for_python(base, imports), field_name(field)
             plain = isinstance(type_, Named | Array) or (
@@ -140,6 +143,7 @@ def _dialect(data: str) -> Dialect:
         variable=name,
         param=name,
         event=f"{EVENT}.data",
+        envelope=lambda fact: f"{EVENT}.envelope.{fact.field}",
         identity=f"{data}.self.{{}}".format,
         operators={},
         functions=PYTHON_FUNCTIONS,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.ir import Array, EventTrigger, Named, Send, StateMachine, System
 
 
@@ -39,6 +40,7 @@ def dependencies(system: System, machines: Iterable[StateMachine]) -> list[str]:
     """Return the packages that the nodes depend on."""
     found = {"action_msgs", "builtin_interfaces", "diagnostic_msgs", "rcl_interfaces", "rclpy"}
     found.add("std_msgs")
+    around = envelopes_of(system)
     for machine in machines:
         for variable in machine.variables:
             element = variable.type.element if isinstance(variable.type, Array) else variable.type
@@ -50,4 +52,6 @@ def dependencies(system: System, machines: Iterable[StateMachine]) -> list[str]:
             type_ = system.event(name).type
             if isinstance(type_, Named):
                 found.add(type_.package)
+            if name in around:
+                found.add(around[name].type.package)
     return sorted(found)

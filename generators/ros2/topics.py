@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.codegen import Diagnostics, incoming_topic
 from swarmdsl.codegen.python import Call, Source
+from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.ir import Event, Named, StateMachine, System
 
 from .actions import feedback_topic
@@ -24,6 +25,7 @@ def topics(
     heard, sent = heard_events(machine), sent_events(machine)
     is_heard, is_sent = frozenset(heard), frozenset(sent)
     found = []
+    around = envelopes_of(system)
     for name in dict.fromkeys([*heard, *sent]):
         event = system.event(name)
         assert isinstance(event.type, Named)
@@ -38,6 +40,9 @@ def topics(
         keywords += [("sent", True)] if name in is_sent else []
         if event.swarm and name in is_sent and _is_heard_here(event, system):
             keywords.append(("local", event.topic))
+        if name in around:
+            interface = imports.interface(around[name].type, "msg")
+            keywords.append(("envelope", Source(interface)))
         found.append((event, Call("Topic", arguments, tuple(keywords))))
     return found
 

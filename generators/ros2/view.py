@@ -13,7 +13,7 @@ from swarmdsl.codegen.ros import (
     interfaces_to_write,
     manifest,
 )
-from swarmdsl.codegen.shared import uses_self
+from swarmdsl.codegen.shared import envelopes_of, uses_self
 from swarmdsl.ir import StateMachine, System
 
 from . import names, package
@@ -101,7 +101,8 @@ def package_view(
         return None
     name = NAMES.package(system, options.package, report)
     modules = NAMES.of_modules(machines, report)
-    interfaces = group_by_package(map(ported, interfaces_to_write(system, options.interfaces)), 2)
+    written = [*interfaces_to_write(system, options.interfaces), *envelopes_of(system).values()]
+    interfaces = group_by_package(map(ported, written), 2)
     check_described(system, options.interfaces, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
     of_actions = messages_of_actions(system)

@@ -19,6 +19,7 @@ from swarmdsl.ir import (
     Array,
     Binary,
     Call,
+    EnvelopeField,
     Expression,
     FieldAccess,
     Literal,
@@ -32,6 +33,7 @@ from swarmdsl.ir import (
 from .imports import Imports
 
 EVENT = "event"
+ENVELOPE = "envelope"
 USERDATA = "userdata"
 
 
@@ -39,6 +41,8 @@ def python_expression(expression: Expression, imports: Imports) -> str:
     """Return an expression in Python; variables and params are in userdata."""
     for part in subexpressions(expression):
         if isinstance(part, Literal) and part.type == DURATION:
+            imports.module("rospy")
+        if isinstance(part, EnvelopeField) and part.field == "sent":
             imports.module("rospy")
         if uses_math(part):
             imports.module("math")
@@ -79,6 +83,8 @@ def _for_python(expression: Expression, imports: Imports) -> Expression:
         case Literal(name=name) if name:
             text = _literal(replace(expression, name=""))
             return replace(expression, name=imports.constants.name(name, text))
+        case EnvelopeField(header=header) if header is not None:
+            return replace(expression, header=_for_python(header, imports))
         case FieldAccess(base=base, field=field):
             return replace(expression, base=_for_python(base, imports), field=field_name(field))
         case Unary(operand=operand):
@@ -108,6 +114,15 @@ def _literal(literal: Literal) -> str:
     return f"rospy.Duration({text})" if literal.type == DURATION else text
 
 
+def _envelope(fact: EnvelopeField) -> str:
+    """Return a fact about the event; one in a header is a field by now."""
+    if fact.header is None:
+        told = f"{ENVELOPE}.{fact.field}"
+        return told if fact.field == "sender" else f"rospy.Duration(0, {told})"
+    value = translate(fact.header, _DIALECT)
+    return value if fact.field == "sender" else f"({value} - rospy.Time())"
+
+
 def _key(name: str) -> str:
     return f"{USERDATA}.{name}"
 
@@ -117,6 +132,7 @@ _DIALECT = Dialect(
     variable=_key,
     param=_key,
     event=EVENT,
+    envelope=_envelope,
     identity=f"{USERDATA}.self.{{}}".format,
     operators={},
     functions=PYTHON_FUNCTIONS,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from swarmdsl.codegen.ros import named_types
+from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.ir import EventTrigger, Named, Send, StateMachine, System
 
 
@@ -33,8 +34,11 @@ def used_types(system: System, machines: Iterable[StateMachine]) -> list[tuple[N
             if state.activity is not None:
                 call = system.function(state.activity.function).communication
                 found.append((call.type, "srv" if call.paradigm == "service" else "action"))
+    around = envelopes_of(system)
     for name in used_events(machines):
         found += ((type_, "msg") for type_ in named_types(system.event(name).type))
+        if name in around:
+            found.append((around[name].type, "msg"))
     return list(dict.fromkeys(found))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.codegen.python import Call, Source, layout
-from swarmdsl.codegen.shared import field_type
+from swarmdsl.codegen.shared import field_type, python_address
 from swarmdsl.ir import Assignment, Effect, Expression, Named, Send, Type, bound_of
 
 from .expressions import USERDATA, field_name, python_expression
@@ -76,4 +76,8 @@ def _send(send: Send, depth: int, module: Module) -> str:
             for name, value in send.arguments
         ),
     )
-    return layout(Call(f"{module.event(send.event)}.send", (message,)), depth, STEP * depth)
+    arguments: tuple[object, ...] = (message,)
+    if send.to is not None:
+        text = python_address(send.to, lambda value: python_expression(value, module.imports))
+        arguments = (message, Source(text))
+    return layout(Call(f"{module.event(send.event)}.send", arguments), depth, STEP * depth)

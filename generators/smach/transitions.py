@@ -6,7 +6,9 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.codegen import dataclass
 from swarmdsl.codegen.python import Call, Source, comments
+from swarmdsl.codegen.shared import reads_envelope
 from swarmdsl.ir import (
+    Effect,
     EventTrigger,
     Expression,
     OutcomeTrigger,
@@ -22,7 +24,7 @@ from ..outcome_routes import (
     outcome_word,
     timer_names,
 )
-from .expressions import python_expression
+from .expressions import ENVELOPE, python_expression
 from .module import PREEMPTED, Module
 from .outcomes import outcome_names
 from .statements import STEP, effect_lines
@@ -122,7 +124,7 @@ class TransitionMaker:
             lines = effect_lines(transition.effects, 1, self.module)
             above = comments(transition.origin, transition.doc)
             words = (state.id, call.word, "effect")
-            name = self.module.add_function(words, "userdata, event", lines, above)
+            name = self.module.add_function(words, _parameters(transition.effects), lines, above)
             found.append(("effect", Source(name)))
         if route.target is not None and route.target.inside:
             found.append(("into", route.target.inside))
@@ -131,7 +133,7 @@ class TransitionMaker:
         return tuple(found)
 
     def _guard(self, guard: Expression, word: str, state: State) -> Source:
-        parameters = "userdata, event"
+        parameters = _parameters([guard])
         text = python_expression(guard, self.module.imports)
         if len(text) <= _SHORT:
             return Source(f"lambda {parameters}: {text}")
@@ -146,6 +148,10 @@ class TransitionMaker:
     def _function(self, words: Iterable[str], parameters: str, text: str, at: Expression) -> Source:
         body = [f"{STEP}return {text}"]
         return Source(self.module.add_function(words, parameters, body, comments(at.origin)))
+
+
+def _parameters(content: Iterable[Expression | Effect]) -> str:
+    return f"userdata, event, {ENVELOPE}" if reads_envelope(content) else "userdata, event"
 
 
 def _on(call: _On, outcome: str | None, keywords: tuple[tuple[str, object], ...]) -> Call:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from swarmdsl.codegen import Diagnostics, Picture, Span, chosen_machines, dataclass, pictures
 from swarmdsl.codegen.python import (
@@ -24,12 +24,13 @@ from swarmdsl.codegen.ros import (
     manifest,
     third_party_packages,
 )
-from swarmdsl.codegen.shared import uses_self
+from swarmdsl.codegen.shared import envelopes_of, uses_self
 from swarmdsl.ir import (
     DURATION,
     Array,
     Event,
     Literal,
+    Message,
     Named,
     Param,
     Primitive,
@@ -154,7 +155,9 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         return None
     name = NAMES.package(system, options.package, report)
     modules = NAMES.of_modules(machines, report)
-    interfaces = group_by_package(interfaces_to_write(system, options.interfaces), 1)
+    around = envelopes_of(system)
+    written = [*interfaces_to_write(system, options.interfaces), *around.values()]
+    interfaces = group_by_package(written, 1)
     check_described(system, options.interfaces, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
     used = package.used_types(system, machines)
@@ -170,7 +173,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     ]
     doc = system.doc or f"Behaviour of {system.name}."
     event_imports = Imports(types)
-    event_views = _event_views(events, constants, event_imports)
+    event_views = _event_views(events, around, constants, event_imports)
     launched = {machine.name for machine in machines}
     made = robots(system, launched, options.components, report)
     bringup = {each.components.package for each in made if each.components is not None}
@@ -332,7 +335,10 @@ def _events(system: System, machines: list[StateMachine], report: Diagnostics) -
 
 
 def _event_views(
-    events: Iterable[Event], constants: dict[str, str], imports: Imports
+    events: Iterable[Event],
+    around: Mapping[str, Message],
+    constants: dict[str, str],
+    imports: Imports,
 ) -> tuple[EventView, ...]:
     found = []
     for event in events:
@@ -341,6 +347,9 @@ def _event_views(
         call = Call(
             imports.name(f"{imports.types.package}.states", "Event"),
             (event.name, message, event.incoming_topic, event.topic),
+            (("envelope", Source(imports.interface(around[event.name].type, "msg"))),)
+            if event.name in around
+            else (),
         )
         statement = layout(call, 0, f"{constants[event.name]} = ")
         found.append(EventView(statement, comments(event.origin, event.doc)))

@@ -5,19 +5,22 @@ from __future__ import annotations
 _REASONS: dict[str, dict[str, str]] = {
     "dump": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type "
+            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
+            "FieldAccess.type ParamRef.type "
             "SelfField.type Unary.type VariableRef.type"
         ),
     },
     "printer": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type SelfField.type "
+            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
+            "FieldAccess.type ParamRef.type SelfField.type "
             "Unary.type"
         ),
     },
     "diff": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type SelfField.type "
+            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
+            "FieldAccess.type ParamRef.type SelfField.type "
             "Unary.type"
         ),
         "a name that nothing declares reads as another name of the swarm": ("Optimization.swarm"),
@@ -42,7 +45,8 @@ _REASONS: dict[str, dict[str, str]] = {
             "Service.type System.interfaces"
         ),
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type SelfField.type "
+            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
+            "FieldAccess.type ParamRef.type SelfField.type "
             "Unary.type"
         ),
         "calls are drawn by the name of their function": (
@@ -61,7 +65,8 @@ _REASONS: dict[str, dict[str, str]] = {
     },
     "portable SCXML": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EventData.type ParamRef.type SelfField.type Unary.type"
+            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
+            "ParamRef.type SelfField.type Unary.type"
         ),
         "comments of calls are not written": ("Communication.doc"),
         "a document is about one state machine": (

@@ -42,7 +42,7 @@ MODELS = (
     ROOT / "tests/golden/submachine/model.swarm",
     ROOT / "examples/search_and_rescue",
 )
-TRIES = 24
+TRIES = 30
 """Places at which a field is changed until a consumer shows it."""
 
 

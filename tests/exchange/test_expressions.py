@@ -20,7 +20,7 @@ from swarmdsl.codegen import cpp
 from swarmdsl.codegen.exchange.scxml import ecmascript
 from swarmdsl.codegen.shared import constants
 from swarmdsl.codegen.swarm_printer.expressions import expression
-from swarmdsl.execution.engine import ExecutionError
+from swarmdsl.execution.engine import Event, ExecutionError
 from swarmdsl.execution.scxml.ecmascript import read
 from swarmdsl.execution.simulate.expressions import function_of
 from swarmdsl.ir import (
@@ -48,6 +48,7 @@ PYTHON = Dialect(
     str,
     str,
     "event",
+    "about.{0.field}".format,
     "own.{}".format,
     {},
     PYTHON_FUNCTIONS,
@@ -240,9 +241,9 @@ def test_the_engine_and_python_fail_alike(expression: Expression) -> None:
         expected = eval(translate(expression, PYTHON), {**names, "event": names["report"]})
     except (ArithmeticError, ValueError) as error:
         with pytest.raises(type(error)):
-            function_of(expression)(data, data["report"])
+            function_of(expression)(data, Event("report", data["report"]))
     else:
-        assert function_of(expression)(data, data["report"]) == expected
+        assert function_of(expression)(data, Event("report", data["report"])) == expected
 
 
 def test_ecmascript_has_the_value_of_the_language() -> None:
@@ -285,7 +286,7 @@ def in_cpp(texts: list[str], folder: Path) -> list[Any]:
     return run.stdout.split()
 
 
-CPP = cpp.dialect(str, str, "event", "own.{}".format)
+CPP = cpp.dialect(str, str, "event", "about.{0.field}".format, "own.{}".format)
 
 
 def test_cpp_has_the_value_of_the_language(tmp_path: Path) -> None:

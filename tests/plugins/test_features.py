@@ -13,6 +13,7 @@ action m/Work {
 message m/Level { level : float64 }
 function work : abstraction { action "work" : m/Work }
 event Low : m/Level
+swarm event Told : m/Level
 statemachine M {
   param far : float64 = 1.0
   var got : float64
@@ -25,6 +26,7 @@ statemachine M {
     on succeeded -> Decide
     on aborted   -> Decide
     on Low [event.level < 2.0] / got = event.level, send Low(level = got) -> Decide
+    on Told [event.sender == ""] / send Told to uav[0] -> Decide
     after 3 s -> Decide
   }
   choice Decide {
@@ -77,16 +79,18 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.COMPOSITE, ["Box"]),
         (Feature.PARALLEL, ["Both"]),
         (Feature.CHOICE, ["Decide"]),
-        (Feature.GUARD, ["event.level < 2.0", "got < 1.0", "got > 9.0"]),
+        (Feature.GUARD, ["event.level < 2.0", 'event.sender == ""', "got < 1.0", "got > 9.0"]),
         (
             Feature.ASSIGNMENT,
             ["got = event.level", "got = 2.0", "got = 3.0", "got = 4.0"],
         ),
-        (Feature.SEND, ["send Low"]),
+        (Feature.SEND, ["send Low", "send Told"]),
         (Feature.TIMEOUT, ["after 3 s"]),
         (Feature.RESULT, ["distance => got"]),
         (Feature.CALLBACK, ["do work(by make_goal) gives by take_result"]),
         (Feature.EVENT_DATA, ["event", "event"]),
+        (Feature.SENDER, ["event.sender"]),
+        (Feature.ADDRESS, ["uav[0]"]),
         (Feature.SELF, ["self.index"]),
         (Feature.CROSS_LEVEL, ["on Low -> End"]),
         (Feature.INTO_STATE, ["internal on Low -> In"]),

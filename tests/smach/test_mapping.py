@@ -107,6 +107,9 @@ MODELS = {
     "variable": """
         var n : int32
         state A { on Go [n > 1] -> End; on Stop / n = 2 }""",
+    "sender and time of an event": """
+        state A { on Call [event.sender == "a" and event.sent > 1 s] -> End }""",
+    "address of a sent event": "state A { on Go / send Call to uav[0] -> End }",
     "identity of the robot": "state A { on Go [self.index == 1] -> End; on Stop -> End }",
     "param": """
         param n : int32 = 2

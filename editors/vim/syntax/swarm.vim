@@ -42,6 +42,7 @@ syn match swarmStatement #\<seed\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<size\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<step\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmStatement #\<to\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<world\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<x\>\ze[ \t]*[0-9"]#
 syn match swarmName #\%(\<\%(actuator\|choice\|communication\|const\|controller\|enum\|environment\|event\|final\|fitness\|history\|member\|operation\|region\|sensor\|state\|statemachine\|struct\|type\|virtual\)\)\@<=\s\+\h\w*#

@@ -1,6 +1,7 @@
 """Stand-in for the engine, which generated packages get from `swarmdsl.execution.engine`."""
 
 from swarmdsl.execution.engine import (
+    Envelope,
     Event,
     ExecutionError,
     Instance,
@@ -16,6 +17,7 @@ FAILURES: tuple[type[Exception], ...] = _FAILURES
 
 __all__ = (
     'FAILURES',
+    'Envelope',
     'Event',
     'ExecutionError',
     'Instance',

@@ -14,7 +14,7 @@ from std_msgs.msg import String
 from . import engine, parameters
 from .alarms import Alarms, Pauses
 from .diagnostics import Diagnostics, Losses
-from .engine import Event, ExecutionError, Instance, LoopError, Machine, Servers
+from .engine import Envelope, Event, ExecutionError, Instance, LoopError, Machine, Servers
 from .identity import identity, SETTINGS
 from .parameters import Parameter, StartError
 from .topics import reliable, Topics
@@ -121,7 +121,7 @@ class Host:
             node,
             behavior.topics,
             swarm,
-            robot.id,
+            robot,
             self._group,
             lambda: self.now,
             self._receive,
@@ -340,7 +340,8 @@ class Host:
         try:
             line = json.loads(message.data)
             name, fields = line['event'], line.get('data', {})
-            event = Event(name, from_json(self._types[name](), fields))
+            envelope = Envelope(str(line.get('sender', '')))
+            event = Event(name, from_json(self._types[name](), fields), envelope=envelope)
         except (AttributeError, ExecutionError, KeyError, TypeError, ValueError) as error:
             self.logger.warning(f'no event: {message.data} ({error!r})')
             return

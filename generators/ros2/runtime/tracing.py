@@ -23,6 +23,7 @@ class Trace(Observer):
         self._listener = listener
         self._line = None
         self._taken = []
+        self._addresses = []
         self._instance = None
         self.on_end = lambda event: None
         """Called with the event of each activity that has ended."""
@@ -47,6 +48,10 @@ class Trace(Observer):
         data = to_json(event.data) if event is not None else None
         if data:
             self._line['data'] = data
+        if event is not None and event.envelope.sender:
+            about = {'sender': event.envelope.sender, 'sent': event.envelope.sent}
+            self._line['envelope'] = about
+        self._addresses = []
 
     def flush(self):
         """Pass the complete line to the listener, if there is one."""
@@ -90,8 +95,11 @@ class Trace(Observer):
         self._note('cancelled', run.activity.name)
 
     def sent(self, instance, event):
-        """Note a sent event."""
+        """Note a sent event, and the addresses of all if one has an address."""
         self._note('sent', event.name)
+        self._addresses.append(event.envelope.to)
+        if self._line is not None and any(each is not None for each in self._addresses):
+            self._line['to'] = self._addresses
 
     def _note(self, key, name):
         if self._line is not None:

@@ -20,28 +20,68 @@ _QUEUE = 10000
 
 
 class Event:
-    """An event, received and sent as a message on a topic."""
+    """An event, received and sent as a message on a topic.
 
-    def __init__(self, name, message_type, heard_on, sent_on):
+    The `envelope` is the type of a message around it with its sender, its time and its address, if
+    a machine asks for them.
+    """
+
+    def __init__(self, name, message_type, heard_on, sent_on, envelope=None):
         self.name = name
         self.message_type = message_type
         self.heard_on = heard_on
         self.sent_on = sent_on
+        self.envelope = envelope
         self._publisher = None
         self._sender = ''
 
     def listen(self, receive):
-        """Call `receive(name, message)` with each message from now on."""
-        rospy.Subscriber(self.heard_on, self.message_type, lambda m: receive(self.name, m))
+        """Call `receive(name, message, envelope)` with each message from now on."""
+        if self.envelope is None:
+            rospy.Subscriber(self.heard_on, self.message_type, lambda m: receive(self.name, m))
+            return
+        robot = identity()
+        # An event is for others: the robot itself, and those with another address, ignore it.
+        addresses = [name for name in (robot.id, robot.role) if name]
+
+        def open_envelope(received):
+            if received.to and received.to not in addresses:
+                return
+            if not received.sender or received.sender != robot.id:
+                to = received.to or None
+                about = engine.Envelope(received.sender, received.sent.to_nsec(), to)
+                receive(self.name, received.message, about)
+
+        rospy.Subscriber(self.heard_on, self.envelope, open_envelope)
 
     def advertise(self):
         """Create the publisher, once."""
         if self._publisher is None:
             self._sender = identity().id
-            self._publisher = rospy.Publisher(self.sent_on, self.message_type, queue_size=_QUEUE)
+            kind = self.envelope or self.message_type
+            self._publisher = rospy.Publisher(self.sent_on, kind, queue_size=_QUEUE)
 
-    def send(self, message):
-        """Publish a message, with its time and sender in empty headers."""
+    def send(self, message, to=None):
+        """Publish a message, with its time and sender in empty headers.
+
+        It is for a robot or a role, or for all others. An empty address is that of nobody.
+        """
+        if to == '':
+            rospy.logwarn('%s is sent to nobody: its address is empty', self.name)
+            return
+        self._sign(message)
+        if self.envelope is not None:
+            message = self.envelope(message=message, to=to or '')
+            message.sender, message.sent = self._sender, rospy.Time.now()
+            self._sign(message)
+        try:
+            self._publisher.publish(message)
+        except rospy.ROSException:
+            if not rospy.is_shutdown():  # messages are lost during a shutdown
+                raise
+
+    def _sign(self, message):
+        """Fill in the time and the sender in empty headers of a message."""
         for field, kind in zip(message.__slots__, message._slot_types):
             header = getattr(message, field)
             if kind == 'std_msgs/Header':
@@ -49,11 +89,6 @@ class Event:
             elif kind == 'swarmros/EventHeader':
                 header.name = header.name or self.sent_on
                 header.node = header.node or self._sender
-        try:
-            self._publisher.publish(message)
-        except rospy.ROSException:
-            if not rospy.is_shutdown():  # messages are lost during a shutdown
-                raise
 
 
 class On:
@@ -65,7 +100,8 @@ class On:
     the container binds to the target; by default it has the name of the trigger, and with None the
     state stays. `into` is the path of the state that is entered inside the target, if it is not
     the initial state. `guard(userdata, event)` and `effect(userdata, event)` get the message of the
-    event. An `internal` transition does not leave the state; the state inside ends with `outcome`.
+    event, and with a third parameter `envelope` its sender and its time. An `internal` transition
+    does not leave the state; the state inside ends with `outcome`.
     """
 
     def __init__(self, trigger, outcome=_SAME, guard=None, effect=None, into='', internal=False):
@@ -360,7 +396,7 @@ def _guard(function):
 
     def call(instance, event):
         try:
-            return function(instance.data, event.data)
+            return _call(function, instance.data, event)
         except Exception as error:
             rospy.logerr('a guard has no value: %r', error)
             return False
@@ -377,12 +413,19 @@ def _with_event(function, named=None):
 
     def call(instance, event):
         try:
-            return function(instance.data, event.data)
+            return _call(function, instance.data, event)
         except Exception as error:
             name = (named or function).__name__
             raise engine.ExecutionError('{} failed: {!r}'.format(name, error)) from error
 
     return call
+
+
+def _call(function, userdata, event):
+    """Call a function of a model with the message of an event, and its envelope if it asks."""
+    if function.__code__.co_argcount > 2:
+        return function(userdata, event.data, event.envelope)
+    return function(userdata, event.data)
 
 
 def _start(name, delay):

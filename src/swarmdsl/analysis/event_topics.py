@@ -18,6 +18,13 @@ def received_topic(source: Event | MonitorTrigger) -> str:
     return incoming_topic(topic_of(source), source.swarm)
 
 
+def is_of_swarm(trigger: Trigger) -> bool:
+    """Return True for an event that other robots send, or one that is not known."""
+    if not isinstance(trigger, EventTrigger):
+        return False
+    return trigger.event.target is None or trigger.event.target.swarm
+
+
 def event_of(trigger: Trigger) -> Event | MonitorTrigger | None:
     """Return the event of a trigger; None for other triggers and unresolved events."""
     match trigger:

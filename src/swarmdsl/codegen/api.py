@@ -42,6 +42,8 @@ class Feature(Enum):
     RESULT = "a stored result"
     CALLBACK = "a callback"
     EVENT_DATA = "the data of an event"
+    SENDER = "the sender of an event"
+    ADDRESS = "an address"
     SELF = "the identity of the robot"
     CROSS_LEVEL = "a transition out of the enclosing state"
     INTO_STATE = "a transition into a nested state"

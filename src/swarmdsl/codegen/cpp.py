@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import reduce
 
-from swarmdsl.ir import Literal
+from swarmdsl.ir import EnvelopeField, Literal
 from swarmdsl.ir.expression_printer import Dialect, differences
 from swarmdsl.syntax.types import DURATION
 
@@ -25,14 +25,16 @@ def dialect(
     variable: Callable[[str], str],
     param: Callable[[str], str],
     event: str,
+    envelope: Callable[[EnvelopeField], str],
     identity: Callable[[str], str],
 ) -> Dialect:
-    """Return the dialect, given the event and the printers of variables, params and `self`."""
+    """Return the dialect, given the event and the printers of values that it does not have."""
     return Dialect(
         literal=literal,
         variable=variable,
         param=param,
         event=event,
+        envelope=envelope,
         identity=identity,
         operators={"and": "&&", "or": "||", "not": "!"},
         functions={

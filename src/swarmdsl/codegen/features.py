@@ -15,6 +15,7 @@ from swarmdsl.ir import (
     Binary,
     Call,
     Effect,
+    EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
@@ -152,16 +153,22 @@ def _uses_in_effect(effect: Effect) -> Iterator[Use]:
         case Assignment(value=value):
             yield Feature.ASSIGNMENT, effect.origin
             yield from _uses_in_expression(value)
-        case Send(arguments=arguments):
+        case Send(arguments=arguments, to=to):
             yield Feature.SEND, effect.origin
             for _, value in arguments:
                 yield from _uses_in_expression(value)
+            if to is not None:
+                yield Feature.ADDRESS, to.origin
+                for value in to.values:
+                    yield from _uses_in_expression(value)
 
 
 def _uses_in_expression(expression: Expression) -> Iterator[Use]:
     match expression:
         case EventData():
             yield Feature.EVENT_DATA, expression.origin
+        case EnvelopeField():
+            yield Feature.SENDER, expression.origin
         case SelfField():
             yield Feature.SELF, expression.origin
         case FieldAccess(base=base):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from functools import reduce
 
@@ -12,9 +13,20 @@ from swarmdsl.execution.scxml.session import PROCESSOR
 from swarmdsl.importing.data import MachineData, written_value
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.expressions import UnsupportedError, path
-from swarmdsl.ir import Assignment, Binary, Effect, Event, Expression, Send, Type, Unary
+from swarmdsl.ir import (
+    Address,
+    Assignment,
+    Binary,
+    Effect,
+    Event,
+    Expression,
+    Literal,
+    Send,
+    Type,
+    Unary,
+)
 from swarmdsl.ir.expressions import reads
-from swarmdsl.syntax.types import BOOL
+from swarmdsl.syntax.types import BOOL, INT, STRING
 
 _UNSUPPORTED = {
     "log": "a model has no logging",
@@ -24,6 +36,7 @@ _UNSUPPORTED = {
     "cancel": "a model cancels delays only when their state is left",
 }
 _SENT = {"event", "id", "type", "target"}
+_ROBOT = re.compile(r"([A-Za-z_]\w*)(?:\[([0-9]+)\])?", re.ASCII)
 # Types and targets of a <send> to the machine itself (SCXML 6.2.4, C.1).
 _OWN_TYPES = ("", "scxml", PROCESSOR)
 _OWN_TARGETS = ("", "#_internal")
@@ -135,10 +148,10 @@ class ExecutableContent:
         sent_event = self.events.known.get(node.get("event", ""))
         if sent_event is None:
             raise UnsupportedError("its event is computed at run time")
-        more = set(node.attributes) - _SENT
+        away = node.get("type", "") == SEND_TYPE
+        more = set(node.attributes) - _SENT - ({"targetexpr"} if away else set())
         if more:
             raise UnsupportedError(f"`{min(more)}` has no equivalent in a model")
-        away = node.get("type", "") == SEND_TYPE
         is_own = node.get("type", "") in _OWN_TYPES and node.get("target", "") in _OWN_TARGETS
         if not away and not is_own:
             raise UnsupportedError("its target is outside of the machine")
@@ -150,7 +163,23 @@ class ExecutableContent:
         return Send(
             sent_event.name,
             tuple(self._argument(each, sent_event, event) for each in node.children),
+            self._address(node, event) if "targetexpr" in node.attributes else None,
         )
+
+    def _address(self, node: Node, event: Type | None) -> Address:
+        """Return the address of a send: a role, one of its robots, or a value."""
+        value = self.data.read(node, "targetexpr", node.get("targetexpr", ""), STRING, event)
+        match value:
+            case Literal(value=str(text)) if found := _ROBOT.fullmatch(text):
+                index = Literal(int(found[2]), INT) if found[2] is not None else None
+                return Address(found[1], index)
+            case Binary(
+                operator="+",
+                left=Binary(operator="+", left=Literal(value=str(head)), right=index),
+                right=Literal(value="]"),
+            ) if head.endswith("[") and head[:-1].isidentifier():
+                return Address(head[:-1], index)
+        return Address(id=value)
 
     def _argument(self, node: Node, sent: Event, event: Type | None) -> tuple[str, Expression]:
         name = node.get("name", "")

@@ -63,7 +63,12 @@ class MachineData:
         self.active: dict[PartialState, str] = {}
         self.ignores = False
         self.expressions = Expressions(
-            self.types, self._refer, self._field, self._is_active, described.identity
+            self.types,
+            self._refer,
+            self._field,
+            self._is_active,
+            described.identity,
+            bool(described),
         )
         for key, datum in described.data.items():
             self.types[key] = datum.type

@@ -11,7 +11,8 @@ from lark import Tree
 from swarmdsl.base.numerals import integer
 from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.execution.scxml.grammar import parse
-from swarmdsl.ir import Literal, Primitive, Type
+from swarmdsl.ir import EnvelopeField, Literal, Primitive, Type
+from swarmdsl.ir.expression_printer import translate
 from swarmdsl.syntax.types import (
     BOOL,
     DURATION,
@@ -34,6 +35,7 @@ class TypeInference:
 
     `data` maps variables and params to types, `field` gives the type of a field, `event` is the
     type of the current message, and `identity` the name of the data that is `self` in a model.
+    `envelopes` says whether events have a sender and a time beside their message.
     """
 
     def __init__(
@@ -42,11 +44,13 @@ class TypeInference:
         field: Callable[[Type | None, str], Type | None],
         event: Type | None,
         identity: str,
+        envelopes: bool = False,
     ) -> None:
         self.data = data
         self.field = field
         self.event = event
         self.identity = identity
+        self.envelopes = envelopes
 
     def common(self, *trees: Any) -> Type | None:
         """Return the common type of operands; number literals count last."""
@@ -77,11 +81,13 @@ class TypeInference:
                     return self.event
                 if self.identity and is_name(children[0], self.identity):
                     return SELF_FIELDS.get(str(children[1]))
+                if self.is_time_of_event(tree):
+                    return DURATION
                 return self.field(self.of(children[0]), str(children[1]))
             case "sign":
                 return BOOL if children[0] == "!" else self.of(children[1])
             case "both" | "either":
-                return BOOL
+                return STRING if self.is_sender(tree) else BOOL
             case "operation":
                 left, operator, right = children
                 left, right = remainder(tree) or (left, right)
@@ -97,6 +103,17 @@ class TypeInference:
                     return self.of(copied_value(tree))
                 return RESULTS[word] if word in RESULTS else self.common(*arguments)
         return None
+
+    def is_sender(self, tree: Any) -> bool:
+        """Return True for the sender of the event, empty without one."""
+        return self.envelopes and bool(tree == _sender())
+
+    def is_time_of_event(self, tree: Any) -> bool:
+        """Return True for the time of the event, unless its message has a field of that name."""
+        base, name = tree.children
+        if not self.envelopes or name != "sent" or base.data != "member" or not is_event(base):
+            return False
+        return self.field(self.event, "sent") is None
 
     def of_operation(self, operator: str, left: Type | None, right: Type | None) -> Type | None:
         """Type of an arithmetic operation."""
@@ -230,6 +247,11 @@ _ARGUMENTS = {
     **dict.fromkeys(("/", "%", "div", "min", "max", "hypot", "atan2"), 2),
 }
 """Number of arguments of each, the least one where it can have more."""
+
+
+@cache
+def _sender() -> Any:
+    return parse(translate(EnvelopeField("sender", STRING), dialect({})))
 
 
 @cache

@@ -34,6 +34,7 @@ from swarmdsl.ir import (
     Array,
     Binary,
     Call,
+    EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
@@ -70,7 +71,8 @@ class Expressions:
 
     `refer` resolves a name for an expected type, `inside` gives the condition that a state is
     active, and `field` the type of a field, None if it is unknown. `identity` is the name of the
-    data that is `self` in a model, empty if there is none.
+    data that is `self` in a model, empty if there is none; `envelopes` says whether events have a
+    sender and a time beside their message.
     """
 
     def __init__(
@@ -80,12 +82,14 @@ class Expressions:
         field: Callable[[Type | None, str], Type | None],
         inside: Callable[[str], Expression],
         identity: str = "",
+        envelopes: bool = False,
     ) -> None:
         self.types = types
         self.refer = refer
         self.field = field
         self.inside = inside
         self.identity = identity
+        self.envelopes = envelopes
 
     def read(self, text: str, expected: Type | None, event: Type | None = None) -> Expression:
         """Convert an expression; `event` is the current message. Raises UnsupportedError."""
@@ -132,7 +136,7 @@ class _ExpressionReader:
     def __init__(self, known: Expressions, event: Type | None) -> None:
         self.known = known
         self.event = event
-        self.types = TypeInference(known.types, known.field, event, known.identity)
+        self.types = TypeInference(known.types, known.field, event, known.identity, known.envelopes)
 
     def expression(self, tree: Any, expected: Type | None) -> Expression:
         children = tree.children
@@ -155,6 +159,8 @@ class _ExpressionReader:
                 return self._member(tree)
             case "sign":
                 return self._sign(str(children[0]), children[1], expected)
+            case "either" if self.types.is_sender(tree):
+                return EnvelopeField("sender", STRING)
             case "both" | "either" as word:
                 left, right = (self.expression(each, BOOL) for each in children)
                 return Binary("and" if word == "both" else "or", left, right, BOOL)
@@ -177,6 +183,8 @@ class _ExpressionReader:
             if self.event is None:
                 raise UnsupportedError("the type of the event is unknown")
             return EventData(self.event)
+        if self.types.is_time_of_event(tree):
+            return EnvelopeField("sent", DURATION)
         if self.known.identity and is_name(base, self.known.identity):
             if name not in SELF_FIELDS:
                 raise UnsupportedError(f"`self` has no `{name}`")

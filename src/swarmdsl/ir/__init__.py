@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from swarmdsl.ir.expressions import (
         Binary,
         Call,
+        EnvelopeField,
         EventData,
         Expression,
         FieldAccess,
@@ -68,6 +69,7 @@ if TYPE_CHECKING:
     )
     from swarmdsl.ir.statemachine import (
         Activity,
+        Address,
         Assignment,
         DoneTrigger,
         Effect,
@@ -113,8 +115,8 @@ else:
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
             "swarmdsl.ir.expressions": (
-                "Binary Call EventData Expression FieldAccess Literal ParamRef SelfField Unary "
-                "VariableRef reads subexpressions"
+                "Binary Call EnvelopeField EventData Expression FieldAccess Literal ParamRef "
+                "SelfField Unary VariableRef reads subexpressions"
             ),
             "swarmdsl.ir.integer_ranges": "bound_of bound_of_any",
             "swarmdsl.ir.interfaces": (
@@ -124,7 +126,7 @@ else:
             "swarmdsl.ir.operations": "OPERATIONS",
             "swarmdsl.ir.optimization": "CountRange Fitness Optimization ParamRange",
             "swarmdsl.ir.statemachine": (
-                "Activity Assignment DoneTrigger Effect EventTrigger OutcomeTrigger Policy "
+                "Activity Address Assignment DoneTrigger Effect EventTrigger OutcomeTrigger Policy "
                 "ResultMapping Send State StateKind StateMachine TimeTrigger Transition "
                 "Trigger Variable"
             ),
@@ -148,6 +150,7 @@ __all__ = [
     "STRING",
     "Action",
     "Activity",
+    "Address",
     "Array",
     "Assignment",
     "Binary",
@@ -162,6 +165,7 @@ __all__ = [
     "Docs",
     "DoneTrigger",
     "Effect",
+    "EnvelopeField",
     "Environment",
     "Event",
     "EventData",

@@ -14,6 +14,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.ir import (
     Binary,
     Call,
+    EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
@@ -42,24 +43,30 @@ class Dialect:
     """Notation of expressions in one target.
 
     `operators` renames those that the target spells otherwise; `literal`, `variable` and
-    `param` print a leaf; `event` is the message of the triggering event, `identity` prints a
-    field of `self`; `functions` renames the built-in functions, to `.name` if the target has
-    a property instead, or prints a call from its arguments. `modulo` prints `%`, whose result
-    has the sign of the divisor in the language; `quotient` prints `/`, the division of real
-    numbers; `division` prints `div`, the division of integers, if the target has an operator
-    for it.
+    `param` print a leaf; `event` is the message of the triggering event, `envelope` prints a
+    fact about that event, `identity` a field of `self`; `functions` renames the built-in
+    functions, to `.name` if the target has a property instead, or prints a call from its
+    arguments. `modulo` prints `%`, whose result has the sign of the divisor in the language;
+    `quotient` prints `/`, the division of real numbers; `division` prints `div`, the division
+    of integers, if the target has an operator for it.
     """
 
     literal: Callable[[Literal], str]
     variable: Callable[[str], str]
     param: Callable[[str], str]
     event: str
+    envelope: Callable[[EnvelopeField], str]
     identity: Callable[[str], str]
     operators: Mapping[str, str]
     functions: Mapping[str, str | Callable[[Sequence[str]], str]]
     modulo: Callable[[str, str], str] = "{} % {}".format
     quotient: Callable[[str, str], str] = "{} / {}".format
     division: Callable[[str, str], str] | None = None
+
+
+def envelope_name(fact: EnvelopeField) -> str:
+    """Return a fact about the event as in the model."""
+    return f"event.{fact.field}"
 
 
 def translate(expression: Expression, dialect: Dialect) -> str:
@@ -79,6 +86,8 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             return dialect.param(name), _PRIMARY
         case EventData():
             return dialect.event, _PRIMARY
+        case EnvelopeField():
+            return dialect.envelope(expression), _PRIMARY
         case SelfField(field=field):
             return dialect.identity(field), _PRIMARY
         case FieldAccess(base=base, field=field):

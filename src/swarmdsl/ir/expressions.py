@@ -67,6 +67,19 @@ class SelfField:
 
 
 @dataclass(frozen=True, slots=True)
+class EnvelopeField:
+    """`event.field` of a swarm event: a fact about the event, whatever its message.
+
+    `header` is the field of the message in which robots carry it; None if its message has none.
+    """
+
+    field: str
+    type: Type
+    header: Expression | None = None
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class FieldAccess:
     """`base.field`; `type` is None if the fields of the message are not known."""
 
@@ -111,7 +124,16 @@ class Call:
 
 
 Expression = (
-    Literal | VariableRef | ParamRef | EventData | SelfField | FieldAccess | Unary | Binary | Call
+    Literal
+    | VariableRef
+    | ParamRef
+    | EventData
+    | EnvelopeField
+    | SelfField
+    | FieldAccess
+    | Unary
+    | Binary
+    | Call
 )
 
 
@@ -119,6 +141,8 @@ def subexpressions(expression: Expression) -> Iterator[Expression]:
     """Yield the expression and all inside it."""
     yield expression
     match expression:
+        case EnvelopeField(header=header) if header is not None:
+            yield from subexpressions(header)
         case FieldAccess(base=base):
             yield from subexpressions(base)
         case Unary(operand=operand):

@@ -81,11 +81,34 @@ class Assignment:
 
 
 @dataclass(frozen=True, slots=True)
+class Address:
+    """Receivers of a swarm event: a role, one robot of it, or what `id` has as its value.
+
+    The value is the id of a robot, or a role. A role of a machine that several swarms run may
+    be in any of them.
+    """
+
+    role: str = ""
+    index: Expression | None = None
+    id: Expression | None = None
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+    @property
+    def values(self) -> tuple[Expression, ...]:
+        """The expressions in it."""
+        return tuple(each for each in (self.index, self.id) if each is not None)
+
+
+@dataclass(frozen=True, slots=True)
 class Send:
-    """Sending of an event with fields of its message; others keep their defaults."""
+    """Sending of an event with fields of its message; others keep their defaults.
+
+    Without an address, a swarm event is for all other robots.
+    """
 
     event: str
     arguments: tuple[tuple[str, Expression], ...]
+    to: Address | None = None
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 

@@ -94,9 +94,9 @@ class Context:
         """Return the context inside a reused machine."""
         return replace(self, variables=variables, values=values)
 
-    def with_event(self, type_: ir.Type) -> Context:
+    def with_event(self, type_: ir.Type, *, of_swarm: bool) -> Context:
         """Return the context in which `event` is a message of that type."""
-        return replace(self, typing=self.typing.on_event(type_))
+        return replace(self, typing=self.typing.on_event(type_, of_swarm=of_swarm))
 
     def type_of(self, ref: TypeRef) -> ir.Type:
         """Return the type of a resolved type reference; for an enum its integer type."""

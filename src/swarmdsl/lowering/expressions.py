@@ -21,9 +21,16 @@ from swarmdsl.syntax.ast import (
     Variable,
 )
 from swarmdsl.syntax.parser.literals import nanoseconds
-from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, SELF_FIELDS, STRING
+from swarmdsl.syntax.types import BOOL, DURATION, ENVELOPE_FIELDS, FLOAT, INT, SELF_FIELDS, STRING
 
 _TYPES = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
+
+
+_CARRIERS = {
+    "sender": (ir.Named("swarmros", "EventHeader"), "node"),
+    "sent": (ir.Named("std_msgs", "Header"), "stamp"),
+}
+"""Types of headers that carry facts about an event, and their fields."""
 
 
 def lower_optional(expression: Expression | None, context: Context) -> ir.Expression | None:
@@ -65,6 +72,12 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
             return ir.Literal(number, INT, tree.span, name=f"{context.declared(enum)}.{name}")
         case FieldUse(base=NameUse(name="self"), name=name):
             return ir.SelfField(str(name), SELF_FIELDS[name], tree.span)
+        case FieldUse(base=NameUse(name="event") as event, name=name) if context.typing.is_envelope(
+            name
+        ):
+            message = ir.EventData(_type_of(event, context), event.span)
+            header = _header(message, str(name), tree.span, context)
+            return ir.EnvelopeField(str(name), ENVELOPE_FIELDS[name], header, tree.span)
         case FieldUse(base=base, name=name):
             return _field(_lower(base, context), str(name), tree.span, context)
         case Call(function="distance", arguments=points):
@@ -103,6 +116,17 @@ def _field(owner: ir.Expression, name: str, at: Span, context: Context) -> ir.Fi
     return ir.FieldAccess(owner, name, context.plain(type_) if type_ is not None else None, at)
 
 
+def _header(message: ir.EventData, fact: str, at: Span, context: Context) -> ir.FieldAccess | None:
+    """Return the field of a message in which robots carry a fact about the event."""
+    type_, name = _CARRIERS[fact]
+    of = message.type
+    known = context.typing.interfaces.fields(of) if isinstance(of, ir.Named) else None
+    for field in known or ():
+        if field.type.type == type_:
+            return _field(_field(message, str(field.name), at, context), name, at, context)
+    return None
+
+
 def _constant(constant: Constant, at: Span, context: Context) -> ir.Literal:
     """Return the value of a constant as a literal, not its expression."""
     value = context.typing.folding.constant(constant)
@@ -114,10 +138,14 @@ def _constant(constant: Constant, at: Span, context: Context) -> ir.Literal:
     return ir.Literal(value, _TYPES[type(value)], at, name=name)
 
 
-def _name(use: NameUse, context: Context) -> ir.Expression:
+def _type_of(use: NameUse, context: Context) -> ir.Type:
     type_ = context.typing.infer(use)
     assert type_ is not None
-    type_ = context.plain(type_)
+    return context.plain(type_)
+
+
+def _name(use: NameUse, context: Context) -> ir.Expression:
+    type_ = _type_of(use, context)
     match use.target:
         case Param():
             return ir.ParamRef(use.name, type_, use.span)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from swarmdsl import ir
-from swarmdsl.analysis.event_topics import received_topic
+from swarmdsl.analysis.event_topics import is_of_swarm, received_topic
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.expressions import lower_expression, lower_optional, lower_path
 from swarmdsl.syntax.ast import (
     Activity,
+    Address,
     Argument,
     Assignment,
     Branch,
@@ -70,7 +71,8 @@ def _transition(
     context = frame.context
     types = [_message_type(trigger, context) for trigger in transition.triggers]
     if types and types[0] is not None:
-        context = context.with_event(types[0])
+        of_swarm = all(map(is_of_swarm, transition.triggers))
+        context = context.with_event(types[0], of_swarm=of_swarm)
     waiting = [t for t in transition.triggers if not _is_immediate(t, owner)]
     triggers = tuple(_trigger(trigger, owner, frame) for trigger in waiting)
     made = ir.Transition(
@@ -152,8 +154,19 @@ def _effect(effect: Effect, context: Context) -> ir.Effect:
             return ir.Assignment(variable, path, value, effect.span)
         case Send():
             return ir.Send(
-                context.name(effect.event), _arguments(effect.arguments, context), effect.span
+                context.name(effect.event),
+                _arguments(effect.arguments, context),
+                _address(effect.to, context) if effect.to is not None else None,
+                effect.span,
             )
+
+
+def _address(address: Address, context: Context) -> ir.Address:
+    if address.named_role is not None:
+        role, _ = address.named_role
+        return ir.Address(role, lower_optional(address.index, context), origin=address.span)
+    assert address.id is not None
+    return ir.Address(id=lower_expression(address.id, context), origin=address.span)
 
 
 def lower_activity(state: State, frame: Frame) -> ir.Activity | None:

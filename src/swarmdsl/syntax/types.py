@@ -64,3 +64,6 @@ SELF_FIELDS = {
     "count": Primitive("uint32"),
 }
 """Fields of `self`, the robot that runs a machine."""
+
+ENVELOPE_FIELDS = {"sender": STRING, "sent": DURATION}
+"""Fields of `event` that every swarm event has, whatever its message."""

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.analysis.checks.activities import check_activities
+from swarmdsl.analysis.checks.addresses import check_addresses
 from swarmdsl.analysis.checks.architecture import check_component, check_inheritance, check_member
 from swarmdsl.analysis.checks.composition import check_environment, check_swarm
 from swarmdsl.analysis.checks.conflicts import check_conflicts
@@ -77,6 +78,7 @@ PROJECT_PASSES: Sequence[Callable[[Project, Context], None]] = (
     collect_used,
     check_topics,
     check_events,
+    check_addresses,
 )
 """Passes over a whole project, in order."""
 

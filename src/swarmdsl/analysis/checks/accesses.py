@@ -103,8 +103,10 @@ def effect_accesses(effects: list[Effect]) -> list[Access]:
     found: list[Access] = []
     for effect in effects:
         match effect:
-            case Send(arguments=arguments):
+            case Send(arguments=arguments, to=to):
                 found += [read for argument in arguments for read in reads(argument.value)]
+                if to is not None:
+                    found += [*reads(to.index), *reads(to.id)]
             case Assignment(target=target, value=value):
                 stored = _variables(target.tree)
                 found += [read for read in reads(value) if read.variable not in stored]

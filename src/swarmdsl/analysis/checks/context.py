@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from swarmdsl.analysis.checks.facts import Condition, FactCache
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
+from swarmdsl.analysis.event_topics import is_of_swarm
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import Typing, constant, fits, is_number
@@ -169,7 +170,8 @@ class Context:
         """Return a typing in which `event` is the message of any of these triggers."""
         types = [_message(trigger) for trigger in triggers]
         alike = all(known == types[0] for known in types)
-        return self.typing.on_event(types[0], known=alike)
+        of_swarm = all(map(is_of_swarm, triggers))
+        return self.typing.on_event(types[0], known=alike, of_swarm=of_swarm)
 
 
 def _message(trigger: EventTrigger | MonitorTrigger) -> Type | None:

@@ -8,11 +8,14 @@ from swarmdsl.analysis.checks.enums import check_first_value
 from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
 from swarmdsl.analysis.checks.interfaces import check_graph_name
 from swarmdsl.analysis.types import Typing, assignable
+from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
+    Address,
     Assignment,
     Branch,
     Effect,
     Entry,
+    Event,
     EventTrigger,
     Exit,
     Expression,
@@ -28,7 +31,9 @@ from swarmdsl.syntax.ast import (
     Variable,
     nodes_of,
 )
-from swarmdsl.syntax.types import BOOL, DURATION, Named
+from swarmdsl.syntax.types import BOOL, DURATION, STRING, Named, Primitive
+
+_INDEX = Primitive("uint32")
 
 
 def check_expressions(machine: StateMachine, context: Context) -> None:
@@ -107,6 +112,23 @@ def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> N
                 type_ = event.type.type if event is not None else None
                 fields = typing.interfaces.fields(type_) if isinstance(type_, Named) else None
                 check_arguments(effect.arguments, fields, f"`{type_}`", typing)
+                if effect.to is not None:
+                    _check_address(effect.to, event, typing)
+
+
+def _check_address(address: Address, event: Event | None, typing: Typing) -> None:
+    """Check the event, and the types; the swarms that run the machine check the roles."""
+    if event is not None and not event.swarm:
+        typing.report.report(
+            "local-address",
+            address.span,
+            related=(Label(event.name.span, "an event of the robot itself"),),
+            help=f"declare `swarm event {event.name}` to send it to other robots",
+        )
+    if address.index is not None:
+        typing.expect(address.index.tree, _INDEX)
+    if address.id is not None and address.named_role is None:
+        typing.expect(address.id.tree, STRING)
 
 
 def _check_assignment(effect: Assignment, typing: Typing, context: Context) -> None:

@@ -13,6 +13,7 @@ from swarmdsl.analysis.types.enum_values import numbers
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
+    Address,
     EnumType,
     NameUse,
     StateMachine,
@@ -48,7 +49,11 @@ def check_initialization(machine: StateMachine, context: Context) -> None:
 
 def _has_unknown(machine: StateMachine) -> bool:
     """Return True if a name that may be a variable was not resolved."""
-    return any(use.target is None and not use.is_predefined for use in nodes_of(machine, NameUse))
+    roles = [each.id.tree for each in nodes_of(machine, Address) if each.id is not None]
+    return any(
+        use.target is None and not use.is_predefined and use not in roles
+        for use in nodes_of(machine, NameUse)
+    )
 
 
 def _unset(machine: StateMachine, context: Context) -> list[Variable]:

@@ -6,13 +6,12 @@ from collections.abc import Iterable
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.multiplicity import MOST_DIGITS, greatest
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.numerals import integer
 from swarmdsl.syntax.ast import Member, Param, PartValue, RobotValues, Role, Swarm
 from swarmdsl.syntax.types import Primitive
 
-_MOST_DIGITS = 9
-"""Number of digits of a multiplicity; with more, it is reported as wrong."""
 _MOST_NAMED = 5
 """Number of robots without a value up to which a message names each."""
 
@@ -37,9 +36,9 @@ def check_robot_values(swarm: Swarm, context: Context) -> None:
 
 
 def _check_index(robot: RobotValues, role: Role, context: Context) -> None:
-    most = _most(role)
-    if most is None and len(robot.index) > _MOST_DIGITS:
-        most = 10**_MOST_DIGITS
+    most = greatest(role)
+    if most is None and len(robot.index) > MOST_DIGITS:
+        most = 10**MOST_DIGITS
     if most is not None and integer(robot.index) >= most:
         context.report.report(
             "unknown-robot",
@@ -71,7 +70,7 @@ def _check_complete(role: Role, robots: Iterable[RobotValues], context: Context)
         return
     given = {str(value.name) for value in role.values}
     own = {integer(robot.index): {str(v.name) for v in robot.values} for robot in robots}
-    most = _most(role)
+    most = greatest(role)
     for param in all_items(member, Param):
         name = str(param.name)
         # Messages and arrays have no constants: their values are given when a robot starts.
@@ -102,14 +101,6 @@ def _without(role: Role, most: int | None, having: set[int]) -> str:
         return f"`{role.name}`"
     without = sorted(set(range(most)) - having)
     return listed([f"{role.name}[{number}]" for number in without], "and")
-
-
-def _most(role: Role) -> int | None:
-    """Return the greatest number of robots in a role; None if it is unlimited or wrong."""
-    if role.multiplicity is None:
-        return 1
-    upper = role.multiplicity.upper or role.multiplicity.lower
-    return int(upper) if upper.isdecimal() and len(upper) <= _MOST_DIGITS else None
 
 
 def _name(robot: RobotValues) -> str:

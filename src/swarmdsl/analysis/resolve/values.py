@@ -19,6 +19,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
+    Address,
     AliasType,
     Call,
     Constant,
@@ -58,13 +59,16 @@ class ValueLinker:
         """Bind the names in the expressions of a declaration with these values."""
         unknown: list[tuple[NameUse, list[FieldUse], Expression]] = []
         shared = _values_of_all(owner)
+        addresses = [each.id for each in nodes_of(owner, Address)]
         for node in nodes_of(owner, Expression):
             if shared is None or node in shared:
                 self._check_no_self(node)
             if node.tree is not None:
                 missing: Missing = []
                 node.tree = self._linked(node.tree, owner, values, missing)
-                unknown += [(base, fields, node) for base, fields in missing]
+                # The name of a role is an address by itself; the swarm that has it checks it.
+                if not (missing and missing[0][0] is node.tree and node in addresses):
+                    unknown += [(base, fields, node) for base, fields in missing]
         # Hints for a name depend on the names beside it, which are bound now.
         for base, fields, node in unknown:
             report_value(base, fields, node, owner, values, _DECLARED, self.scope, self.report)

@@ -34,6 +34,7 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.types import (
     BOOL,
     DURATION,
+    ENVELOPE_FIELDS,
     FLOAT,
     INT,
     SELF_FIELDS,
@@ -54,7 +55,8 @@ class Typing:
     """Infers and checks types. `interfaces` give the fields of messages.
 
     `event` is the message type of the triggering event: None if it is unknown. `has_event` is
-    False outside of transitions on events. `folding` computes constant values.
+    False outside of transitions on events, `of_swarm` also if an event of the robot itself can
+    trigger the transition. `folding` computes constant values.
     """
 
     interfaces: Interfaces
@@ -62,10 +64,11 @@ class Typing:
     has_event: bool = False
     event: Type | None = None
     folding: Folding = field(default_factory=Folding)
+    of_swarm: bool = False
 
-    def on_event(self, type_: Type | None, *, known: bool = True) -> Typing:
+    def on_event(self, type_: Type | None, *, known: bool = True, of_swarm: bool) -> Typing:
         """Return a typing with an event of this message type, if all events have the same one."""
-        return Typing(self.interfaces, self.report, known, type_, self.folding)
+        return Typing(self.interfaces, self.report, known, type_, self.folding, of_swarm)
 
     def infer(self, tree: ExpressionTree) -> Type | None:
         """Return the type of an expression and report its errors."""
@@ -78,6 +81,10 @@ class Typing:
                 return self._enum_value(enum, name)
             case FieldUse(base=NameUse(name="self"), name=name):
                 return self._own(name)
+            case FieldUse(base=NameUse(name="event"), name=name) if (
+                self.has_event and name in ENVELOPE_FIELDS
+            ):
+                return self._fact(name)
             case FieldUse(base=base, name=name):
                 return self.field(self.infer(base), name, name.span)
             case OperatorUse(operands=operands) | Call(arguments=operands):
@@ -204,6 +211,38 @@ class Typing:
             help_ = did_you_mean(name, SELF_FIELDS) or has
         self.report.report("unknown-field", name.span, owner="`self`", name=name, help=help_)
         return None
+
+    def is_envelope(self, name: str) -> bool:
+        """Return True for a field of `event` that is a fact about the event, not its message.
+
+        A field of the message hides it.
+        """
+        if not self.has_event or name not in ENVELOPE_FIELDS:
+            return False
+        fields = self.interfaces.fields(self.event) if isinstance(self.event, Named) else None
+        return self.of_swarm if fields is None else all(each.name != name for each in fields)
+
+    def _fact(self, name: Word) -> Type | None:
+        """Return the type of a fact about the event, or of the field that hides it."""
+        if not self.is_envelope(name):
+            if self.of_swarm and isinstance(self.event, Named):
+                self.report.report(
+                    "hidden-sender",
+                    name.span,
+                    name=name,
+                    type=self.event,
+                    help="give the field another name if you mean the robot that sent the event, "
+                    "or the time",
+                )
+            return self.field(self.event, name, name.span)
+        if not self.of_swarm:
+            self.report.report(
+                "no-sender",
+                name.span,
+                name=name,
+                help="declare the event with `swarm event` if other robots send it",
+            )
+        return ENVELOPE_FIELDS[name]
 
     def _is_enum(self, type_: Named) -> bool:
         return isinstance(self.interfaces.get(type_), EnumType)

@@ -176,6 +176,14 @@ CODES: dict[str, Code] = {
     "constant-cycle": Code("SW0706", "error", "constant `{name}` is defined in terms of itself"),
     "no-result": Code("SW0707", "error", "`{operator}` has no result: {fault}"),
     "no-self": Code("SW0708", "error", "`self` has no value here"),
+    "no-sender": Code("SW0709", "error", "only a swarm event has `{name}`"),
+    "hidden-sender": Code(
+        "SW0710", "warning", "`event.{name}` is a field of `{type}`, not of the event"
+    ),
+    "local-address": Code("SW0711", "error", "only a swarm event can have an address"),
+    "unclear-address": Code(
+        "SW0712", "error", "`{name}` is a value, and a role of swarm `{swarm}`"
+    ),
     # ---- SCXML documents
     "not-xml": Code("SW0801", "error", "invalid XML: {reason}"),
     "xml-document-type": Code("SW0802", "error", "document type declarations are not supported"),

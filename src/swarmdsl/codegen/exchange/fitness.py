@@ -19,6 +19,7 @@ from swarmdsl.ir.expression_printer import (
     PYTHON_DIVISION,
     PYTHON_FUNCTIONS,
     Dialect,
+    envelope_name,
     python_literal,
     translate,
 )
@@ -28,6 +29,7 @@ _DIALECT = Dialect(
     variable="values[{!r}]".format,
     param="values[{!r}]".format,
     event="",
+    envelope=envelope_name,  # a run has no event
     identity=str,  # a run has no robot of its own
     operators={},
     functions=PYTHON_FUNCTIONS,

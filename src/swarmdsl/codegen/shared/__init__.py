@@ -19,6 +19,11 @@ if TYPE_CHECKING:
         result_fields,
         sent_types,
     )
+    from swarmdsl.codegen.shared.envelopes import (
+        envelopes_of,
+        python_address,
+        reads_envelope,
+    )
     from swarmdsl.codegen.shared.events import (
         Events,
         delays,
@@ -61,6 +66,7 @@ else:
             "swarmdsl.codegen.shared.default_values": (
                 "default_fields default_result default_value field_type result_fields sent_types"
             ),
+            "swarmdsl.codegen.shared.envelopes": "envelopes_of python_address reads_envelope",
             "swarmdsl.codegen.shared.events": "Events delays",
             "swarmdsl.codegen.shared.identity": "uses_self",
             "swarmdsl.codegen.shared.nodes": (
@@ -93,11 +99,14 @@ __all__ = [
     "default_value",
     "delays",
     "entered_region",
+    "envelopes_of",
     "evaluate",
     "field_type",
     "has_node",
     "member_wiring",
     "params_by_name",
+    "python_address",
+    "reads_envelope",
     "region_transitions",
     "result_fields",
     "sent_types",

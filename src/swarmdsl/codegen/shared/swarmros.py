@@ -8,17 +8,16 @@ libconfig (https://hyperrealm.github.io/libconfig/), its keys those that its `ma
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import incoming_topic, snake_case
 from swarmdsl.codegen.api import OutputFile
 from swarmdsl.codegen.shared.constants import Value, constant
+from swarmdsl.codegen.shared.envelopes import BRIDGE_HEADER, envelopes_of
 from swarmdsl.codegen.shared.topic_uses import Use, uses
-from swarmdsl.ir import CommunicationSettings, Member, Message, Named, System
+from swarmdsl.ir import CommunicationSettings, Member, Message, System
 
-# The bridge identifies an event by its name and sender.
-_HEADER = Named("swarmros", "EventHeader")
 _TECHNOLOGY = "zyre"
 _PARAMETERS = ("ifname", "port")
 _SPECIAL = re.compile(r'["\\\x00-\x1f\x7f]')
@@ -28,13 +27,15 @@ Group = dict[str, Value]
 
 def bridge_files(system: System, report: Diagnostics) -> Iterator[OutputFile]:
     """Return one file for each member that sends or receives over the bridge."""
+    around = envelopes_of(system)
+    wires = {system.event(name).topic: str(message.type) for name, message in around.items()}
     used = {member.name: list(uses(member, system)) for member in system.members}
     bridged = _bridged(system, [use for found in used.values() for use in found])
     for member in system.members:
         crossing = [use for use in used[member.name] if _suffix(use) in bridged]
         crossing = [use for use in crossing if _can_cross(use, system, report)]
         if crossing or member.communication is not None:
-            text = "\n".join(_file(member, crossing, report)) + "\n"
+            text = "\n".join(_file(member, crossing, wires, report)) + "\n"
             yield OutputFile(f"{snake_case(member.name)}.cfg", text, origin=member.origin)
 
 
@@ -56,20 +57,23 @@ def _can_cross(use: Use, system: System, report: Diagnostics) -> bool:
     if use.heard and _suffix(use) == use.topic:
         return False  # a topic of the robot itself
     message = system.interface(use.type)
-    if not isinstance(message, Message) or any(f.type == _HEADER for f in message.fields):
+    if not isinstance(message, Message) or any(f.type == BRIDGE_HEADER for f in message.fields):
         return True
     report.report(
         "no-place",
         use.origin,
         target="swarmros",
         what=f"topic `{_suffix(use)}`",
-        notes=(f"`{use.type}` has no field of type `{_HEADER}`, which the bridge reads",),
-        help=f"give its message a field `swarmio : {_HEADER}`",
+        notes=(f"`{use.type}` has no field of type `{BRIDGE_HEADER}`, which the bridge reads",),
+        help=f"give its message a field `swarmio : {BRIDGE_HEADER}`",
     )
     return False
 
 
-def _file(member: Member, crossing: list[Use], report: Diagnostics) -> Iterator[str]:
+def _file(
+    member: Member, crossing: list[Use], wires: Mapping[str, str], report: Diagnostics
+) -> Iterator[str]:
+    """Yield the lines of a configuration; `wires` are the envelopes of topics that have one."""
     settings = _settings(member, report)
     parameters = {name: value for name, value in settings.items() if name in _PARAMETERS}
     yield from (f"# {line}".rstrip() for line in member.doc.splitlines())
@@ -90,6 +94,8 @@ def _file(member: Member, crossing: list[Use], report: Diagnostics) -> Iterator[
     yield from _list("telemetryTopics", [])
     sent = {use.topic: str(use.type) for use in crossing if not use.heard}
     heard = {_suffix(use): str(use.type) for use in crossing if use.heard}
+    for types in (sent, heard):
+        types.update((topic, wires[topic]) for topic in types.keys() & wires.keys())
     yield from _list(
         "outgoingEvents", [{"message": type_, "source": topic} for topic, type_ in sent.items()]
     )

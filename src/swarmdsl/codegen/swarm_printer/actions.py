@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.codegen.swarm_printer.expressions import expression
-from swarmdsl.ir import Activity, Assignment, Effect, Expression, Send
+from swarmdsl.ir import Activity, Address, Assignment, Effect, Expression, Send
 
 
 def effect_text(effect: Effect) -> str:
@@ -13,8 +13,17 @@ def effect_text(effect: Effect) -> str:
     match effect:
         case Assignment(variable=variable, path=path, value=value):
             return f"{'.'.join((variable, *path))} = {expression(value)}"
-        case Send(event=event, arguments=values):
-            return f"send {event}({arguments(values)})" if values else f"send {event}"
+        case Send(event=event, arguments=values, to=to):
+            given = f"({arguments(values)})" if values else ""
+            return f"send {event}{given}" + (f" to {address_text(to)}" if to is not None else "")
+
+
+def address_text(address: Address) -> str:
+    """Return `uav`, `uav[2]` or `event.sender`."""
+    if address.id is not None:
+        return expression(address.id)
+    index = f"[{expression(address.index)}]" if address.index is not None else ""
+    return f"{address.role}{index}"
 
 
 def activity_text(activity: Activity, function: str) -> str:

@@ -10,7 +10,7 @@ from swarmdsl.base.records import fields_of, replace
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError, quoted
 from swarmdsl.ir import Array, Expression, Literal, Named, Primitive, VariableRef
-from swarmdsl.ir.expression_printer import Dialect, points, translate
+from swarmdsl.ir.expression_printer import Dialect, envelope_name, points, translate
 from swarmdsl.syntax.parser.literals import UNITS
 from swarmdsl.syntax.types import DURATION
 
@@ -21,7 +21,8 @@ def expression(value: Expression, named: Callable[[str], str] = str) -> str:
     """Return an expression with minimal parentheses; `named` prints names."""
     functions = {"distance": _distance}
     return translate(
-        value, Dialect(_literal, named, named, "event", "self.{}".format, {}, functions)
+        value,
+        Dialect(_literal, named, named, "event", envelope_name, "self.{}".format, {}, functions),
     )
 
 

@@ -10,8 +10,10 @@ from .activity import Run, Servers
 from .configuration import Configuration
 from .instance import Instance
 from .table import (
+    NO_ENVELOPE,
     Activity,
     Effect,
+    Envelope,
     Event,
     Guard,
     InstanceLike,
@@ -24,9 +26,11 @@ from .table import (
 from .world import ExecutionError, LoopError, Observer, World, bounded
 
 __all__ = [
+    "NO_ENVELOPE",
     "Activity",
     "Configuration",
     "Effect",
+    "Envelope",
     "Event",
     "ExecutionError",
     "Guard",

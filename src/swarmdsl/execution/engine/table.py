@@ -20,18 +20,40 @@ class Origin(Protocol):
     over: bool
 
 
+class Envelope(NamedTuple):
+    """Facts about an event between robots: who sent it, when, and the address.
+
+    `sender` is empty for events from outside of the swarm. The time is in nanoseconds. `to` is the
+    id of a robot or a role, or None for all other robots.
+    """
+
+    sender: str = ""
+    sent: int = 0
+    to: str | None = None
+
+
+NO_ENVELOPE = Envelope()
+
+
 class Event:
     """Event with its name and data; immutable.
 
     `origin` is the delay or activity of the instance that sent the event, if any.
     """
 
-    __slots__ = ("data", "name", "origin")
+    __slots__ = ("data", "envelope", "name", "origin")
 
-    def __init__(self, name: str, data: Any = None, origin: Origin | None = None) -> None:
+    def __init__(
+        self,
+        name: str,
+        data: Any = None,
+        origin: Origin | None = None,
+        envelope: Envelope = NO_ENVELOPE,
+    ) -> None:
         self.name = name
         self.data = data
         self.origin = origin
+        self.envelope = envelope
 
 
 class ActiveStates(Protocol):

@@ -6,7 +6,7 @@ that a document can handle it.
 
 from __future__ import annotations
 
-from swarmdsl.execution.engine import Effect, Event, ExecutionError, InstanceLike
+from swarmdsl.execution.engine import Effect, Envelope, Event, ExecutionError, InstanceLike
 from swarmdsl.execution.engine.world import FAILURES
 from swarmdsl.execution.scxml.attributes import Attributes
 from swarmdsl.execution.scxml.document import Node
@@ -40,6 +40,7 @@ def send(node: Node, attributes: Attributes) -> Effect:
     kind = attributes.text(node, "type")
     data = attributes.data(node)
     delay = attributes.delay(node)
+    is_addressed = node.get("target") is not None or node.get("targetexpr") is not None
     given = node.get("id") or ""
     store = None
     if node.get("idlocation") is not None:
@@ -63,7 +64,8 @@ def send(node: Node, attributes: Attributes) -> Effect:
             if length > 0 and (type_ == SWARM_EVENT or place == _INTERNAL):
                 raise ExecutionError(f"`{named}` has a target of its own: it cannot be delayed")
             if type_ == SWARM_EVENT:
-                instance.emit(Event(named, content))
+                address = Envelope(to=place if is_addressed else None)
+                instance.emit(Event(named, content, envelope=address))
             elif type_ not in _HERE:
                 raise ExecutionError(f"no event can be sent with the type `{type_}`")
             elif not place or place == _own_location(instance, place):

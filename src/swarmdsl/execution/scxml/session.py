@@ -77,6 +77,8 @@ class Session(dict[str, Any]):
             sendid, origin = event.origin.id or None, self.location
         elif event.name.startswith(_PLATFORM):
             kind = "platform"
+        else:
+            origin = event.envelope.sender or None
         values = (event.name, kind, sendid, origin, PROCESSOR if origin else None, None, event.data)
         return dict(zip(EVENT_FIELDS, values, strict=True))
 

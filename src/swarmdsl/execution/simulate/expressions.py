@@ -13,6 +13,7 @@ from swarmdsl.execution.engine import ExecutionError
 from swarmdsl.ir import (
     Binary,
     Call,
+    EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
@@ -28,7 +29,7 @@ SELF = "self"
 """Key of the identity of the robot in the data of a machine; no variable has this name."""
 
 Value = Callable[[Mapping[str, Any], Any], Any]
-"""Compiled expression; takes the data of the machine and the event message."""
+"""Compiled expression; takes the data of the machine and the event."""
 
 
 def function_of(expression: Expression) -> Value:
@@ -39,47 +40,49 @@ def function_of(expression: Expression) -> Value:
     """
     match expression:
         case Literal(value=literal):
-            return lambda data, message: literal
+            return lambda data, event: literal
         case VariableRef(name=name) | ParamRef(name=name):
-            return lambda data, message: data[name]
+            return lambda data, event: data[name]
         case EventData():
-            return lambda data, message: message
+            return lambda data, event: event.data
+        case EnvelopeField(field=field, header=header):
+            if header is not None:
+                return function_of(header)
+            return lambda data, event: getattr(event.envelope, field)
         case SelfField(field=field):
-            return lambda data, message: data[SELF][field]
+            return lambda data, event: data[SELF][field]
         case FieldAccess(base=base, field=field):
             return _field(function_of(base), field)
         case Unary(operator="not", operand=operand):
             value = function_of(operand)
-            return lambda data, message: not value(data, message)
+            return lambda data, event: not value(data, event)
         case Unary(operand=operand):
             value = function_of(operand)
-            return _checked("-", lambda data, message: -value(data, message))
+            return _checked("-", lambda data, event: -value(data, event))
         case Binary(operator=symbol, left=left, right=right):
             return _binary(symbol, function_of(left), function_of(right))
         case Call(function=name, arguments=arguments):
             function, values = OPERATIONS[name], [function_of(each) for each in arguments]
             return _checked(
-                name, lambda data, message: function(*[value(data, message) for value in values])
+                name, lambda data, event: function(*[value(data, event) for value in values])
             )
 
 
 def _binary(symbol: str, left: Value, right: Value) -> Value:
     if symbol == "and":
-        return lambda data, message: left(data, message) and right(data, message)
+        return lambda data, event: left(data, event) and right(data, event)
     if symbol == "or":
-        return lambda data, message: left(data, message) or right(data, message)
+        return lambda data, event: left(data, event) or right(data, event)
     operation = OPERATIONS[symbol]
-    return _checked(
-        symbol, lambda data, message: operation(left(data, message), right(data, message))
-    )
+    return _checked(symbol, lambda data, event: operation(left(data, event), right(data, event)))
 
 
 def _checked(symbol: str, operation: Value) -> Value:
     """Convert TypeErrors: fields of an unknown message type can have any value."""
 
-    def value(data: Mapping[str, Any], message: Any) -> Any:
+    def value(data: Mapping[str, Any], event: Any) -> Any:
         try:
-            return operation(data, message)
+            return operation(data, event)
         except TypeError:
             raise ExecutionError(f"`{symbol}` is not defined for a value in the message") from None
 
@@ -87,8 +90,8 @@ def _checked(symbol: str, operation: Value) -> Value:
 
 
 def _field(base: Value, field: str) -> Value:
-    def value(data: Mapping[str, Any], message: Any) -> Any:
-        held = base(data, message)
+    def value(data: Mapping[str, Any], event: Any) -> Any:
+        held = base(data, event)
         try:
             return held[field]
         except (KeyError, TypeError):

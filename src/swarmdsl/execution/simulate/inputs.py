@@ -18,18 +18,22 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.values import MisfitError, fitted, kind
 
 STDIN = "<stdin>"
-_KEYS = ("event", "after", "member", "data")
+_KEYS = ("event", "after", "member", "data", "sender")
 _LONGEST = 2**63 // MILLISECOND
 
 
 @dataclass(frozen=True)
 class Input:
-    """Event, the time to wait before it, and the machines that receive it."""
+    """Event, the time to wait before it, and the machines that receive it.
+
+    `sender` is the robot in whose name it comes, empty for an event from outside of the swarm.
+    """
 
     event: str
     after: int
     data: Any
     to: tuple[Actor, ...]
+    sender: str = ""
 
 
 class Reader:
@@ -109,6 +113,10 @@ class Reader:
         to = self._recipients(value.get("member"), name, place)
         if to is None or not self._is_known(name, place):
             return None
+        sender = value.get("sender", "")
+        if not isinstance(sender, str):
+            self._wrong(_at(place, "sender"), "sender", "the id of a robot", sender)
+            return None
         data = value.get("data")
         event = self._declared(name)
         if event is not None and self._subject.system is not None:
@@ -119,7 +127,7 @@ class Reader:
                 at = _at(place, words[-1] if words else "data")
                 self.report.report(error.code, at, help=error.help, **error.fields)
                 return None
-        return Input(name, round(after * MILLISECOND), data, to)
+        return Input(name, round(after * MILLISECOND), data, to, sender)
 
     def _recipients(self, member: Any, event: str, place: Span) -> tuple[Actor, ...] | None:
         """Return the named recipients, or all machines that react to the event."""

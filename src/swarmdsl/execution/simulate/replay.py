@@ -12,7 +12,15 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import suggest
 from swarmdsl.codegen.shared.default_values import default_value, result_fields
-from swarmdsl.execution.engine import Event, Instance, InstanceLike, LoopError, Run, Servers
+from swarmdsl.execution.engine import (
+    Envelope,
+    Event,
+    Instance,
+    InstanceLike,
+    LoopError,
+    Run,
+    Servers,
+)
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
@@ -198,7 +206,9 @@ class _Replay:
                 return self._end_run(name, record.data)
             else:
                 self._trace.begin(instance, name)
-                instance.receive(Event(name, self._message(name, record.data)))
+                envelope = Envelope(**record.done.get("envelope", {}))
+                data = self._message(name, record.data)
+                instance.receive(Event(name, data, envelope=envelope))
         except LoopError as error:
             return str(error)
         finally:
@@ -268,11 +278,15 @@ def _difference(line: Line, record: _Record) -> str:
         expected, found = getattr(line, key), record.done[key]
         if expected != found:
             return f"`{key}` is {_list(expected)} in the model, {_list(found)} here"
+    found = record.done.get("to", [None] * len(line.addresses))
+    if line.addresses != found:
+        return f"`to` is {_list(line.addresses)} in the model, {_list(found)} here"
     return ""
 
 
-def _list(names: Sequence[str]) -> str:
-    return ", ".join(f"`{name}`" for name in names) or "nothing"
+def _list(names: Sequence[str | None]) -> str:
+    words = (f"`{name}`" if name is not None else "all others" for name in names)
+    return ", ".join(words) or "nothing"
 
 
 def _as(type_: Type, data: Any, system: System) -> Any:

@@ -63,7 +63,7 @@ def run(
         if pace is not None:
             pace.wait(at)
         world.clock.advance(at - world.clock.now)
-        world.deliver(each.event, each.data, each.to)
+        world.deliver(each.event, each.data, each.to, each.sender)
         last = at
     return _finish(world, until if until is not None else last + DEFAULT_UNTIL, pace)
 
@@ -92,7 +92,7 @@ def run_live(
 
 
 def _arrival(world: World, each: Input) -> Callable[[], None]:
-    return lambda: world.deliver(each.event, each.data, each.to)
+    return lambda: world.deliver(each.event, each.data, each.to, each.sender)
 
 
 def _let_happen(world: World, until: int, pace: Pace | None) -> None:

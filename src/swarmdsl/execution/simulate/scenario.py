@@ -43,6 +43,10 @@ class Robot:
         """Words that select it: type of member, role and name, the most specific last."""
         return (self.kind, self.role, self.name) if self.name is not None else ()
 
+    def is_meant_by(self, address: str | None) -> bool:
+        """Return True if an event with this address is for the robot; None is for all."""
+        return address is None or (address != "" and address in (self.name, self.role))
+
     @property
     def identity(self) -> dict[str, str | int]:
         """Return the fields of `self`."""

@@ -71,7 +71,8 @@ class Summary:
         yield from _table(("member", "in the end", "since"), self._members(), left=2)
         yield from _table(("state", "time", "entered"), self._states())
         yield from _table(("function", "called", *_OUTCOMES, "unfinished"), self._functions(world))
-        yield from _table(("event", "sent", "heard", "lost"), self._events(world))
+        nobody = ("to nobody",) if world.nobody else ()
+        yield from _table(("event", "sent", "heard", "lost", *nobody), self._events(world))
         yield from self._unseen()
 
     @property
@@ -115,7 +116,9 @@ class Summary:
 
     def _events(self, world: World) -> Iterator[Row]:
         for event, sent in self._sent.items():
-            counts = (sent, world.delivered[event], world.lost[event])
+            counts = [sent, world.delivered[event], world.lost[event]]
+            if world.nobody:
+                counts.append(world.nobody[event])
             yield event, *(str(count or "-") for count in counts)
 
     def _unseen(self) -> Iterator[str]:

@@ -18,6 +18,7 @@ from swarmdsl.codegen.shared.parallel_transitions import entered_region, region_
 from swarmdsl.execution.engine import (
     Activity,
     Effect,
+    Envelope,
     Event,
     ExecutionError,
     Guard,
@@ -207,21 +208,24 @@ class _Maker:
                 value = stored(expression, held)
 
                 def assign(instance: InstanceLike, event: Event) -> None:
-                    _store(instance.data, variable, path, value(instance.data, event.data))
+                    _store(instance.data, variable, path, value(instance.data, event))
 
                 return assign
-            case Send(event=name, arguments=arguments):
+            case Send(event=name, arguments=arguments, to=to):
                 type_ = self.system.event(name).type
                 fields = [
                     (field, stored(value, field_type(type_, (field,), self.system)))
                     for field, value in arguments
                 ]
 
+                address = _address(to) if to is not None else None
+
                 def send(instance: InstanceLike, event: Event) -> None:
                     message = default_value(type_, self.system)
                     for field, value in fields:
-                        message[field] = value(instance.data, event.data)
-                    instance.emit(Event(name, message))
+                        message[field] = value(instance.data, event)
+                    receiver = address(instance.data, event) if address is not None else None
+                    instance.emit(Event(name, message, envelope=Envelope(to=receiver)))
 
                 return send
 
@@ -230,11 +234,22 @@ def _targets(transition: ir.Transition) -> tuple[str, ...]:
     return (transition.target,) if transition.target is not None else ()
 
 
+def _address(address: ir.Address) -> Value:
+    """Compile an address; its value is the id of a robot, or a role."""
+    if address.id is not None:
+        return function_of(address.id)
+    role = address.role
+    if address.index is None:
+        return lambda data, event: role
+    index = function_of(address.index)
+    return lambda data, event: f"{role}[{index(data, event)}]"
+
+
 def _guard(expression: Expression | None) -> Guard | None:
     if expression is None:
         return None
     value = function_of(expression)
-    return lambda instance, event: value(instance.data, event.data)
+    return lambda instance, event: value(instance.data, event)
 
 
 def stored(expression: Expression, wanted: Type | None) -> Value:
@@ -245,12 +260,12 @@ def stored(expression: Expression, wanted: Type | None) -> Value:
     value = function_of(expression)
     bound = bound_of(expression, wanted)
     if bound is not None:
-        return lambda data, message: bounded(value(data, message), bound)
+        return lambda data, event: bounded(value(data, event), bound)
     if expression.type == DURATION:
-        return lambda data, message: round(value(data, message))
+        return lambda data, event: round(value(data, event))
     if isinstance(expression.type, Primitive):
         return value
-    return lambda data, message: deepcopy(value(data, message))
+    return lambda data, event: deepcopy(value(data, event))
 
 
 def _store(data: dict[str, Any], variable: str, path: tuple[str, ...], value: Any) -> None:

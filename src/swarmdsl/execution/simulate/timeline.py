@@ -223,7 +223,8 @@ class _Picture:
             start = self.tops[source] + (self.rows[source] * _ROW if down else 0)
             end = self.tops[target] + (0 if down else self.rows[target] * _ROW)
             time = format_duration(each.sent)
-            words = f"{each.event}: {each.source.name} -> {each.target.name}, {time}"
+            address = f" to {each.to}" if each.to is not None else ""
+            words = f"{each.event}{address}: {each.source.name} -> {each.target.name}, {time}"
             x, to = self.x(each.sent), self.x(min(each.due, self.end))
             if each.arrives:
                 drawing.arrow(x, start, to, end, words)

@@ -8,6 +8,8 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import (
+    NO_ENVELOPE,
+    Envelope,
     Event,
     Instance,
     InstanceLike,
@@ -30,7 +32,8 @@ _LIMIT = 10_000
 class Line:
     """Effects of one event; `event` is None for the start, states are given as ids.
 
-    `data` belongs to the event, `messages` to the events in `sent`.
+    `data` and `envelope` belong to the event, `messages` and `addresses` to the events in
+    `sent`; `nobody` are the indices of those whose address no other robot has.
     """
 
     time: int
@@ -43,8 +46,11 @@ class Line:
     cancelled: list[str] = field(default_factory=list)
     sent: list[str] = field(default_factory=list)
     messages: list[Any] = field(default_factory=list)
+    addresses: list[str | None] = field(default_factory=list)
+    nobody: list[int] = field(default_factory=list)
     taken: list[Transition] = field(default_factory=list)
     data: Any = None
+    envelope: Envelope = NO_ENVELOPE
 
 
 class Trace(Observer):
@@ -63,7 +69,13 @@ class Trace(Observer):
         self._actors[instance] = actor
         instance.observer = self
 
-    def begin(self, instance: InstanceLike, event: str | None, data: Any = None) -> None:
+    def begin(
+        self,
+        instance: InstanceLike,
+        event: str | None,
+        data: Any = None,
+        envelope: Envelope = NO_ENVELOPE,
+    ) -> None:
         """Begin the line of an event from outside; the previous line is complete.
 
         Raises LoopError if this repeats too often at one point in time.
@@ -76,7 +88,7 @@ class Trace(Observer):
         self._instance = instance
         if count > _LIMIT:
             raise LoopError(instance.machine.name, instance.configuration.innermost)
-        self._line = Line(now, self._actors[instance], event, data=data)
+        self._line = Line(now, self._actors[instance], event, data=data, envelope=envelope)
 
     @property
     def actor(self) -> Actor:
@@ -134,12 +146,18 @@ class Trace(Observer):
         assert self._line is not None
         self._line.sent.append(event.name)
         self._line.messages.append(event.data)
+        self._line.addresses.append(event.envelope.to)
+
+    def reaches_nobody(self) -> None:
+        """Record that no other robot has the address of the last sent event."""
+        assert self._line is not None
+        self._line.nobody.append(len(self._line.sent) - 1)
 
 
 def as_json(line: Line) -> str:
     """Format a line as JSON; times are in whole milliseconds."""
     called = line.actor.machine.called
-    values = {
+    values: dict[str, Any] = {
         "t": line.time // MILLISECOND,
         "member": line.actor.name,
         "event": line.event,
@@ -153,6 +171,12 @@ def as_json(line: Line) -> str:
     }
     if line.data:
         values["data"] = named_numbers(line.data)
+    if line.envelope.sender:
+        values["envelope"] = {"sender": line.envelope.sender, "sent": line.envelope.sent}
+    if any(address is not None for address in line.addresses):
+        values["to"] = line.addresses
+    if line.nobody:
+        values["nobody"] = [line.sent[number] for number in line.nobody]
     return json.dumps(values, ensure_ascii=False, default=str, allow_nan=False)
 
 
@@ -165,6 +189,20 @@ def as_text(line: Line, width: int = 0) -> str:
     head = f"{line.time / SECOND:>10.3f}  {who}{line.event or '(start)'}"
     if line.entered or line.exited:
         head += f" -> {', '.join(line.configuration)}"
-    done = (("start", line.started), ("cancel", line.cancelled), ("send", line.sent))
+    sent = [_sent(line, number) for number in range(len(line.sent))]
+    done = (("start", line.started), ("cancel", line.cancelled), ("send", sent))
     words = [f"{word} {', '.join(names)}" for word, names in done if names]
     return "; ".join([head, *words])
+
+
+def _sent(line: Line, number: int) -> str:
+    """Describe a sent event, with its address."""
+    name, address = line.sent[number], line.addresses[number]
+    if address is None:
+        return name
+    nobody = " (nobody)" if number in line.nobody else ""
+    return f"{name} to {address or EMPTY}{nobody}"
+
+
+EMPTY = '""'
+"""Address of nobody: an empty string."""

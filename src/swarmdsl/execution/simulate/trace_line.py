@@ -65,4 +65,17 @@ def _fault(value: dict[str, Any]) -> str:
         names = value.get(key, [] if key == "taken" else None)
         if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
             return f"`{key}` is a list of names"
-    return ""
+    to = value.get("to", [])
+    if not isinstance(to, list) or not all(isinstance(name, (str, type(None))) for name in to):
+        return "`to` is a list of names and `null`"
+    return "" if _is_envelope(value.get("envelope", {})) else _BAD_ENVELOPE
+
+
+_BAD_ENVELOPE = "`envelope` has a `sender`, which is a name, and `sent`, in nanoseconds"
+
+
+def _is_envelope(value: Any) -> bool:
+    kinds = {"sender": str, "sent": int}
+    return isinstance(value, dict) and all(
+        isinstance(each, kinds.get(key, ())) for key, each in value.items()
+    )

@@ -8,7 +8,15 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.default_values import default_result
-from swarmdsl.execution.engine import Event, Instance, InstanceLike, Run, Servers
+from swarmdsl.execution.engine import (
+    NO_ENVELOPE,
+    Envelope,
+    Event,
+    Instance,
+    InstanceLike,
+    Run,
+    Servers,
+)
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
 from swarmdsl.execution.simulate.headers import signed
@@ -38,6 +46,8 @@ class Transmission:
     sent: int
     due: int
     arrives: bool
+    to: str | None = None
+    """Address, None for all others."""
 
 
 class World:
@@ -64,6 +74,8 @@ class World:
         self.delivered: Counter[str] = Counter()
         self.lost: Counter[str] = Counter()
         """Numbers of swarm events delivered to and lost on the way to other robots."""
+        self.nobody: Counter[str] = Counter()
+        """Numbers of swarm events with an address that no other robot has."""
         self.transmitted: Callable[[Transmission], None] | None = None
         """Callback for swarm events in transit."""
         self._system = system
@@ -123,17 +135,27 @@ class World:
         self.clock.step()
         self.trace.flush()
 
-    def deliver(self, event: str, data: Any, to: Iterable[Actor]) -> None:
-        """Deliver an event from outside; one of an activity ends the activity."""
+    def deliver(self, event: str, data: Any, to: Iterable[Actor], sender: str = "") -> None:
+        """Deliver an event from outside, in the name of a robot if a sender is given.
+
+        One of an activity ends the activity.
+        """
+        envelope = Envelope(sender, self.clock.now) if sender else NO_ENVELOPE
+        declared = self._system.events_by_name.get(event) if self._system is not None else None
+        if sender and self._system is not None and declared is not None:
+            data = signed(declared, data, self._system, sender, self.clock.now)
+        self._deliver(Event(event, data, envelope=envelope), to)
+
+    def _deliver(self, event: Event, to: Iterable[Actor]) -> None:
         for actor in to:
             instance = self._instances[actor]
-            going_on = self.runs(actor) if event.startswith(_OF_ACTIVITIES) else ()
-            run = next((run for run in going_on if event in run.activity.events.values()), None)
+            going_on = self.runs(actor) if event.name.startswith(_OF_ACTIVITIES) else ()
+            run = next((r for r in going_on if event.name in r.activity.events.values()), None)
             if run is not None:
-                self._end(run, event, data)
+                self._end(run, event.name, event.data)
             elif instance.running:
-                self.trace.begin(instance, event, data)
-                instance.receive(Event(event, data))
+                self.trace.begin(instance, event.name, event.data, event.envelope)
+                instance.receive(event)
             self.trace.flush()
 
     def runs(self, actor: Actor) -> list[Run]:
@@ -197,16 +219,22 @@ class World:
         """Deliver an event to the robot, and a swarm event to the other robots."""
         if self._system is None:
             return
-        robot = self._actors[instance].robot
+        robot, to = self._actors[instance].robot, event.envelope.to
         sent = self._system.event(event.name)
         data = signed(sent, event.data, self._system, robot.name or "", self.clock.now)
         here = [each.name for each in self._system.events if each.incoming_topic == sent.topic]
-        for name in here:
-            self._later(0, name, data, robot)
+        for name in here if to is None else ():
+            self._later(0, Event(name, data), robot)
         if not sent.swarm:
             return
-        for other in self.robots:
-            if other is robot or not self.listeners(event.name, other):
+        envelope = Envelope(robot.name or "", self.clock.now, to)
+        arriving = Event(event.name, data, envelope=envelope)
+        others = [other for other in self.robots if other is not robot and other.is_meant_by(to)]
+        if not others and to is not None and robot.name is not None:
+            self.nobody[event.name] += 1
+            self.trace.reaches_nobody()
+        for other in others:
+            if not self.listeners(event.name, other):
                 continue
             self._transmissions[robot.name, other.name] += 1
             count = self._transmissions[robot.name, other.name]
@@ -217,12 +245,12 @@ class World:
             if arrives:
                 due = self._in_order(due, (robot, other, sent.topic))
             if self.transmitted is not None:
-                self.transmitted(Transmission(event.name, robot, other, now, due, arrives))
+                self.transmitted(Transmission(event.name, robot, other, now, due, arrives, to))
             if not arrives:
                 self.lost[event.name] += 1
                 continue
             self.delivered[event.name] += 1
-            self._later(due - now, event.name, data, other)
+            self._later(due - now, arriving, other)
 
     def failed(self, instance: InstanceLike, error: Exception) -> None:
         """Count the failure."""
@@ -246,10 +274,10 @@ class World:
         )
         self.clock.schedule(behavior.stopping.draw(chance), lambda: run.end("preempted"))
 
-    def _later(self, delay: int, event: str, data: Any, robot: Robot) -> None:
-        to = self.listeners(event, robot)
+    def _later(self, delay: int, event: Event, robot: Robot) -> None:
+        to = self.listeners(event.name, robot)
         if to:
-            self.clock.schedule(delay, lambda: self.deliver(event, data, to))
+            self.clock.schedule(delay, lambda: self._deliver(event, to))
 
     def _end(self, run: Run, event: str, data: Any) -> None:
         if data is None and event == run.activity.events["succeeded"]:

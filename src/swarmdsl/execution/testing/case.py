@@ -47,7 +47,8 @@ class Claim:
     """Claim that a number of the machines `who` have states, values or did an action.
 
     `states` maps each selected machine to its expected states, `values` to its expected variables;
-    `action` and `name` are the expected action, `data` is the expected data of a sent event.
+    `action` and `name` are the expected action, `data` and `to` are the expected data and address
+    of a sent event.
     Unnamed fields may have any value. `text` describes the claim.
     """
 
@@ -60,16 +61,18 @@ class Claim:
     action: ActionKind | None = None
     name: str = ""
     data: Any = None
+    to: str | None = None
 
 
 @dataclass(frozen=True)
 class Send:
-    """Event from outside."""
+    """Event from outside, in the name of the robot `sender` if it is not empty."""
 
     place: Span
     event: str
     data: Any
     to: tuple[int, ...]
+    sender: str
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,7 @@ class Recorder:
         """Machines that satisfy each claim checked since the last mark."""
         self._known: dict[tuple[Machine, tuple[str, ...]], frozenset[str]] = {}
         self._actions: dict[ActionKind, list[set[str]]] = {}
-        self._sent: list[list[tuple[str, Any]]] = []
+        self._sent: list[list[tuple[str, Any, str | None]]] = []
         self.last: deque[Line] = deque(maxlen=_REMEMBERED)
         self.mark()
 
@@ -57,7 +57,7 @@ class Recorder:
         if line.event == LOST:
             self._lost.add(number)
         self._actions["sends"][number].update(line.sent)
-        self._sent[number].extend(zip(line.sent, line.messages, strict=True))
+        self._sent[number].extend(zip(line.sent, line.messages, line.addresses, strict=True))
         self._actions["starts"][number].update(line.started)
         self._actions["cancels"][number].update(line.cancelled)
         for claim, satisfied in self._satisfied.values():
@@ -85,10 +85,14 @@ class Recorder:
 
     def _satisfies(self, claim: Claim, number: int) -> bool:
         if claim.action is not None:
-            if claim.data is None:
+            if claim.data is None and claim.to is None:
                 return claim.name in self._actions[claim.action][number]
-            sent = (data for name, data in self._sent[number] if name == claim.name)
-            return any(matches(claim.data, data) for data in sent)
+            return any(
+                name == claim.name
+                and (claim.data is None or matches(claim.data, data))
+                and claim.to in (None, address)
+                for name, data, address in self._sent[number]
+            )
         if claim.values:
             held = self._data(self._cast[number])
             return number not in self._lost and matches(claim.values[number], held)
@@ -127,10 +131,10 @@ class Recorder:
             return "is lost"
         if claim.values:
             return f"has `{describe_fields(self._data(self._cast[number]), claim.values[number])}`"
-        if claim.data is not None:
+        if claim.data is not None or claim.to is not None:
             each = [
-                f"{name}({describe_fields(data, claim.data)})" if name == claim.name else name
-                for name, data in self._sent[number]
+                _described(name, data, address, claim) if name == claim.name else name
+                for name, data, address in self._sent[number]
             ]
             return f"sends {listed(list(dict.fromkeys(each)), 'and') or 'nothing'}"
         if claim.action is None:
@@ -154,3 +158,10 @@ def _names(names: Iterable[str], more: bool) -> str:
     if not more:
         return listed([*first, last], "and")
     return f"{', '.join(f'`{name}`' for name in first)} and {last}"
+
+
+def _described(name: str, data: Any, address: str | None, claim: Claim) -> str:
+    """Describe a sent event as far as the claim is about it."""
+    values = f"({describe_fields(data, claim.data)})" if claim.data is not None else ""
+    to = f" to {address or 'all'}" if claim.to is not None else ""
+    return f"{name}{values}{to}"

@@ -90,8 +90,8 @@ class _CaseRun:
             return
         self._recorder.mark()
         match step:
-            case Send(event=event, data=data, to=to):
-                self._world.deliver(event, data, [self._cast[number] for number in to])
+            case Send(event=event, data=data, to=to, sender=sender):
+                self._world.deliver(event, data, [self._cast[number] for number in to], sender)
             case End():
                 self._end(step)
             case Pass(length=length):

@@ -33,7 +33,7 @@ from swarmdsl.execution.testing.expected_data import event_data, variables
 from swarmdsl.execution.testing.names import Names
 
 _ACTIONS: Mapping[str, tuple[str, ...]] = {
-    "send": ("to", "data"),
+    "send": ("to", "data", "sender"),
     "end": ("of", "as", "result"),
     "pass": (),
     "lose": (),
@@ -46,7 +46,7 @@ _ACTION_KINDS: Mapping[str, ActionKind] = {
 }
 _VERBS = ("in", "has", *_ACTION_KINDS)
 _TIMES = ("within", "for")
-_CLAIM = (*_SUBJECTS, "count", "of", *_VERBS, "data")
+_CLAIM = (*_SUBJECTS, "count", "of", *_VERBS, "data", "to")
 # Words of other tools and languages.
 _OTHER_WORDS = {
     **dict.fromkeys(("wait", "sleep", "delay", "after", "advance", "elapse"), "pass"),
@@ -119,7 +119,10 @@ class StepReader:
             data = fitted(type_, {}, system)
             if "data" in table:
                 data = table.fitted(lambda value, way: fitted(type_, value, system, way), "data")
-        return Send(place, event, data, tuple(listening))
+        robot = _text(table, "sender", "the id of a robot") if "sender" in table else None
+        if robot is None and "sender" in table:
+            return None
+        return Send(place, event, data, tuple(listening), robot or "")
 
     def _end(self, table: Table) -> End | None:
         place = table.value_place(("end",))
@@ -199,10 +202,11 @@ class StepReader:
         who = self._members(table, key) if key is not None else self._names.all_machines()
         if verb is None or quantity is None or not who:
             return None
-        if "data" in table and verb != "sends":
-            reason, place = "`data` requires `sends`", table.key_place("data")
-            help_ = "use `has` for the values of variables"
-            self._report.report("impossible-step", place, reason=reason, help=help_)
+        unsent = next((key for key in ("data", "to") if key in table), None)
+        if unsent is not None and verb != "sends":
+            reason, place = f"`{unsent}` requires `sends`", table.key_place(unsent)
+            hint = "use `has` for the values of variables" if unsent == "data" else None
+            self._report.report("impossible-step", place, reason=reason, help=hint)
             return None
         words = _words(table, key)
         word = table.values[key] if key is not None else ""
@@ -239,6 +243,12 @@ class StepReader:
                 if data is None:
                     return None
                 text += f" with `{describe_fields(data, data)}`"
+            address = None
+            if "to" in table:
+                address = _text(table, "to", "the id of a robot, or a role")
+                if address is None:
+                    return None
+                text += f" to `{address}`"
             claim = Claim(
                 place,
                 text,
@@ -247,6 +257,7 @@ class StepReader:
                 action=action,
                 name=name or "",
                 data=data,
+                to=address,
             )
         return claim if claim.who and self._is_possible(table, claim) else None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from swarmdsl.analysis.event_topics import is_of_swarm
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.set_params import set_params
@@ -127,7 +128,8 @@ def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:
                 if isinstance(each, (EventTrigger, MonitorTrigger))
             ]
             types = [_message(each) for each in triggers]
-            return typing.on_event(types[0] if types else None)
+            of_swarm = all(map(is_of_swarm, triggers))
+            return typing.on_event(types[0] if types else None, of_swarm=of_swarm)
     return typing
 
 

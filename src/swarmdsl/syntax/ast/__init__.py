@@ -18,6 +18,7 @@ from swarmdsl.syntax.ast.architecture import (
 )
 from swarmdsl.syntax.ast.behaviour import (
     Activity,
+    Address,
     Argument,
     Assignment,
     Branch,
@@ -124,6 +125,7 @@ __all__ = [
     "NODES",
     "ActionType",
     "Activity",
+    "Address",
     "AliasType",
     "Argument",
     "Assignment",

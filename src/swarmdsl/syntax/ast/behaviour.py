@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast.interfaces import Event, Function, Operation
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, TypeRef, Word
-from swarmdsl.syntax.ast.values import Expression, Param, Variable
+from swarmdsl.syntax.ast.values import Expression, NameUse, Param, Variable
 
 
 @dataclass(slots=True, eq=False)
@@ -80,11 +81,31 @@ Trigger = OutcomeTrigger | DoneTrigger | EventTrigger | TimeTrigger | MonitorTri
 
 
 @dataclass(slots=True, eq=False)
+class Address(Node):
+    """`role[index]`, or an expression: a role, or a value that is the id of a robot or a role."""
+
+    role: Word | None
+    index: Expression | None
+    id: Expression | None
+
+    @property
+    def named_role(self) -> tuple[str, Span] | None:
+        """The name of the role and its place; None for an address that is a value."""
+        if self.role is not None:
+            return str(self.role), self.role.span
+        match self.id:
+            case Expression(tree=NameUse(target=None, is_predefined=False) as use):
+                return use.name, use.span
+        return None
+
+
+@dataclass(slots=True, eq=False)
 class Send(Node):
-    """`send Event(...)`."""
+    """`send Event(...)` or `send Event(...) to address`."""
 
     event: Ref[Event]
     arguments: list[Argument]
+    to: Address | None
 
 
 @dataclass(slots=True, eq=False)

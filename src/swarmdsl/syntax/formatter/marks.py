@@ -6,6 +6,7 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.syntax.ast import (
     ActionType,
     Activity,
+    Address,
     Branch,
     Call,
     Documented,
@@ -77,6 +78,8 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                     marks.clauses.add(tokens.before(opener.start).start)
             case Send():
                 _mark_list(marks, tokens, node.event.span.start, node.event.name)
+            case Address(role=role) if role is not None:
+                marks.tight.add(tokens.code(role.span.end)[0].start)
             case State(machine=machine) if machine is not None:
                 _mark_list(marks, tokens, machine.span.start, machine.name)
             case Transition(effects=[effect, *_]) | Branch(effects=[effect, *_]):

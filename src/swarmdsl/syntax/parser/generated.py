@@ -8,10 +8,10 @@ import re
 from swarmdsl.syntax.parser.expressions import ExpressionParser, TooDeepError
 from swarmdsl.syntax.parser.literals import Language, unquoted
 from swarmdsl.base.source import Source, Span
-from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
+from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
 from swarmdsl.syntax.parser.lexer import Lexer
 
-GRAMMAR = 4225049629
+GRAMMAR = 479902684
 new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
@@ -85,6 +85,12 @@ def REGEX10(text, at):
     REGEX10 = re.compile('\\d+\\b|\\*', re.MULTILINE).match
     return REGEX10(text, at)
 
+
+def REGEX11(text, at):
+    global REGEX11
+    REGEX11 = re.compile('(?<=[A-Za-z0-9_])(?=\\[)', re.MULTILINE).match
+    return REGEX11(text, at)
+
 SET0 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'optimize', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET2 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
@@ -105,6 +111,7 @@ SET16 = frozenset(['[', 'after', 'entry', 'exit', 'internal', 'monitor', 'on', '
 SET17 = frozenset(['[', 'else'])
 SET18 = frozenset(['after', 'monitor', 'on'])
 SET19 = frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state'])
+SET20 = frozenset(['!', '#', '$', '%', '&', "'", ')', '*', '+', ',', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'exit', 'extends', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
 RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
 TERMINALS = (
     ('\\Z', 'EOF', ''),
@@ -222,10 +229,12 @@ TERMINALS = (
     ('after\\b', '', 'after'),
     ('monitor\\b', '', 'monitor'),
     ('send\\b', '', 'send'),
+    ('to\\b', '', 'to'),
     ('done\\b', '', 'done'),
     ('succeeded\\b', '', 'succeeded'),
     ('aborted\\b', '', 'aborted'),
     ('preempted\\b', '', 'preempted'),
+    ('(?<=[A-Za-z0-9_])(?=\\[)', '', ''),
 )
 PROGRAM = (
     (3, 3),
@@ -1311,7 +1320,7 @@ PROGRAM = (
     (1, 1083),
     (3, 1118),
     (2, 1084),
-    (3, 1132),
+    (3, 1136),
     (4, 0),
     (1, 1088),
     (0, 24),
@@ -1323,18 +1332,18 @@ PROGRAM = (
     (4, 0),
     (3, 509),
     (0, 111),
-    (3, 1136),
+    (3, 1140),
     (4, 0),
     (1, 1100),
-    (3, 1138),
+    (3, 1142),
     (2, 1104),
     (1, 1103),
-    (3, 1140),
+    (3, 1144),
     (2, 1104),
-    (3, 1150),
+    (3, 1154),
     (4, 0),
     (0, 112),
-    (3, 1152),
+    (3, 1156),
     (4, 0),
     (0, 113),
     (3, 366),
@@ -1359,50 +1368,67 @@ PROGRAM = (
     (2, 1129),
     (0, 56),
     (2, 1131),
+    (1, 1135),
+    (0, 115),
+    (3, 1158),
+    (2, 1135),
     (4, 0),
-    (3, 1136),
+    (3, 1140),
     (0, 13),
     (3, 391),
     (4, 0),
     (3, 708),
     (4, 0),
-    (3, 1154),
+    (3, 1166),
     (4, 0),
-    (1, 1144),
+    (1, 1148),
     (3, 482),
     (0, 45),
-    (2, 1144),
-    (0, 115),
-    (1, 1149),
+    (2, 1148),
+    (0, 116),
+    (1, 1153),
     (0, 45),
     (3, 482),
-    (2, 1149),
+    (2, 1153),
     (4, 0),
     (3, 355),
     (4, 0),
-    (3, 1162),
+    (3, 1174),
     (4, 0),
-    (1, 1157),
-    (0, 116),
-    (2, 1161),
-    (1, 1160),
+    (1, 1164),
+    (3, 1180),
+    (0, 63),
+    (3, 391),
+    (0, 64),
+    (2, 1165),
+    (3, 391),
+    (4, 0),
+    (1, 1169),
     (0, 117),
-    (2, 1161),
+    (2, 1173),
+    (1, 1172),
     (0, 118),
+    (2, 1173),
+    (0, 119),
     (4, 0),
     (3, 708),
-    (1, 1167),
-    (3, 1168),
+    (1, 1179),
+    (3, 1182),
     (3, 708),
-    (2, 1163),
+    (2, 1175),
     (4, 0),
-    (1, 1171),
+    (3, 1190),
+    (4, 0),
+    (1, 1185),
     (0, 80),
-    (2, 1175),
-    (1, 1174),
+    (2, 1189),
+    (1, 1188),
     (3, 891),
-    (2, 1175),
+    (2, 1189),
     (0, 81),
+    (4, 0),
+    (3, 482),
+    (0, 120),
     (4, 0),
 )
 
@@ -4114,6 +4140,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 4
         event_ = None
         arguments_ = []
+        to_ = None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -4154,10 +4181,20 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 if not (token == ')'): at = before4; token = tokens[at]; del arguments_[before5:]; break
                 at += 1; token = tokens[at]
                 break
+        if token == 'to':
+            before8 = at
+            before9 = to_
+            while True:
+                at += 1; token = tokens[at]
+                value = r_Address()
+                if value is None: at = before8; token = tokens[at]; to_ = before9; break
+                to_ = value
+                break
         made = new_node(Send)
         made.span = new_span(Span, (source, start, ends[at]))
         made.event = event_
         made.arguments = arguments_
+        made.to = to_
         return made
 
     def r_Assignment():
@@ -4260,6 +4297,58 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.event = event_
         return made
 
+    def r_Address():
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
+        role_ = None
+        index_ = None
+        id_ = None
+        chosen1 = False
+        if not chosen1 and token >= 'A' and token not in SET2:
+            before2 = at
+            before3 = role_
+            before4 = index_
+            while True:
+                first = ends[at + 1] - len(token)
+                taken6 = token; at += 1; token = tokens[at]
+                text5 = taken6
+                match7 = REGEX11(text, ends[at + 1] - len(token))
+                if match7 is None: at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
+                end = match7.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
+                token = tokens[at]
+                text5 += match7[0]
+                value = new_word(Word, text5)
+                value.span = new_span(Span, (source, first, ends[at]))
+                role_ = value
+                if not (token == '['): at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
+                at += 1; token = tokens[at]
+                found = expression(at)
+                if found is None: at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
+                value, at = found; token = tokens[at]
+                index_ = value
+                if not (token == ']'): at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
+                at += 1; token = tokens[at]
+                chosen1 = True
+                break
+        if not chosen1 and token not in SET20:
+            before8 = at
+            while True:
+                found = expression(at)
+                if found is None: at = before8; token = tokens[at]; break
+                value, at = found; token = tokens[at]
+                id_ = value
+                chosen1 = True
+                break
+        if not chosen1: return None
+        made = new_node(Address)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.role = role_
+        made.index = index_
+        made.id = id_
+        return made
+
     def try_ImportRos_ImportFile_ImportLibrary():
         nonlocal at, token
         before = at
@@ -4339,7 +4428,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return model, len(expressions.faults)
     finally:
         # They refer to each other: so they are gone at once, without the garbage collector.
-        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Field = r_TypeRef = r_EnumValue = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Argument = r_Branch = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_Send = r_Assignment = r_OutcomeTrigger = r_DoneTrigger = r_EventTrigger = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
+        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Field = r_TypeRef = r_EnumValue = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Argument = r_Branch = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_Send = r_Assignment = r_OutcomeTrigger = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
 
 LANGUAGE = Language(LEXER, RESERVED)
 # An item may stand after them on one line; the last one is the start of the file.

@@ -11,6 +11,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.swarm_printer.reuse import Reuse, find_reuse, own_variables
 from swarmdsl.ir import (
     Activity,
+    Address,
     Assignment,
     DoneTrigger,
     Effect,
@@ -172,9 +173,17 @@ class _Machine:
                 rest = "".join(f".{name}" for name in path)
                 known = Ref(variable_kind(self.name), variable)
                 return known, f"{rest} = ", *expression_value(value, self.name)
-            case Send(event=event, arguments=arguments):
+            case Send(event=event, arguments=arguments, to=to):
                 given = argument_values(arguments, self.name)
-                return "send ", Ref("event", event), *(("(", *given, ")") if given else ())
+                sent: Value = ("send ", Ref("event", event), *(("(", *given, ")") if given else ()))
+                return (*sent, " to ", *self._address(to)) if to is not None else sent
+
+    def _address(self, address: Address) -> Value:
+        if address.id is not None:
+            return expression_value(address.id, self.name)
+        if address.index is None:
+            return (address.role,)
+        return address.role, "[", *expression_value(address.index, self.name), "]"
 
     def _activity(self, activity: Activity | None) -> Value:
         if activity is None:

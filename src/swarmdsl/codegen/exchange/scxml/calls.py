@@ -24,7 +24,7 @@ from swarmdsl.ir import (
     System,
     VariableRef,
 )
-from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
+from swarmdsl.ir.expression_printer import Dialect, envelope_name, python_literal, translate
 from swarmdsl.syntax.types import DURATION
 
 
@@ -141,6 +141,7 @@ def _python(value: Expression, params: Mapping[str, Param]) -> str:
             variable=lambda name: f"userdata.{name}",
             param=lambda name: f"rospy.get_param('~{name}')",
             event="event",
+            envelope=envelope_name,
             identity="self.{}".format,
             operators={},
             functions={},

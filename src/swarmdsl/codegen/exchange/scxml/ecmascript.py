@@ -10,7 +10,10 @@ from swarmdsl.codegen.exchange.scxml.effects import effects_of
 from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.ir import (
+    Address,
     Assignment,
+    Effect,
+    EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
@@ -37,6 +40,7 @@ def dialect(data: Mapping[str, str]) -> Dialect:
         variable=data.__getitem__,
         param=data.__getitem__,
         event="_event.data",
+        envelope=_envelope,
         identity=f"{SELF}.{{}}".format,
         operators={"and": "&&", "or": "||", "not": "!"},
         functions={
@@ -61,6 +65,11 @@ def dialect(data: Mapping[str, str]) -> Dialect:
         quotient=_quotient,
         division=_division,
     )
+
+
+def _envelope(fact: EnvelopeField) -> str:
+    """Return who sent the event, empty if nobody of the swarm did, or when it was sent."""
+    return '(_event.origin || "")' if fact.field == "sender" else f"_event.data.{fact.field}"
 
 
 # `Infinity` and `NaN` of ECMAScript are errors in the language.
@@ -136,17 +145,32 @@ def stored(expression: Expression, words: Dialect) -> str:
     return text
 
 
+def address(to: Address, words: Dialect) -> str:
+    """Return an address as an expression: the id of a robot, or a role."""
+    if to.id is not None:
+        return translate(to.id, words)
+    if to.index is None:
+        return json.dumps(to.role)
+    if isinstance(to.index, Literal):
+        return json.dumps(f"{to.role}[{to.index.value}]")
+    return f'{json.dumps(f"{to.role}[")} + ({translate(to.index, words)}) + "]"'
+
+
 def needs_data(machine: StateMachine) -> bool:
     """Return True if SCXML's null data model does not suffice for the machine."""
     if machine.variables or machine.params or uses_self(machine):
         return True
-    if any(isinstance(effect, Assignment) or effect.arguments for effect in effects_of(machine)):
+    if any(map(_is_computed_effect, effects_of(machine))):
         return True
     return any(
         transition.guard is not None or any(map(_is_computed, transition.triggers))
         for state in machine.walk()
         for transition in state.transitions
     )
+
+
+def _is_computed_effect(effect: Effect) -> bool:
+    return isinstance(effect, Assignment) or bool(effect.arguments) or effect.to is not None
 
 
 def _is_computed(trigger: Trigger) -> bool:

@@ -16,6 +16,7 @@ from lxml import etree
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.exchange.scxml.ecmascript import (
     SELF,
+    address,
     dialect,
     initial_value,
     needs_data,
@@ -232,8 +233,9 @@ class _StateWriter:
                 case Assignment(variable=variable, path=path, value=value):
                     location = self._location(variable, path)
                     add(element, "assign", location=location, expr=stored(value, self.dialect))
-                case Send(event=event, arguments=arguments):
-                    sending = add(element, "send", event=event, type=SEND_TYPE)
+                case Send(event=event, arguments=arguments, to=to):
+                    target = address(to, self.dialect) if to is not None else None
+                    sending = add(element, "send", event=event, type=SEND_TYPE, targetexpr=target)
                     for name, value in arguments:
                         add(sending, "param", name=name, expr=stored(value, self.dialect))
 

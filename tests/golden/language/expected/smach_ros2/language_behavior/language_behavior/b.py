@@ -7,12 +7,13 @@ import math
 import geometry_msgs.msg
 import language.msg
 import language.srv
+import language_events.msg
 import my_acts.action
 import my_msgs.msg
 import std_msgs.msg
 import swarmros.msg
 
-from .engine import Activity, bounded, Event, Kind, Machine, State, Transition
+from .engine import Activity, bounded, Envelope, Event, Kind, Machine, State, Transition
 from .functions import Action, Service
 from .host import Behavior, outcomes, tree
 from .topics import Topic
@@ -105,9 +106,31 @@ def guard_d_5(machine, event):
     return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(9, 12)  # noqa: E501
 
 
+def guard_d_6(machine, event):
+    # model.swarm:76
+    return event.envelope.sent > 3_000_000_000
+
+
+def effect_d_4(machine, event):
+    # model.swarm:76
+    machine.emit(Event('X', language.msg.M(), envelope=Envelope(to=event.envelope.sender)))
+    machine.emit(
+        Event(
+            'X',
+            language.msg.M(),
+            envelope=Envelope(to='uav[{}]'.format(machine.data.self.index + 1)),
+        ),
+    )
+
+
+def guard_d_7(machine, event):
+    # model.swarm:86
+    return event.data.event_header.node != machine.data.self.id
+
+
 def enter_d(machine, event):
     # model.swarm:68
-    machine.emit(Event('X', filled(language.msg.M(), mode=MODE_AUTO)))
+    machine.emit(Event('X', filled(language.msg.M(), mode=MODE_AUTO), envelope=Envelope(to='big')))
     machine.data.n = LIMIT
 
 
@@ -117,24 +140,24 @@ def leave_d(machine, event):
 
 
 def wait_d_out(machine, event):
-    # model.swarm:82
+    # model.swarm:83
     machine.send_after(Event('after.D.Out.1'), math.ceil(2_000_000_000 * 2), 'after.D.Out.1')
     machine.send_after(Event('after.D.Out.2'), 3_000_000_000, 'after.D.Out.2')
 
 
 def stop_waiting_d_out(machine, event):
-    # model.swarm:82
+    # model.swarm:83
     machine.cancel('after.D.Out.1')
     machine.cancel('after.D.Out.2')
 
 
 def goal_d_out(machine):
-    # model.swarm:79
+    # model.swarm:80
     return filled(language.srv.BaseTake.Request(), mode=machine.data.mode)
 
 
 def result_d_out(machine, event):
-    # model.swarm:79
+    # model.swarm:80
     machine.data.ok = deepcopy(get(event.data, 'ok'))
 
 
@@ -174,22 +197,23 @@ STATES = tree(
             Transition((), ('A',), guard=guard_d_4, origin='model.swarm:73'),
             Transition(('F',), ('D.In',), internal=True, origin='model.swarm:74'),
             Transition(('X',), ('D.H',), guard=guard_d_5, origin='model.swarm:75'),
-            Transition(('MissionAbort',), ('Z',), origin='model.swarm:85'),
+            Transition(('X',), (), guard=guard_d_6, effect=effect_d_4, origin='model.swarm:76'),
+            Transition(('MissionAbort',), ('Z',), guard=guard_d_7, origin='model.swarm:86'),
         ),
         entry=(enter_d,),
         exit=(leave_d,),
     ),
-    # model.swarm:77
-    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:77'),)),
     # model.swarm:78
+    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:78'),)),
+    # model.swarm:79
     State(
         'D.Out',
         transitions=(
-            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:80'),
+            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:81'),
             Transition(
-                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:81'
+                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:82'
             ),
-            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.In',), origin='model.swarm:82'),
+            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.In',), origin='model.swarm:83'),
         ),
         entry=(wait_d_out,),
         exit=(stop_waiting_d_out,),
@@ -197,9 +221,9 @@ STATES = tree(
             'cam_take', 'cam/take', outcomes('D.Out'), goal=goal_d_out, finalize=result_d_out
         ),
     ),
-    # model.swarm:84
+    # model.swarm:85
     State('D.H', Kind.DEEP_HISTORY, transitions=(Transition((), ('D.In',)),)),
-    # model.swarm:87
+    # model.swarm:88
     State('Z', Kind.FINAL),
 )
 
@@ -211,7 +235,15 @@ TOPICS = (
     # model.swarm:41
     Topic('F', std_msgs.msg.Empty, 'f', heard=True),
     # model.swarm:39
-    Topic('X', language.msg.M, 'x', swarm=True, heard=True, sent=True),
+    Topic(
+        'X',
+        language.msg.M,
+        'x',
+        swarm=True,
+        heard=True,
+        sent=True,
+        envelope=language_events.msg.XEnvelope,
+    ),
     # events.swarm:16
     # The mission is called off.
     Topic('MissionAbort', swarmros.msg.SimpleEvent, 'mission_abort', swarm=True, heard=True),

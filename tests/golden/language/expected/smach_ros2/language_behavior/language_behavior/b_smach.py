@@ -22,6 +22,7 @@ CHART = Chart(
             Way('A', 'D'),
             Way('F', 'D'),
             Way('X', 'D'),
+            None,
             Way('MissionAbort', 'D'),
         ),
         'D.In': (Way('Out', 'D.In'),),
@@ -88,7 +89,7 @@ def build_d():
             Junction(CHART, 'D.Entry', ['In', 'Out', 'preempted']),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
-        # model.swarm:77
+        # model.swarm:78
         StateMachine.add(
             'In',
             State(CHART, 'D.In', ['Battery', 'A', 'F', 'X', 'MissionAbort', 'Out', 'preempted']),
@@ -102,7 +103,7 @@ def build_d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:78
+        # model.swarm:79
         # Calls service cam/take.
         StateMachine.add(
             'Out',

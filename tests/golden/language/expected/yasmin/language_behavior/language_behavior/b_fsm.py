@@ -22,6 +22,7 @@ CHART = Chart(
             Way('A', 'D'),
             Way('F', 'D'),
             Way('X', 'D'),
+            None,
             Way('MissionAbort', 'D'),
         ),
         'D.In': (Way('Out', 'D.In'),),
@@ -62,7 +63,7 @@ class DEntry(Junction):
 
 
 class DIn(State):
-    # model.swarm:77
+    # model.swarm:78
     """Waits for a transition."""
 
     chart = CHART
@@ -71,7 +72,7 @@ class DIn(State):
 
 
 class DOut(ServiceState):
-    # model.swarm:78
+    # model.swarm:79
     """Calls service cam/take."""
 
     chart = CHART
@@ -124,7 +125,7 @@ def build_d():
     # model.swarm:67
     machine = StateMachine({'Battery', 'A', 'X', 'MissionAbort', 'canceled'})
     machine.add_state('Entry', DEntry(), {'In': 'In', 'Out': 'Out', 'canceled': 'canceled'})
-    # model.swarm:77
+    # model.swarm:78
     machine.add_state(
         'In',
         DIn(),
@@ -138,7 +139,7 @@ def build_d():
             'canceled': 'canceled',
         },
     )
-    # model.swarm:78
+    # model.swarm:79
     machine.add_state(
         'Out',
         DOut(),

@@ -7,8 +7,8 @@ from builtin_interfaces.msg import Time
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
-from .engine import Event
-from .values import SECOND, to_json
+from .engine import Envelope, Event
+from .values import get, SECOND, to_json
 
 try:
     from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
@@ -27,7 +27,8 @@ class Topic(NamedTuple):
     An event and its topic.
 
     The topic of a swarm event is in the namespace of the swarm; `local` is a topic of the robot on
-    which it is sent too.
+    which it is sent too. `envelope` is the interface of a message around it with its sender, its
+    time and its address, if a machine asks for them.
     """
 
     event: str
@@ -37,6 +38,7 @@ class Topic(NamedTuple):
     heard: bool = False
     sent: bool = False
     local: str = ''
+    envelope: Any = None
 
 
 class Topics:
@@ -47,13 +49,15 @@ class Topics:
     that were lost, and whether they were sent reliably.
     """
 
-    def __init__(self, node, topics, swarm, member, group, clock, hear, drop):
+    def __init__(self, node, topics, swarm, robot, group, clock, hear, drop):
         self._node = node
-        self._member = member
+        self._robot = robot
         self._clock = clock
         self._hear = hear
         self._publishers = {}
+        self._local_publishers = {}
         self._names = {topic.event: topic.name for topic in topics}
+        self._envelopes = {topic.event: topic.envelope for topic in topics if topic.envelope}
         self._headers = {}
         self._subscriptions = []
         self._echoes = {}
@@ -62,31 +66,55 @@ class Topics:
             name = f'{around}/{topic.name}' if topic.swarm else topic.name
             if topic.sent:
                 self._headers[topic.event] = _headers(topic.interface)
-                self._publishers[topic.event] = [
-                    self._publisher(topic, each, group) for each in (name, topic.local) if each
-                ]
+                wire = topic.envelope or topic.interface
+                self._publishers[topic.event] = self._publisher(wire, name, group)
+                if topic.local:
+                    local = self._publisher(topic.interface, topic.local, group)
+                    self._local_publishers[topic.event] = local
             if topic.heard:
                 if topic.swarm and topic.sent:
                     self._echoes[topic.event] = []
-                hear_event = self._listener(topic.event)
+                hear_event = self._listener(topic)
                 self._subscriptions.append(
                     _Subscription(node, topic, name, group, hear_event, drop)
                 )
 
     def send(self, event):
-        """Publish an event, with its time and sender in empty headers."""
+        """
+        Publish an event, with its time and sender in empty headers.
+
+        An empty address is that of nobody.
+        """
+        to = event.envelope.to
+        if to == '':
+            what = f'{event.name} is sent to nobody: its address is empty'
+            self._node.get_logger().warning(what)
+            return
         self._sign(event.data, event.name)
+        wire = self._wrapped(event)
         if event.name in self._echoes:
-            self._echoes[event.name].append((to_json(event.data), self._clock() + _ECHO))
-        for publisher in self._publishers[event.name]:
-            publisher.publish(event.data)
+            self._echoes[event.name].append((to_json(wire), self._clock() + _ECHO))
+        self._publishers[event.name].publish(wire)
+        if to is None and event.name in self._local_publishers:
+            self._local_publishers[event.name].publish(event.data)
+
+    def _wrapped(self, event):
+        """Return the message that is published: an event is in its envelope, if it has one."""
+        if event.name not in self._envelopes:
+            return event.data
+        return self._envelopes[event.name](
+            sender=self._robot.id,
+            sent=self._node.get_clock().now().to_msg(),
+            to=event.envelope.to or '',
+            message=event.data,
+        )
 
     def _sign(self, message, name):
         for field, kind in self._headers[name]:
             header = getattr(message, field)
             if kind == _OF_BRIDGE:
                 header.name = header.name or self._names[name]
-                header.node = header.node or self._member
+                header.node = header.node or self._robot.id
             elif header.stamp == Time():
                 header.stamp = self._node.get_clock().now().to_msg()
 
@@ -94,25 +122,37 @@ class Topics:
         """Destroy all publishers and subscriptions."""
         for each in self._subscriptions:
             each.destroy()
-        for publishers in self._publishers.values():
-            for each in publishers:
+        for publishers in (self._publishers, self._local_publishers):
+            for each in publishers.values():
                 self._node.destroy_publisher(each)
 
-    def _publisher(self, topic, name, group):
+    def _publisher(self, interface, name, group):
         return self._node.create_publisher(
-            topic.interface,
+            interface,
             name,
             reliable(),
             callback_group=group,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
 
-    def _listener(self, event):
+    def _listener(self, topic):
         def listen(message):
-            if not self._is_echo(event, message):
-                self._hear(Event(event, message))
+            if not self._is_echo(topic.event, message):
+                self._hear(Event(topic.event, message))
 
-        return listen
+        def open_envelope(message):
+            if not self._is_echo(topic.event, message) and self._is_for_me(message):
+                to = message.to or None
+                envelope = Envelope(message.sender, get(message, 'sent'), to)
+                self._hear(Event(topic.event, message.message, envelope=envelope))
+
+        return open_envelope if topic.envelope else listen
+
+    def _is_for_me(self, message):
+        """Return True for an event of another robot to this one, to its role or to all."""
+        if message.sender and message.sender == self._robot.id:
+            return False
+        return message.to in ('', self._robot.id, self._robot.role)
 
     def _is_echo(self, event, message):
         """Return True for an event that the node has sent itself; swarm events are for others."""
@@ -156,7 +196,8 @@ class _Subscription:
 
     def _subscribe(self, qos, **options):
         options.update(callback_group=self._group)
-        arguments = (self._topic.interface, self._name, self._hear, qos)
+        interface = self._topic.envelope or self._topic.interface
+        arguments = (interface, self._name, self._hear, qos)
         events = SubscriptionEventCallbacks(incompatible_qos=self._match, message_lost=self._lose)
         try:
             return self._node.create_subscription(*arguments, **options, event_callbacks=events)

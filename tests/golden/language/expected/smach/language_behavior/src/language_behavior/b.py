@@ -112,19 +112,23 @@ def _d():
             On(AT_ONCE, 'A', guard=_d_a_guard),
             On(events.F, 'D_F', internal=True),
             On(events.X, guard=_d_x_guard, into='H'),
-            On(events.MISSION_ABORT),
+            On(events.X, None, guard=_d_x_guard_2, effect=_d_x_effect),
+            On(
+                events.MISSION_ABORT,
+                guard=lambda userdata, event: event.eventHeader.node != userdata.self.id,
+            ),
         ],
         on_entry=_d_entry,
         on_exit=_d_exit,
     )
     with machine:
-        # model.swarm:77
+        # model.swarm:78
         StateMachine.add(
             'In',
             State(on=[On(AT_ONCE, 'Out')], outcomes=['D_F']),
             transitions={'Out': 'Out', 'D_F': 'In', 'preempted': 'preempted'},
         )
-        # model.swarm:78
+        # model.swarm:79
         StateMachine.add(
             'Out',
             ServiceState(
@@ -148,7 +152,7 @@ def _d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:84
+        # model.swarm:85
         StateMachine.add(
             'H',
             History('In', ['In', 'Out'], deep=True),
@@ -192,19 +196,30 @@ def _d_x_guard(userdata, event):
     return math.hypot(userdata.here.x - userdata.seen.pose.position.x, userdata.here.y - userdata.seen.pose.position.y, userdata.here.z - userdata.seen.pose.position.z) < math.hypot(9, 12)
 
 
+def _d_x_guard_2(userdata, event, envelope):
+    # model.swarm:76
+    return rospy.Duration(0, envelope.sent) > rospy.Duration(3.0)
+
+
+def _d_x_effect(userdata, event, envelope):
+    # model.swarm:76
+    events.X.send(M(), envelope.sender)
+    events.X.send(M(), 'uav[{}]'.format(userdata.self.index + 1))
+
+
 def _d_out_request(userdata, request):
-    # model.swarm:79
+    # model.swarm:80
     return BaseTakeRequest(mode=userdata.mode)
 
 
 def _d_out_response(userdata, response):
-    # model.swarm:79
+    # model.swarm:80
     userdata.ok = response.ok
 
 
 def _d_entry(userdata):
     # model.swarm:68
-    events.X.send(M(mode=MODE_AUTO))
+    events.X.send(M(mode=MODE_AUTO), 'big')
     userdata.n = LIMIT
 
 

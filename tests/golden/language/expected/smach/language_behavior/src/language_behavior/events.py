@@ -2,6 +2,7 @@
 """Events that the state machines receive and send."""
 
 from language.msg import M
+from language_events.msg import XEnvelope
 from my_msgs.msg import Level
 from std_msgs.msg import Empty
 from swarmros.msg import SimpleEvent
@@ -9,7 +10,7 @@ from swarmros.msg import SimpleEvent
 from language_behavior.states import Event
 
 # model.swarm:39
-X = Event('X', M, 'bridge/events/x', 'x')
+X = Event('X', M, 'bridge/events/x', 'x', envelope=XEnvelope)
 
 # model.swarm:40
 E = Event('E', M, 'e', 'e')

@@ -112,10 +112,11 @@ class Chart(engine.Observer):
         with self.changed:
             self._do(self._instance.stop)
 
-    def receive(self, name, data=None):
+    def receive(self, name, data=None, envelope=engine.NO_ENVELOPE):
         """Run an event to completion."""
+        event = engine.Event(name, data, envelope=envelope)
         with self.changed:
-            self._do(lambda: self._instance.receive(engine.Event(name, data)))
+            self._do(lambda: self._instance.receive(event))
 
     def ended(self, activation, outcome, result):
         """Run the end of an activity to completion."""

@@ -1,0 +1,74 @@
+"""Checks of the addresses of events, in each swarm that runs the machine."""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.resolve.addresses import (
+    NamedRole,
+    machines_in,
+    named_roles,
+    roles_of,
+    values_like_roles,
+)
+from swarmdsl.analysis.resolve.multiplicity import greatest
+from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.base.suggest import suggest
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import Address, Role, StateMachine, Swarm
+
+
+def check_addresses(project: Project, context: Context) -> None:
+    """Check the roles that machines name: a swarm that runs a machine has them."""
+    used = [node for _, node in context.used]
+    swarms = [node for node in used if isinstance(node, Swarm) and node not in context.incomplete]
+    missing: dict[Address, list[NamedRole]] = {}
+    for machine in used:
+        if isinstance(machine, StateMachine):
+            for found in named_roles(machine, swarms):
+                if found.role is None:
+                    missing.setdefault(found.address, []).append(found)
+                else:
+                    _check_index(found, found.role, context)
+    for names in missing.values():
+        _report_missing(names, context)
+    for swarm in swarms:
+        for machine in machines_in(swarm):
+            for use, role in values_like_roles(machine, swarm):
+                context.report.report(
+                    "unclear-address",
+                    use.span,
+                    name=use.name,
+                    swarm=swarm.name,
+                    related=(Label(role.name.span, "a role has this name"),),
+                    help="give the value another name",
+                )
+
+
+def _check_index(found: NamedRole, role: Role, context: Context) -> None:
+    index, most = found.address.index, greatest(role)
+    number = context.typing.folding.value(index.tree) if index and index.tree else None
+    if most is not None and isinstance(number, int) and number >= most:
+        context.report.report(
+            "unknown-robot",
+            found.address.span,
+            role=role.name,
+            robot=f"{role.name}[{number}]",
+            related=(Label(role.span, "the robots are counted from 0"),),
+            help=f"the last one is `{role.name}[{most - 1}]`" if most else None,
+        )
+
+
+def _report_missing(found: list[NamedRole], context: Context) -> None:
+    """Report a name that is no role in some swarms that run the machine."""
+    help_ = None
+    if context.report.wants_hint("unresolved-name"):
+        roles = dict.fromkeys(name for each in found for name in roles_of(each.swarm))
+        help_ = suggest(found[0].name, roles, "roles")
+    swarms = listed([str(each.swarm.name) for each in found], "or")
+    context.report.report(
+        "unresolved-name",
+        found[0].span,
+        kind=f"role in swarm {swarms}",
+        name=found[0].name,
+        help=help_,
+    )

@@ -1,0 +1,75 @@
+"""Addresses of events: the roles that machines name, in the swarms that run them.
+
+A machine knows no swarm, so that several can run it; the roles that it names are those of each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.linker import machines_of
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import Address, NameUse, Part, Role, StateMachine, Swarm, nodes_of
+
+
+@dataclass(frozen=True)
+class NamedRole:
+    """Name in an address, and the role of a swarm that it means there; None if there is none."""
+
+    address: Address
+    name: str
+    span: Span
+    swarm: Swarm
+    role: Role | None
+
+
+def named_roles(machine: StateMachine, swarms: Iterable[Swarm]) -> Iterator[NamedRole]:
+    """Yield the names in the addresses of a machine, for each swarm that runs it.
+
+    A name that is also a value of the machine is among them where a role has it.
+    """
+    addresses = nodes_of(machine, Address)
+    for swarm in swarms if addresses else ():
+        if machine not in machines_in(swarm):
+            continue
+        roles = roles_of(swarm)
+        for address in addresses:
+            if address.named_role is not None:
+                name, span = address.named_role
+                yield NamedRole(address, name, span, swarm, roles.get(name))
+
+
+def values_like_roles(machine: StateMachine, swarm: Swarm) -> Iterator[tuple[NameUse, Role]]:
+    """Yield the values that are addresses of a machine, and that a role has the name of."""
+    roles = roles_of(swarm)
+    for address in nodes_of(machine, Address):
+        use = address.id.tree if address.id is not None else None
+        if isinstance(use, NameUse) and use.target is not None and use.name in roles:
+            yield use, roles[use.name]
+
+
+def swarms_of(project: Project) -> list[Swarm]:
+    """Return the swarms of a project."""
+    return [node for _, node in project.declarations() if isinstance(node, Swarm)]
+
+
+def roles_of(swarm: Swarm) -> dict[str, Role]:
+    """Return the roles of a swarm by name."""
+    return {str(item.name): item for item in swarm.items if isinstance(item, Role)}
+
+
+def machines_in(swarm: Swarm) -> set[StateMachine]:
+    """Return the machines that the members of a swarm and their parts run."""
+    found: set[StateMachine] = set()
+    for role in roles_of(swarm).values():
+        member = role.member.target
+        if member is None:
+            continue
+        found.update(machines_of(member))
+        for part in all_items(member, Part):
+            if part.component.target is not None:
+                found.update(machines_of(part.component.target))
+    return found

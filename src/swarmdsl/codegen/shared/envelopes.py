@@ -1,0 +1,103 @@
+"""Envelopes: messages of ROS around those of swarm events that have no place for what is asked.
+
+A header of a message may tell its sender and its time; if it does not, or if the event has an
+address, an interface package of its own declares a message around it. Events whose sender, time
+and address nobody asks for keep their type.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+
+from swarmdsl.base.naming import FreshNames, camel_case, snake_case
+from swarmdsl.ir import (
+    Address,
+    Assignment,
+    Effect,
+    EnvelopeField,
+    EventTrigger,
+    Expression,
+    Field,
+    Literal,
+    Message,
+    Named,
+    Primitive,
+    Send,
+    StateMachine,
+    System,
+    subexpressions,
+)
+
+BRIDGE_HEADER = Named("swarmros", "EventHeader")
+"""Header by which the bridge of ROS 1 identifies an event: its name and sender."""
+_TEXT, _TIME = Primitive("string"), Primitive("time")
+
+
+def envelopes_of(system: System) -> Mapping[str, Message]:
+    """Return the envelope of each swarm event that needs one, by the name of the event."""
+    needing = {name for machine in system.machines for name in _needing(machine)}
+    package, names = f"{snake_case(system.name)}_events", FreshNames()
+    return {
+        event.name: Message(
+            Named(package, names.new(f"{camel_case(event.name)}Envelope")),
+            tuple(_fields(event.type, system)),
+            external=False,
+            doc=f"Event {event.name} between robots.",
+            origin=event.origin,
+        )
+        for event in system.events
+        if event.name in needing and isinstance(event.type, Named)
+    }
+
+
+def reads_envelope(content: Iterable[Expression | Effect]) -> bool:
+    """Return True if guards or effects ask for a fact that only an envelope tells."""
+    parts = (part for value in _values(content) for part in subexpressions(value))
+    return any(isinstance(part, EnvelopeField) and part.header is None for part in parts)
+
+
+def _needing(machine: StateMachine) -> Iterator[str]:
+    for state in machine.walk():
+        effects = [*state.entry, *state.exit]
+        for transition in state.transitions:
+            effects += transition.effects
+            guard = () if transition.guard is None else (transition.guard,)
+            if reads_envelope((*guard, *transition.effects)):
+                triggers = transition.triggers
+                yield from (each.event for each in triggers if isinstance(each, EventTrigger))
+        for effect in effects:
+            if isinstance(effect, Send) and effect.to is not None:
+                yield effect.event
+
+
+def _values(content: Iterable[Expression | Effect]) -> Iterator[Expression]:
+    for each in content:
+        match each:
+            case Assignment(value=value):
+                yield value
+            case Send(arguments=arguments, to=to):
+                yield from (value for _, value in arguments)
+                yield from to.values if to is not None else ()
+            case _:
+                yield each
+
+
+def _fields(wrapped: Named, system: System) -> Iterator[Field]:
+    message = system.known_interface(wrapped)
+    if isinstance(message, Message) and any(each.type == BRIDGE_HEADER for each in message.fields):
+        yield Field("swarmio", BRIDGE_HEADER, "For the bridge between the robots.")
+    yield Field("sender", _TEXT, "The robot that sent it; empty: nobody of the swarm.")
+    yield Field("sent", _TIME, "When it was sent.")
+    yield Field("to", _TEXT, "The robot or role that it is for; empty: all others.")
+    yield Field("message", wrapped, "The event itself.")
+
+
+def python_address(to: Address, value: Callable[[Expression], str]) -> str:
+    """Return an address as an expression of Python, given the printer of expressions."""
+    if to.id is not None:
+        return value(to.id)
+    if to.index is None:
+        return repr(to.role)
+    if isinstance(to.index, Literal):
+        return repr(f"{to.role}[{to.index.value}]")
+    return f"{f'{to.role}[{{}}]'!r}.format({value(to.index)})"
