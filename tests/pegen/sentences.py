@@ -129,6 +129,8 @@ def sample(regex: str, dice: Random) -> str:
         text = "".join(_pieces(_parsed(regex), dice))
         if re.fullmatch(regex, text):  # lookaheads may refuse it
             return text
+        if all(str(operator) == "ASSERT" for operator, _ in _parsed(regex)):
+            return ""  # what is around it decides, which the parsers have to agree on
 
 
 def _pieces(items: Any, dice: Random) -> Iterator[str]:
