@@ -22,7 +22,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.codegen.exchange.scxml.portable import SEND_TYPE
-from swarmdsl.execution.engine import Event, Instance, Machine, Run
+from swarmdsl.execution.engine import Envelope, Event, Instance, Machine, Run
 from swarmdsl.execution.scxml import read
 from swarmdsl.ir.operations import OPERATIONS
 
@@ -30,7 +30,7 @@ from ..engine.world import StillWorld
 
 try:
     from PySide6.QtCore import QBuffer, QByteArray, QCoreApplication, QIODevice
-    from PySide6.QtScxml import QScxmlStateMachine
+    from PySide6.QtScxml import QScxmlEvent, QScxmlStateMachine
 except ImportError:
     QCoreApplication = None
 
@@ -42,13 +42,22 @@ class Step:
     """Something that happens to a machine: an event, by its name in the document.
 
     `run` is the state and outcome of the activity that it is the end of; `time` says that it
-    comes when the next delay has passed.
+    comes when the next delay has passed. `sender` and `sent` are those of a swarm event.
     """
 
     event: str
     data: Any = None
     run: tuple[str, str] | None = None
     time: bool = False
+    sender: str = ""
+    sent: int = 0
+
+    @property
+    def told(self) -> Any:
+        """The data in a document, which have the time of a swarm event, in milliseconds."""
+        if not isinstance(self.data, dict) or not self.sent:
+            return self.data
+        return {"sent": self.sent / 1_000_000, **self.data}
 
 
 class Engine(Protocol):
@@ -95,7 +104,12 @@ class Ours:
         if step.time:
             self.world.clock.step()
         else:
-            self.instance.receive(Event(step.event, step.data))
+            envelope = Envelope(step.sender, step.sent)
+            self.instance.receive(Event(step.event, self.data_of(step), envelope=envelope))
+
+    def data_of(self, step: Step) -> Any:
+        """The data that come with an event."""
+        return step.data
 
 
 class Document(Ours):
@@ -106,6 +120,9 @@ class Document(Ours):
         machine = read(Source("document.scxml", text.decode()), report)
         assert machine is not None, [found.message for found in report]
         super().__init__(machine)
+
+    def data_of(self, step: Step) -> Any:
+        return step.told
 
 
 def with_values(text: str, given: Mapping[str, Any]) -> bytes:
@@ -202,6 +219,7 @@ _ECMASCRIPT = {
     "true": True,
     "false": False,
 }
+_ORIGIN, _WHO = "_event.origin", "origin_of_event"
 _WORDS = {"&&": " and ", "||": " or ", "!": " not "}
 _PYTHON = re.compile(
     r"""(?P<kept>"(?:[^"\\]|\\.)*"|!=)|(?P<word>&&|\|\||!)|(?P<function>\(function [^}]*\}\))"""
@@ -221,6 +239,10 @@ def in_python(document: bytes) -> str:
     for element in root.iter():
         for attribute in ("cond", "expr"):
             if element.get(attribute) is not None:
+                # There, only events that a machine sends itself have an origin.
+                element.set(
+                    attribute, element.get(attribute).replace(_ORIGIN, f"_event.data.{_WHO}")
+                )
                 written = _PYTHON.sub(word, element.get(attribute)).strip()
                 element.set(attribute, f"as_object({written})")
     return etree.tostring(root).decode()
@@ -240,7 +262,10 @@ class PythonStateMachine:
         return frozenset(state.id for state in self.machine.configuration)
 
     def take(self, step: Step) -> None:
-        given = () if step.data is None else (_of(step.data),)
+        told = step.told
+        if isinstance(told, dict):
+            told = {_WHO: step.sender, **told}
+        given = () if told is None else (_of(told),)
         self.machine.send(step.event, *given)
 
 
@@ -270,8 +295,12 @@ class Qt:
         return frozenset(self.machine.activeStateNames(False))
 
     def take(self, step: Step) -> None:
-        given = () if step.data is None else (step.data,)
-        self.machine.submitEvent(step.event, *given)
+        event = QScxmlEvent()
+        event.setName(step.event)
+        event.setOrigin(step.sender)
+        if step.told is not None:
+            event.setData(step.told)
+        self.machine.submitEvent(event)
         Qt.application.processEvents()
 
 

@@ -18,7 +18,7 @@ from swarmdsl.codegen.shared.events import Events, delays
 from swarmdsl.execution.engine import Event, Instance, LoopError, Observer, Transition
 from swarmdsl.execution.simulate.table import OUTCOMES, first_data, table
 from swarmdsl.ir import EventTrigger, StateKind, System
-from swarmdsl.syntax.types import DURATION
+from swarmdsl.syntax.types import DURATION, STRING
 
 from .engines import Ours, Step
 from .values import Values
@@ -81,7 +81,7 @@ class Subject:
         }
         self.events: list[Step] = []
         for event in [each for each in system.events if each.name in heard]:
-            steps = [Step(event.name, values.message(event)) for _ in range(DRAWS)]
+            steps = [self._step(event, values) for _ in range(DRAWS)]
             self.events += [step for i, step in enumerate(steps) if step not in steps[:i]]
         self.ends: dict[str, list[Step]] = {}
         for state in machine.walk():
@@ -94,6 +94,21 @@ class Subject:
                     for i, (outcome, data) in enumerate(ways)
                     if (outcome, data) not in ways[:i]
                 ]
+
+    def _step(self, event: ir.Event, values: Values) -> Step:
+        """An event with a message; headers of the message tell who sent it and when."""
+        message = values.message(event)
+        if not event.swarm or not values.asks:
+            return Step(event.name, message)
+        sender, sent = values.value(STRING), values.value(DURATION)
+        known = self.system.known_interface(event.type)
+        for field in known.fields if isinstance(known, ir.Message) else ():
+            header = message.get(field.name, {})
+            if str(field.type) == "swarmros/EventHeader":
+                sender = header.get("node", sender)
+            elif str(field.type) == "std_msgs/Header":
+                sent = header.get("stamp", sent)
+        return Step(event.name, message, sender=sender, sent=sent)
 
     @property
     def transitions(self) -> dict[int, ir.Transition]:

@@ -141,6 +141,40 @@ swarm Yard {
     assert (yard / "yard.swarm").read_text() == model
 
 
+ADDRESSED = """swarm event Go : std_msgs/Empty
+
+endless statemachine Roll {
+  initial A
+  state A {
+    on Go / send Go to cart, send Go to cart[0], send Go to event.sender
+    after 2 s / send Go to "cart[1]" -> A
+  }
+}
+
+member Cart { behavior Roll }
+
+swarm Yard { cart : Cart[2] }
+"""
+
+
+def test_a_role_in_addresses(swarmc, yard) -> None:
+    (yard / "yard.swarm").write_text(ADDRESSED)
+    assert swarmc("rename", "Yard.cart", "van").code == 0
+    wanted = ADDRESSED.replace("to cart", "to van").replace("{ cart :", "{ van :")
+    assert (yard / "yard.swarm").read_text() == wanted
+    assert swarmc("check").code == 0
+
+
+def test_a_role_that_another_swarm_has_too(swarmc, yard) -> None:
+    """The machine would name a role that the other swarm does not have."""
+    model = ADDRESSED + "\nswarm Farm { cart : Cart[3] }\n"
+    (yard / "yard.swarm").write_text(model)
+    ran = swarmc("rename", "Yard.cart", "van")
+    assert (ran.code, "SW1505" in ran.err) == (1, True)
+    assert "no role in swarm `Farm` called `van`" in ran.err
+    assert (yard / "yard.swarm").read_text() == model
+
+
 def test_a_file_that_is_not_there(swarmc, yard) -> None:
     for command in (["rename", "Camera", "Eye", "yrd.swarm"], ["add", "member", "X"]):
         more = ["--model", "yrd.swarm"] if command[0] == "add" else []

@@ -25,6 +25,7 @@ from swarmdsl.codegen.features import used_features
 from swarmdsl.codegen.options import parse_options
 from swarmdsl.codegen.registry import load
 from swarmdsl.codegen.ros.interface_files import definition, interface_path
+from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
@@ -128,7 +129,7 @@ class Workspace:
         """Make what is generated, what the model describes, and what the library does."""
         library = pipeline.check([_LIBRARY]).system
         assert library is not None
-        for interface in (*library.interfaces, *system.interfaces):
+        for interface in (*library.interfaces, *system.interfaces, *envelopes_of(system).values()):
             if not (_DEBIAN / interface.type.package).exists():
                 path = folder / interface.type.package / interface_path(interface)
                 path.parent.mkdir(parents=True, exist_ok=True)

@@ -117,6 +117,24 @@ PLACES = {
     "field of self": (
         work("on Seen [self.|"), {"id", "role", "index", "count"}, {"spot", "place"},
     ),
+    "field of a swarm event": (
+        work("on Seen [event.|").replace("event Seen", "swarm event Seen"),
+        {"id", "place", "sender", "sent"}, {"spot", "x"},
+    ),
+    "field of a robot's event": (work("on Seen [event.|"), {"id"}, {"sender", "sent"}),
+    "address": (
+        work("on Low / send Seen to |") + "swarm S { lead : Robot  rest : Robot[2] }",
+        {"lead", "rest", "spot"}, {"Robot", "Work"},
+    ),
+    "address in a swarm that runs it": (
+        work("on Low / send Seen(id = \"a\") to r|")
+        + "member Other { }  swarm T { base : Other }  swarm S { rest : Robot[2] }",
+        {"rest"}, {"base"},
+    ),
+    "role of one robot": (
+        work("on Low / send Seen to |[0]") + "swarm S { rest : Robot[2] }", {"rest"}, {"spot"},
+    ),
+    "behind an event to send": (work("on Low / send Seen |"), {"to"}, {"spot"}),
     "self": (work("on Seen [|"), {"self", "event"}, {"id"}),
     "field of a field": (work("on Seen [event.place.|] -> Over"), {"x", "y", "z"}, {"id"}),
     "field of a struct": (work("on Low / spot.|"), {"x", "y"}, {"z", "id"}),

@@ -295,6 +295,29 @@ async def test_hover_shows_what_a_robot_knows_of_itself(client, editor):
     )
 
 
+async def test_hover_shows_who_sent_an_event(client, editor):
+    text = """
+      swarm event Go : std_msgs/Empty
+      statemachine M {
+        initial A
+        state A {
+          on Go [event.sent > 2 s and event.sender != ""] / send Go to base[0] -> B
+        }
+        final B
+      }
+      member Rover { behavior M }
+      swarm S { base : Rover }
+    """
+    found = await hovered(client, editor, EXAMPLE / "new.swarm", "sender", text)
+    assert "event.sender : string" in found
+    assert "event.sent : duration" in await hovered(
+        client, editor, EXAMPLE / "new.swarm", "sent", text
+    )
+    found = await hovered(client, editor, EXAMPLE / "new.swarm", "base[", text)
+    assert "base : Rover" in found
+    assert "one member" in found
+
+
 async def test_hover_shows_support_in_targets_of_the_project(client, editor, folder):
     (folder / "swarm.toml").write_text("[targets.smach]\nros = 2\n[targets.yasmin]\n")
     model = folder / "lab.swarm"

@@ -11,6 +11,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from swarmdsl import ir
+from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.ir import Array, Field, Named, Primitive, System
 
@@ -373,7 +374,7 @@ class World:
 
     def _define_messages(self) -> None:
         """A class for every type that the model describes or names."""
-        for interface in self.system.interfaces:
+        for interface in (*self.system.interfaces, *envelopes_of(self.system).values()):
             package = interface.type.package
             match interface:
                 case ir.Message(fields=fields):
@@ -405,7 +406,7 @@ class World:
         """
         world, types = self, {field_name(field.name): field.type for field in fields or ()}
 
-        def __init__(message: Any, **values: Any) -> None:  # noqa: N807
+        def __init__(message: Any, /, **values: Any) -> None:  # noqa: N807
             unknown = values.keys() - types.keys()
             assert fields is None or not unknown, f"{name} has no field {unknown}"
             given = values if fields is not None else {**spread(known), **values}
@@ -445,6 +446,8 @@ class World:
                 return False
             case Primitive(name="duration"):
                 return Duration()
+            case Primitive(name="time"):
+                return Time()
             case Primitive(name="float32" | "float64"):
                 return 0.0
         return 0

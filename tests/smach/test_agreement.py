@@ -26,6 +26,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import snake_case
 from swarmdsl.cli import run
 from swarmdsl.codegen.registry import load
+from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.driver import pipeline
 from swarmdsl.execution.engine import Event, Instance, LoopError, Run
 from swarmdsl.ir import Array, Literal, Named, System
@@ -70,7 +71,9 @@ class Asked(Watch):
             self.calls[f"cancel {run.activity.server}"] += 1
 
     def sent(self, instance: Instance, event: Event) -> None:
-        self.messages.append((event.name, without_header(plain(event.data))))
+        if event.envelope.to != "":  # nobody's
+            message = without_header(plain(event.data))
+            self.messages.append((event.name, message, event.envelope.to))
 
 
 class Twin:
@@ -80,6 +83,7 @@ class Twin:
         self.robot = robot
         self.world = robot.world
         self.system = system
+        self.envelopes = envelopes_of(system)
         self.servers = {
             state.id: system.function(state.activity.function).communication
             for state in machine.walk()
@@ -113,9 +117,13 @@ class Twin:
     def messages(self) -> list[Any]:
         """The events that were sent."""
         topics = {event.topic: event.name for event in self.system.events}
-        return [
-            (topics[topic], without_header(plain(message))) for topic, message in self.world.sent
-        ]
+        found = []
+        for topic, message in self.world.sent:
+            name, to = topics[topic], None
+            if name in self.envelopes:
+                message, to = message.message, message.to or None
+            found.append((name, without_header(plain(message)), to))
+        return found
 
     @property
     def filled(self) -> dict[str, set[str]]:
@@ -148,7 +156,13 @@ class Twin:
         else:
             event = self.system.event(step.event)
             for _, callback in self.world._subscribers[event.incoming_topic]:
-                callback(self.made(event.type, step.data))
+                message = self.made(event.type, step.data)
+                if event.name in self.envelopes:
+                    envelope = self.world.default(self.envelopes[event.name].type)
+                    envelope.sender, envelope.message = step.sender, message
+                    envelope.sent = sys.modules["fake_ros"].Time(step.sent / 1e9)
+                    message = envelope
+                callback(message)
 
     def made(self, type_: Any, value: Any) -> Any:
         """A value of the engine as it is in ROS."""

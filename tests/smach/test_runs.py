@@ -4,6 +4,7 @@ import random
 import sys
 import time
 from collections.abc import Callable
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -628,6 +629,58 @@ def test_identity(robot: Run, params: dict[str, Any], id_: str, level: int) -> N
     assert work.ended() == "End"
     ((_, message),) = work.world.sent
     assert (message.id, message.level) == (id_, level)
+
+
+ANSWERS = (
+    HEADER
+    + """
+    message m/Word { id : string }
+    swarm event Ask  : m/Word
+    swarm event Tell : m/Word
+    statemachine Work {
+      var who : string = ""
+      initial A
+      state A {
+        on Ask [event.sender != "" and event.sent > 2 s]
+          / who = event.sender, send Tell(id = event.id) to event.sender, send Tell to base,
+            send Tell to uav[self.index + 1], send Tell
+        on Go / send Tell to who -> End
+        on Tell [event.sender == who] -> A
+      }
+      final End
+    }"""
+)
+
+
+def test_envelopes(robot: Run) -> None:
+    work = robot(ANSWERS, **{"~member": "uav[1]"})
+    work.start()
+    work.wait_in("A")
+    ask = {"sent": sys.modules["fake_ros"].Time(3.0), "message": SimpleNamespace(id="x")}
+    for sender, to in (("uav[0]", "uav[2]"), ("uav[0]", "base"), ("uav[1]", ""), ("", "")):
+        work.world.publish("bridge/events/ask", sender=sender, to=to, **ask)
+    work.world.publish("bridge/events/ask", sender="base[0]", to="uav", **ask)
+    work.world.publish("bridge/events/ask", sender="uav[0]", to="uav[1]", **ask)
+    work.world.publish("go")
+    assert work.ended() == "End"
+
+    sent = [(m.sender, m.to, m.message.id) for _, m in work.world.sent]
+    others = [("uav[1]", to, "") for to in ("base", "uav[2]", "")]
+    assert sent == [
+        *(("uav[1]", "base[0]", "x"), *others),
+        *(("uav[1]", "uav[0]", "x"), *others),
+        ("uav[1]", "uav[0]", ""),
+    ]
+    assert all(m.sent.to_sec() > 0 for _, m in work.world.sent)
+
+
+def test_an_event_for_nobody_is_not_sent(robot: Run) -> None:
+    work = robot(ANSWERS, **{"~member": "uav[1]"})
+    work.start()
+    work.wait_in("A")
+    work.world.publish("go")
+    assert work.ended() == "End"
+    assert work.world.sent == []
 
 
 def test_results(robot: Run) -> None:

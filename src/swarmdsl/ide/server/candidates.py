@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from swarmdsl.analysis.resolve.addresses import machines_in, roles_of, swarms_of
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import content, regions, vertices
@@ -13,6 +14,7 @@ from swarmdsl.ide.server.speculative_parse import PLACEHOLDER
 from swarmdsl.syntax.ast import (
     NODES,
     Activity,
+    Address,
     Component,
     Constant,
     Container,
@@ -76,7 +78,11 @@ class Candidates:
             if PLACEHOLDER in use.name:
                 kinds = (Variable, Param, FitnessInput)
                 own = [node for kind in kinds for node in nodes_of(self._around, kind)]
-                yield [*own, *self._visible((Constant, EnumType))]
+                roles = self._roles() if _is_address(use, owner) else []
+                yield [*roles, *own, *self._visible((Constant, EnumType))]
+        for address in nodes_of(owner, Address):
+            if address.role is not None and PLACEHOLDER in address.role:
+                yield self._roles()
 
     def _targets(self, holder: Node, ref: Ref[Node], owner: TopLevel) -> Iterable[Node]:
         """Return the possible targets of a reference."""
@@ -119,6 +125,12 @@ class Candidates:
             if not package or self._scope.find(f"{package}.{node.name}")  # type: ignore[attr-defined]
         ]
 
+    def _roles(self) -> list[Node]:
+        """Return the roles of the swarms that run the machine; of all swarms if none does."""
+        swarms = swarms_of(self._workspace.project)
+        running = [each for each in swarms if self._around in machines_in(each)]
+        return [role for each in running or swarms for role in roles_of(each).values()]
+
     def _callables(self, path: list[str], owner: Component | Part | None) -> Iterable[Node]:
         """Return the functions, and operations of components and parts, that a state can call."""
         if path == [""]:
@@ -146,6 +158,11 @@ class Candidates:
     def _visible(self, kinds: tuple[type[Node], ...]) -> list[Node]:
         """Return the declarations of some kinds that are visible in the file."""
         return visible(self._scope, kinds)
+
+
+def _is_address(use: NameUse, owner: TopLevel) -> bool:
+    """Return True for a name that is an address by itself."""
+    return any(each.id is not None and each.id.tree is use for each in nodes_of(owner, Address))
 
 
 def visible(scope: FileScope, kinds: tuple[type[Node], ...]) -> list[Node]:

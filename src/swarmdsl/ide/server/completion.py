@@ -16,7 +16,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.ide.server.candidates import Candidates
-from swarmdsl.ide.server.fields import is_placeholder_name, slots
+from swarmdsl.ide.server.fields import facts_of, fields_of, is_placeholder_name, slots
 from swarmdsl.ide.server.identity import is_own, own_fields
 from swarmdsl.ide.server.outcomes import unhandled_outcomes
 from swarmdsl.ide.server.speculative_parse import (
@@ -186,6 +186,10 @@ class _NameCompletion:
         for use in nodes_of(owner, FieldUse):
             if use.name == PLACEHOLDER and is_own(use):
                 return [Completion(name, f"field : {kind}") for name, kind in own_fields().items()]
+            if use.name == PLACEHOLDER and (facts := facts_of(use, owner, self._workspace.project)):
+                fields = fields_of(use, owner, self._workspace.project)
+                told = [Completion(name, f"field : {kind}") for name, kind in facts.items()]
+                return [*map(_completion, fields), *told]
         nodes = Candidates(self._workspace, self._scope, self._owner or owner, self._offset)
         for found in nodes.of(owner):
             calls = _calls() if _is_value(owner) else ()

@@ -25,6 +25,7 @@ from swarmdsl.syntax.ast import (
     Interface,
     MessageType,
     MonitorTrigger,
+    NameUse,
     Operation,
     Param,
     Parameter,
@@ -41,7 +42,7 @@ from swarmdsl.syntax.ast import (
     nodes_of,
     walk,
 )
-from swarmdsl.syntax.types import Named, Type
+from swarmdsl.syntax.types import ENVELOPE_FIELDS, Named, Type
 
 Slot = Field | Parameter | Param
 
@@ -118,6 +119,16 @@ def fields_of(use: FieldUse, owner: TopLevel, project: Project) -> Sequence[Fiel
     return (typing.interfaces.fields(type_) if isinstance(type_, Named) else None) or ()
 
 
+def facts_of(use: FieldUse, owner: TopLevel, project: Project) -> dict[str, Type]:
+    """Return the types of the facts about an event that its message does not hide."""
+    if not (isinstance(use.base, NameUse) and use.base.name == "event"):
+        return {}
+    typing = _with_event(use, owner, Typing(Interfaces(project.declarations())))
+    if not typing.of_swarm:
+        return {}
+    return {name: type_ for name, type_ in ENVELOPE_FIELDS.items() if typing.is_envelope(name)}
+
+
 def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:
     """Return the typing at a field access, which may be in a transition with an event trigger."""
     for transition in nodes_of(owner, Transition):
@@ -128,7 +139,7 @@ def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:
                 if isinstance(each, (EventTrigger, MonitorTrigger))
             ]
             types = [_message(each) for each in triggers]
-            of_swarm = all(map(is_of_swarm, triggers))
+            of_swarm = bool(triggers) and all(map(is_of_swarm, triggers))
             return typing.on_event(types[0] if types else None, of_swarm=of_swarm)
     return typing
 

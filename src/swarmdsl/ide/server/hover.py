@@ -41,7 +41,7 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
     found = occurrence_at(workspace, file, offset)
     if found is None:
         owner = owner_at(file, offset)
-        own = described_at(owner, offset) if owner is not None else None
+        own = described_at(owner, offset, workspace.project) if owner is not None else None
         return own or _built_in(file, offset)
     targets = "\n".join(f"- {line}" for line in support(found.node, workspace.settings))
     text = described(found.node)

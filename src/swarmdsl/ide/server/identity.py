@@ -1,10 +1,12 @@
-"""Fields of `self`, for completion and hover."""
+"""Fields of `self`, for completion and hover, and facts about events."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from swarmdsl.base.source import Span
+from swarmdsl.ide.server.fields import facts_of
+from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import FieldUse, NameUse, TopLevel, nodes_of
 from swarmdsl.syntax.types import SELF_FIELDS
 
@@ -13,6 +15,10 @@ _MEANINGS = {
     "role": "The role of the robot in the swarm, such as `uav`.",
     "index": "The number of the robot in its role, from 0.",
     "count": "The number of robots in the role, as started.",
+}
+_FACTS = {
+    "sender": "The robot that sent the event, by its id; empty for an event from outside.",
+    "sent": "The time at which the event was sent.",
 }
 _ALL = "The robot that runs the state machine: its `id`, `role`, `index` and `count`."
 
@@ -27,12 +33,19 @@ def is_own(use: FieldUse) -> bool:
     return isinstance(use.base, NameUse) and use.base.name == "self"
 
 
-def described_at(owner: TopLevel, offset: int) -> tuple[Span, str] | None:
-    """Return `self` or its field at an offset, and its meaning as Markdown."""
-    for span, text in _described(owner):
+def described_at(owner: TopLevel, offset: int, project: Project) -> tuple[Span, str] | None:
+    """Return `self`, its field or a fact about an event at an offset; its meaning as Markdown."""
+    for span, text in [*_described(owner), *_facts(owner, project)]:
         if span.start <= offset <= span.end:
             return span, text
     return None
+
+
+def _facts(owner: TopLevel, project: Project) -> Iterator[tuple[Span, str]]:
+    for use in nodes_of(owner, FieldUse):
+        if use.name in _FACTS and use.name in (facts := facts_of(use, owner, project)):
+            declared = f"```swarm\nevent.{use.name} : {facts[use.name]}\n```"
+            yield use.name.span.absolute, f"{declared}\n\n{_FACTS[use.name]}"
 
 
 def _described(owner: TopLevel) -> Iterator[tuple[Span, str]]:

@@ -104,16 +104,11 @@ def guard_d_4(machine, event):
 
 def guard_d_5(machine, event):
     # model.swarm:75
-    return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(9, 12)  # noqa: E501
-
-
-def guard_d_6(machine, event):
-    # model.swarm:76
     return event.envelope.sent > 3_000_000_000
 
 
 def effect_d_4(machine, event):
-    # model.swarm:76
+    # model.swarm:75
     machine.emit(Event('X', language.msg.M(), envelope=Envelope(to=event.envelope.sender)))
     machine.emit(
         Event(
@@ -124,9 +119,14 @@ def effect_d_4(machine, event):
     )
 
 
+def guard_d_6(machine, event):
+    # model.swarm:76
+    return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(9, 12)  # noqa: E501
+
+
 def guard_d_7(machine, event):
     # model.swarm:86
-    return event.data.event_header.node != machine.data.self.id
+    return event.data.event_header.node != machine.data.self.role
 
 
 def enter_d(machine, event):
@@ -197,8 +197,8 @@ STATES = tree(
             ),
             Transition((), ('A',), guard=guard_d_4, origin='model.swarm:73'),
             Transition(('F',), ('D.In',), internal=True, origin='model.swarm:74'),
-            Transition(('X',), ('D.H',), guard=guard_d_5, origin='model.swarm:75'),
-            Transition(('X',), (), guard=guard_d_6, effect=effect_d_4, origin='model.swarm:76'),
+            Transition(('X',), (), guard=guard_d_5, effect=effect_d_4, origin='model.swarm:75'),
+            Transition(('X',), ('D.H',), guard=guard_d_6, origin='model.swarm:76'),
             Transition(('MissionAbort',), ('Z',), guard=guard_d_7, origin='model.swarm:86'),
         ),
         entry=(enter_d,),

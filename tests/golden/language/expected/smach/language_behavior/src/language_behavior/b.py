@@ -111,11 +111,11 @@ def _d():
             ),
             On(AT_ONCE, 'A', guard=_d_a_guard),
             On(events.F, 'D_F', internal=True),
-            On(events.X, guard=_d_x_guard, into='H'),
-            On(events.X, None, guard=_d_x_guard_2, effect=_d_x_effect),
+            On(events.X, None, guard=_d_x_guard, effect=_d_x_effect),
+            On(events.X, guard=_d_x_guard_2, into='H'),
             On(
                 events.MISSION_ABORT,
-                guard=lambda userdata, event: event.eventHeader.node != userdata.self.id,
+                guard=lambda userdata, event: event.eventHeader.node != userdata.self.role,
             ),
         ],
         on_entry=_d_entry,
@@ -191,20 +191,20 @@ def _d_a_guard(userdata, event):
     return userdata.n > 3 and userdata.mine < userdata.self.count and userdata.self.role != userdata.self.id
 
 
-def _d_x_guard(userdata, event):
+def _d_x_guard(userdata, event, envelope):
     # model.swarm:75
-    return math.hypot(userdata.here.x - userdata.seen.pose.position.x, userdata.here.y - userdata.seen.pose.position.y, userdata.here.z - userdata.seen.pose.position.z) < math.hypot(9, 12)
-
-
-def _d_x_guard_2(userdata, event, envelope):
-    # model.swarm:76
     return rospy.Duration(0, envelope.sent) > rospy.Duration(3.0)
 
 
 def _d_x_effect(userdata, event, envelope):
-    # model.swarm:76
+    # model.swarm:75
     events.X.send(M(), envelope.sender)
     events.X.send(M(), 'uav[{}]'.format(userdata.self.index + 1))
+
+
+def _d_x_guard_2(userdata, event):
+    # model.swarm:76
+    return math.hypot(userdata.here.x - userdata.seen.pose.position.x, userdata.here.y - userdata.seen.pose.position.y, userdata.here.z - userdata.seen.pose.position.z) < math.hypot(9, 12)
 
 
 def _d_out_request(userdata, request):
