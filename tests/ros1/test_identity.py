@@ -40,3 +40,41 @@ def test_a_node_knows_its_robot(
     assert lab.sent("Named") == {"data": "uav"}
     assert lab.sent("Count") == {"data": count}
     assert node.ended() == 0
+
+
+TALK = """
+package lab
+swarm event Ask  : std_msgs/String
+swarm event Tell : std_msgs/String
+statemachine Talk {
+  var who : string = ""
+  initial Silent
+  state Silent {
+    on Ask [event.sender != self.id and event.sent > 1 s]
+      / who = event.sender, send Tell(data = event.sender) to event.sender -> Heard
+  }
+  state Heard {
+    on Tell [event.sender == who] / send Ask(data = who) to base, send Tell to "" -> End
+  }
+  final End
+}
+"""
+
+
+def test_a_node_answers_the_one_that_asked(world: Callable[..., Any]) -> None:
+    lab = world(TALK)
+    node = lab.node("talk", member="uav[1]")
+    node.wait_in("Silent")
+    lab.hears("Ask")
+    lab.hears("Tell")
+    about = {"sender": "uav[0]", "sent": {"secs": 5, "nsecs": 0}}
+    lab.publish("Ask", **about, to="uav[2]", message={"data": "for another"})
+    lab.publish("Ask", **{**about, "sender": "uav[1]"}, to="", message={"data": "its own"})
+    lab.publish("Ask", **about, to="uav", message={"data": "for its role"})
+    told = lab.sent("Tell")
+    assert (told["sender"], told["to"]) == ("uav[1]", "uav[0]")
+    assert told["message"] == {"data": "uav[0]"}
+    lab.publish("Tell", **about, to="uav[1]", message={"data": ""})
+    asked = lab.sent("Ask")
+    assert (asked["sender"], asked["to"]) == ("uav[1]", "base")
+    assert node.ended() == 0

@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from swarmdsl.ir import Named, System
+from swarmdsl.codegen.shared import envelopes_of
+from swarmdsl.ir import Event, Named, System
 
 WAIT = 60.0
 # Seconds that a node waits for servers, unless a test says otherwise: longer than a test waits.
@@ -125,7 +126,7 @@ class World:
         for event in self.system.events:
             if isinstance(event.type, Named) and event.topic not in self._listening:
                 self._listening.add(event.topic)
-                self.peers.order("listen", event.topic, type=str(event.type))
+                self.peers.order("listen", event.topic, type=self._type(event))
         for name, seconds in PATIENT.items():
             params.setdefault(f"timeouts__{name}", seconds)
         for name, value in params.items():
@@ -159,7 +160,7 @@ class World:
         declared = self.system.event(event)
         topic = declared.incoming_topic
         before = self.peers.count("published", topic)
-        self.peers.order("publish", topic, type=str(declared.type), fields=fields)
+        self.peers.order("publish", topic, type=self._type(declared), fields=fields)
         self.peers.wait_for("published", topic, before + 1)
 
     def sent(self, event: str, number: int = 1) -> Any:
@@ -183,6 +184,10 @@ class World:
         for process in (self.peers.process, *self._nodes):
             process.kill()
             self.graph.end(process)
+
+    def _type(self, event: Event) -> str:
+        """The type of the messages of an event, which may be its envelope."""
+        return str(envelopes_of(self.system).get(event.name, event).type)
 
     def _server(self, function: str) -> str:
         return self.system.function(function).communication.name

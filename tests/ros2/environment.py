@@ -31,6 +31,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.api import chosen_machines
 from swarmdsl.codegen.ros.interface_files import interface_parts, named_types
 from swarmdsl.codegen.ros.interface_packages import InterfacePackage, group_by_package
+from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import Action, Field, Interface, Message, Named, Service, System
 from swarmdsl.syntax.types import STRING
@@ -119,9 +120,8 @@ def sources() -> Iterator[tuple[str, str]]:
     for model in MODELS:
         system = pipeline.check([model]).system
         assert system is not None, model
-        for package in group_by_package(
-            (each for each in system.interfaces if not each.external), 2
-        ):
+        own = [each for each in system.interfaces if not each.external]
+        for package in group_by_package([*own, *envelopes_of(system).values()], 2):
             yield from _texts(package)
         for interface in _external(system):
             known = found.get(interface.type, interface)

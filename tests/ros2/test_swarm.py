@@ -109,6 +109,42 @@ def test_robots_know_who_they_are(ros: Any) -> None:
         node.wait_in("Heard")
 
 
+def test_robots_speak_to_one_other(ros: Any) -> None:
+    """What is sent to a robot or a role reaches no other; who is asked knows whom to answer."""
+    fakes = ros.fakes()
+    fakes.publisher("/lab/go", "lab_msgs/msg/Order")
+    for event in ("Asked", "Answer"):
+        fakes.publisher(f"/lab/{event.lower()}", f"lab_events/msg/{event}Envelope")
+    names = ("robot[0]", "robot[1]", "base[2]")
+    first, second, base = (
+        ros.node("lab_behavior.talk", f"/lab/{n[:-3]}_{n[-2]}", member=n) for n in names
+    )
+    for node in ros.nodes:
+        node.wait_in("Silent")
+    fakes.listeners("/lab/go", "/lab/asked", "/lab/answer", count=3)
+
+    fakes.publish("/lab/go", name="robot[1]", speed=0.0)
+    second.wait_in("Asked")
+    first.wait_in("Answered")
+    (asked,) = [line for line in second.trace if line["event"] == "Asked"]
+    assert asked["envelope"]["sender"] == "robot[0]"
+    assert asked["envelope"]["sent"] > 10**18  # since 1970
+    assert (asked["sent"], asked["to"]) == (["Answer"], ["robot[0]"])
+    (line,) = [line for line in first.trace if line["sent"]]
+    assert (line["sent"], line["to"]) == (["Asked"], ["robot[1]"])
+
+    # Nobody has the first two addresses. All but the base are in the role, and have been idle.
+    for address in ("", "rover[0]", "robot"):
+        fakes.publish("/lab/go", name=address, speed=2.0)
+    first.wait_in("Asked")
+    second.wait_in("Asked")
+    base.wait_in("Answered")
+    assert [line["event"] for line in base.trace].count("Asked") == 0
+    heard = [line["event"] for line in first.trace if line["event"] in ("Asked", "Answer")]
+    assert heard == ["Answer", "Asked"]
+    assert "Asked is sent to nobody" in base.log
+
+
 def _start(ros: Any, machine: str, namespace: str) -> Any:
     role, _, number = namespace.rpartition("/")[2].partition("_")
     altitude = {"altitude": 2.5} if role == "uav" else {}
