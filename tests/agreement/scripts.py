@@ -100,14 +100,8 @@ class Subject:
         message = values.message(event)
         if not event.swarm or not values.asks:
             return Step(event.name, message)
-        sender, sent = values.value(STRING), values.value(DURATION)
-        known = self.system.known_interface(event.type)
-        for field in known.fields if isinstance(known, ir.Message) else ():
-            header = message.get(field.name, {})
-            if str(field.type) == "swarmros/EventHeader":
-                sender = header.get("node", sender)
-            elif str(field.type) == "std_msgs/Header":
-                sent = header.get("stamp", sent)
+        about = values.value(STRING), values.value(DURATION)
+        sender, sent = as_headers_say(event, message, self.system, *about)
         return Step(event.name, message, sender=sender, sent=sent)
 
     @property
@@ -194,6 +188,20 @@ class Subject:
             model.take(step)
             expected.append(model.active)
         return Script(steps, tuple(expected))
+
+
+def as_headers_say(
+    event: ir.Event, message: dict[str, Any], system: System, sender: str, sent: int
+) -> tuple[str, int]:
+    """Return the sender and the time of an event, which headers of its message tell first."""
+    known = system.known_interface(event.type)
+    for field in known.fields if isinstance(known, ir.Message) else ():
+        header = message.get(field.name, {})
+        if str(field.type) == "swarmros/EventHeader":
+            sender = header.get("node", sender)
+        elif str(field.type) == "std_msgs/Header":
+            sent = header.get("stamp", sent)
+    return sender, sent
 
 
 class Watch(Observer):

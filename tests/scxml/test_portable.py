@@ -18,11 +18,12 @@ from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.driver import pipeline
-from swarmdsl.execution.engine import Event, Instance, Machine, Observer, Run, Transition
+from swarmdsl.execution.engine import Envelope, Event, Instance, Machine, Observer, Run, Transition
 from swarmdsl.execution.scxml import read
 from swarmdsl.execution.simulate.table import first_data, table
 from swarmdsl.ir import Action, Array, Primitive, Service, System
 
+from ..agreement.scripts import as_headers_say
 from ..engine.world import StillWorld
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -266,7 +267,7 @@ def walk(
             assert first.world.asked == other.world.asked
             for one, two in zip(first.world.sent, other.world.sent, strict=True):
                 # A document leaves fields out that have their defaults.
-                assert one.name == two.name
+                assert (one.name, one.envelope.to) == (two.name, two.envelope.to)
                 assert plain(one.data).items() >= plain(two.data or {}).items()
         happen(first, other, system, dice)
     return trace.places
@@ -288,5 +289,9 @@ def happen(first: Runner, other: Runner, system: System, dice: random.Random) ->
     elif system.events:
         event = dice.choice(system.events)
         given = random_value(event.type, system, dice)
-        for each in (first, other):
-            each.instance.receive(Event(event.name, plain(given)))
+        about = dice.choice(["", "a"]), dice.choice([0, 1_500, 4_000]) * 1_000_000
+        sender, sent = as_headers_say(event, given, system, *about) if event.swarm else ("", 0)
+        envelope = Envelope(sender, sent)
+        in_document = {"sent": sent / 1_000_000, **plain(given)} if sent else plain(given)
+        for each, data in ((first, plain(given)), (other, in_document)):
+            each.instance.receive(Event(event.name, data, envelope=envelope))
