@@ -674,6 +674,31 @@ def test_envelopes(robot: Run) -> None:
     assert all(m.sent.to_sec() > 0 for _, m in work.world.sent)
 
 
+def test_a_header_tells_the_sender_and_the_time(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var at : duration = 0 s
+          initial A
+          state A {
+            on Found [event.sender == "uav[3]" and event.sent > 2 s]
+              / at = event.sent
+            after 1 s [at == 3 s] -> End
+          }
+          final End
+        }"""
+    )
+    assert "lab_events" not in work.world.modules
+    work.start()
+    work.wait_in("A")
+    time = sys.modules["fake_ros"].Time
+    for node, stamp in (("uav[2]", 4.0), ("uav[3]", 1.0), ("uav[3]", 3.0)):
+        header, swarmio = SimpleNamespace(stamp=time(stamp)), SimpleNamespace(node=node)
+        work.world.publish("bridge/events/found", header=header, swarmio=swarmio)
+    assert work.ended() == "End"
+
+
 def test_an_event_for_nobody_is_not_sent(robot: Run) -> None:
     work = robot(ANSWERS, **{"~member": "uav[1]"})
     work.start()

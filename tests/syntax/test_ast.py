@@ -10,13 +10,14 @@ from swarmdsl.syntax.ast import NODES, Documented
 from swarmdsl.syntax.pegen.metamodel import metamodel
 
 # Words with a place, and the two rules for expressions, become `Word` and `Expression`.
-WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "Text"}
+WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "RobotRole", "Text"}
 EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
 OTHERS = {"Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
 # What stands inside a line. All else begins one, and has documentation.
 INLINE = {
-    *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Assignment"),
+    *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Address"),
+    "Assignment",
     *("OutcomeTrigger", "DoneTrigger", "EventTrigger", "TimeTrigger", "MonitorTrigger"),
 }
 
