@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.analysis.resolve.addresses import (
     NamedRole,
     machines_in,
@@ -14,7 +15,7 @@ from swarmdsl.analysis.resolve.multiplicity import greatest
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.suggest import suggest
 from swarmdsl.project.loader import Project
-from swarmdsl.syntax.ast import Address, Role, StateMachine, Swarm
+from swarmdsl.syntax.ast import Address, Role, Send, StateMachine, Swarm, nodes_of
 
 
 def check_addresses(project: Project, context: Context) -> None:
@@ -24,11 +25,13 @@ def check_addresses(project: Project, context: Context) -> None:
     missing: dict[Address, list[NamedRole]] = {}
     for machine in used:
         if isinstance(machine, StateMachine):
+            sends = {send.to: send for send in nodes_of(machine, Send)}
             for found in named_roles(machine, swarms):
                 if found.role is None:
                     missing.setdefault(found.address, []).append(found)
                 else:
                     _check_index(found, found.role, context)
+                    _check_handled(sends[found.address], found, found.role, context)
     for names in missing.values():
         _report_missing(names, context)
     for swarm in swarms:
@@ -55,6 +58,25 @@ def _check_index(found: NamedRole, role: Role, context: Context) -> None:
             robot=f"{role.name}[{number}]",
             related=(Label(role.span, "the robots are counted from 0"),),
             help=f"the last one is `{role.name}[{most - 1}]`" if most else None,
+        )
+
+
+def _check_handled(send: Send, found: NamedRole, role: Role, context: Context) -> None:
+    """Report an event for a role that does not handle it, but another role does."""
+    event, exchanges = send.event.target, context.facts.exchanges
+    of_swarm, of_role = exchanges.get(found.swarm), exchanges.get(role.member.target)
+    if event is None or of_swarm is None or of_role is None or not of_swarm.complete:
+        return
+    topic = received_topic(event)
+    if event.swarm and topic in of_swarm.awaited and topic not in of_role.awaited:
+        context.report.report(
+            "unhandled-event",
+            found.span,
+            where=f" by role `{role.name}` of swarm `{found.swarm.name}`",
+            name=send.event.name,
+            related=(Label(of_swarm.awaited[topic].span, "another role handles it here"),),
+            help=f"add `on {send.event.name} -> ...` to a state of a machine of this role, "
+            f"or choose another one",
         )
 
 
