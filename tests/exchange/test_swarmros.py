@@ -137,7 +137,7 @@ def test_events_in_envelopes(compiled: Compile) -> None:
     """The bridge carries the envelope, by a header of its own."""
     model = MODEL.replace("entry / send Bid", "entry / send Bid to worker")
     model = model.replace("on Sight, Bid -> A", "on Bid / send Bid to event.sender")
-    model += "swarm S { scout : Scout  worker : Worker[2] }"
+    model += "swarm S { scout : Scout; worker : Worker[2] }"
     files = {path: content["services"] for path, content in emitted(compiled(model)).items()}
     sent = {each["source"]: each["message"] for each in files["worker.cfg"]["outgoingEvents"]}
     assert sent == {"auction/bid": "test_events/BidEnvelope"}

@@ -123,7 +123,7 @@ PLACES = {
     ),
     "field of a robot's event": (work("on Seen [event.|"), {"id"}, {"sender", "sent"}),
     "address": (
-        work("on Low / send Seen to |") + "swarm S { lead : Robot  rest : Robot[2] }",
+        work("on Low / send Seen to |") + "swarm S { lead : Robot; rest : Robot[2] }",
         {"lead", "rest", "spot"}, {"Robot", "Work"},
     ),
     "address in a swarm that runs it": (
