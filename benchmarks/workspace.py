@@ -117,7 +117,7 @@ def _head(number: int, earlier: list[int]) -> str:
 /// Area {number} of the site.
 package site.area{number}
 
-import; "interfaces.swarm";
+import "interfaces.swarm"
 {imports}
 swarm event Start{number} : std_msgs/Empty
 swarm event Stop{number}  : std_msgs/Empty

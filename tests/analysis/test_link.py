@@ -49,7 +49,7 @@ def targets(project: Project) -> list[str]:
 
 def test_an_own_declaration_wins_over_an_imported_one(linked: Linked) -> None:
     project = linked(
-        'import "other.swarm"\nevent Go : std_msgs/Int32\nstatemachine M { initial A '
+        'import "other.swarm"\nevent Go : std_msgs/Int32\nstatemachine M { initial A; '
         "state A { on Go -> F; on other.Go -> F } final F }",
         other="event Go : std_msgs/Empty",
     )

@@ -810,7 +810,7 @@ def test_an_internal_transition_into_a_region(parsed: Any, written: Any, walk: W
 
 
 def test_an_activity_that_gave_up_has_failed(parsed: Any, written: Any, walk: Walk) -> None:
-    body = "initial A; state A { do go; on succeeded -> B; on aborted -> C; ALSO } final B final C"
+    body = "initial A; state A { do go; on succeeded -> B; on aborted -> C; ALSO } final B; final C"
 
     assert transitions(by_id(parsed(body.replace("ALSO", "")), "A")) == [
         ("do.A.succeeded", None, "B"),
