@@ -151,6 +151,7 @@ def test_contextual_keywords_can_be_names(language: Any, tokenize: Any) -> None:
         on {0} / send {0}
         internal monitor "{0}" : {0} -> {0}
         internal after {0} [{0}] / send {0}
+        on {0} / send {0} to {0}[{0}], send {0}({0} = {0}) to {0}, {0} = {0}
         history {0} -> {0}
         deep history {0} -> {0}
         on {0} [{0} > {0}.{0}] / send {0}, {0} = {0} -> {0}
