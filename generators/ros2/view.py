@@ -13,7 +13,7 @@ from swarmdsl.codegen.ros import (
     interfaces_to_write,
     manifest,
 )
-from swarmdsl.codegen.shared import envelopes_of, uses_self
+from swarmdsl.codegen.shared import envelopes_of, missing_values, uses_self
 from swarmdsl.ir import StateMachine, System
 
 from . import names, package
@@ -89,6 +89,7 @@ class PackageView:
     interfaces: tuple[InterfacePackage, ...]
     manifest: str
     pictures: tuple[Picture, ...]
+    missing_values: str
     variant: Variant
 
 
@@ -142,6 +143,7 @@ def package_view(
         interfaces=interfaces,
         manifest=manifest(name, doc, depends, options, format_=3, build_type="ament_python"),
         pictures=pictures(system, machines),
+        missing_values=missing_values(system),
         variant=variant,
     )
 

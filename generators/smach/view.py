@@ -24,7 +24,7 @@ from swarmdsl.codegen.ros import (
     manifest,
     third_party_packages,
 )
-from swarmdsl.codegen.shared import envelopes_of, uses_self
+from swarmdsl.codegen.shared import envelopes_of, missing_values, uses_self
 from swarmdsl.ir import (
     DURATION,
     Array,
@@ -109,6 +109,7 @@ class PackageView:
     interfaces: tuple[InterfacePackage, ...]
     manifest: str
     pictures: tuple[Picture, ...]
+    missing_values: str
     modules: tuple[str, ...]
     needs: tuple[str, ...]
     described: tuple[str, ...]
@@ -203,6 +204,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         interfaces=interfaces,
         manifest=manifest(name, doc, depends, options, format_=2),
         pictures=pictures(system, machines),
+        missing_values=missing_values(system),
         modules=(
             "chart",
             "containers",

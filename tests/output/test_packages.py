@@ -60,3 +60,18 @@ def test_parameters_of_a_role_are_those_of_its_new_name(target: str, tmp_path: P
 
     assert [each.partition(":")[0] for each in told] == ["parked-code", "renamed-element"]
     assert "--rename robot=scout" in told[1]
+
+
+@pytest.mark.parametrize("target", ["smach", "ros2", "yasmin"])
+def test_the_readme_tells_the_params_without_a_value(target: str, tmp_path: Path) -> None:
+    text = MODEL.replace("  initial W", "  param levels : float64[2]\n  initial W").replace(
+        "{ behavior Duty;", "{ behavior Duty; param levels : float64[2];"
+    )
+    build(tmp_path, target, text)
+    (readme,) = (tmp_path / "out").rglob("README.md")
+    told = readme.read_text(encoding="utf-8")
+    assert "## Values to give\n" in told
+    assert "| Team | robot | duty | `levels` | `float64[2]` |\n" in told
+
+    build(tmp_path, target, MODEL)
+    assert "## Values to give" not in readme.read_text(encoding="utf-8")

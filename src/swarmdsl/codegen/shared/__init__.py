@@ -31,6 +31,9 @@ if TYPE_CHECKING:
     from swarmdsl.codegen.shared.identity import (
         uses_self,
     )
+    from swarmdsl.codegen.shared.missing_values import (
+        missing_values,
+    )
     from swarmdsl.codegen.shared.nodes import (
         BehaviorNode,
         ParamValue,
@@ -69,6 +72,7 @@ else:
             "swarmdsl.codegen.shared.envelopes": "envelopes_of python_address reads_envelope",
             "swarmdsl.codegen.shared.events": "Events delays",
             "swarmdsl.codegen.shared.identity": "uses_self",
+            "swarmdsl.codegen.shared.missing_values": "missing_values",
             "swarmdsl.codegen.shared.nodes": (
                 "BehaviorNode ParamValue behavior_nodes bringup_package has_node"
             ),
@@ -104,6 +108,7 @@ __all__ = [
     "field_type",
     "has_node",
     "member_wiring",
+    "missing_values",
     "params_by_name",
     "python_address",
     "reads_envelope",
