@@ -252,3 +252,33 @@ def test_what_shares_a_line_is_divided_only_by_a_migration():
         }
         """
     )
+
+
+def test_comments_stay_with_their_items_at_separators():
+    text = """\
+        const C : int32 = 3
+        ; /// of C
+        const D : int32 = 4; // of D
+        statemachine M {
+          initial W /* a */; state W { entry / x = 1 /* c */; exit / x = 2; /* e */ on A -> W }
+        }
+        enum E { A /* z */, /* y */ B }
+    """
+
+    assert layout(dedent(text)) == dedent(
+        """\
+        const C : int32 = 3  /// of C
+        const D : int32 = 4  // of D
+
+        statemachine M {
+          initial W  /* a */
+          state W {
+            entry / x = 1  /* c */
+            exit / x = 2
+            /* e */ on A -> W
+          }
+        }
+
+        enum E { A /* z */, /* y */ B }
+        """
+    )

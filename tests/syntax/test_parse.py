@@ -179,3 +179,15 @@ def test_whoever_changes_the_grammar_is_told_what_to_run(monkeypatch: pytest.Mon
     assert parsed("event A : B\n")[1] == []
     with pytest.warns(UserWarning, match="make parser"):
         parsed("event A B\n")
+
+
+def test_missing_separators_are_told_beside_warnings() -> None:
+    _, names = parsed("const A : int32 = 1 const B : int32 = 2  /// x\n")
+    assert sorted(names) == ["missing-separator", "unattached-doc-comment"]
+
+
+def test_missing_separators_are_told_in_each_file() -> None:
+    report = Diagnostics()
+    parse(Source("a.swarm", "const A : int32 =\n"), report)
+    parse(Source("b.swarm", "const B : int32 = 1 const C : int32 = 2\n"), report)
+    assert [found.name for found in report] == ["syntax-error", "missing-separator"]

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import gc
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
 
-from swarmdsl.base.diagnostics.collector import Diagnostics, placed
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Severity, placed
 from swarmdsl.base.resources import checkout_root, grammar_checksum
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Documented, Expression, Model, walk
@@ -101,8 +101,9 @@ def _parse_with_recovery(source: Source, report: Diagnostics) -> Parsed:
         parsed = Parsed(whole)
     else:
         parsed = parse_with_recovery(source, scanned, _parse_text, report, whole)
+    errors = [found for found in report if found.severity is Severity.ERROR]
     _attach(parsed, scanned.docs, report)
-    _report_missing_separators(parsed.model, report)
+    _report_missing_separators(parsed.model, report, errors)
     _report_faults(parsed, report)
     return parsed
 
@@ -133,15 +134,18 @@ def _failure(source: Source) -> Failure | None:
     return Failure(found.at, frozenset(expected))
 
 
-def _report_missing_separators(model: Model, report: Diagnostics) -> None:
+def _report_missing_separators(
+    model: Model, report: Diagnostics, errors: Iterable[Diagnostic] = ()
+) -> None:
     """Report lines with items that are not separated.
 
-    Lines with another error, and those after them, are left out: a repair may have joined items.
+    Lines with one of the syntax errors, and those after them, are left out: a repair may have
+    joined items there.
     """
     if not model.missing_separators:
         return
-    lines = [found.primary.span.line for found in report if found.primary is not None]
-    known = {*lines, *(line + 1 for line in lines)}
+    wrong = [found.primary.span.line for found in errors if found.primary is not None]
+    known = {*wrong, *(line + 1 for line in wrong)}
     for separator in model.missing_separators:
         span = separator.span
         if span.line in known:

@@ -48,7 +48,7 @@ _HINTS = (
         "an effect is `name = value` or `send Event`: what takes time is an activity, `do`",
     ),
     (r"/ *@\{", "", "write effects without braces, separated by `,`"),
-    (r"/ *\w[^\[\]>]*@; *\w", "", "separate effects by `,`"),
+    (r"/ *\w[^\[\]>{};]*@; *\w", "", "separate effects with `,`"),
     (
         r"[/,] *(?:raise|emit|publish|fire|trigger) +@(\w+)",
         "",

@@ -42,7 +42,7 @@ _EFFECT = re.compile(r"send\b|[A-Za-z_]\w*(?:\.\w+)*[ \t]*=[^=>]")
 _ANYWHERE = ("if", "goto", "then", "?", "$")
 _SYMBOLS = {
     ";": "`;` stands only between two statements",
-    ",": "no `,` is needed here",
+    ",": "no `,` is needed here: `;` or a line break separates statements",
     "&": "write `and`",
     "|": "write `or`",
     "!": "write `not`",

@@ -78,20 +78,27 @@ class _Reader:
     ) -> tuple[int, list[list[Token]], list[Token]]:
         """Assign the comments from `at` on: trailing the item before, or above the next one.
 
-        The third result are comments at the start of the line of the next item.
+        The third result are comments at the start of the line of the next item. Those before a
+        separator are none of them.
         """
         tokens = self._tokens
         lines: list[list[Token]] = []
         first = at
+        bound = 0  # lines before the separator
         while at < len(tokens) and tokens[at].is_comment:
-            if lines and not tokens[at].newlines:
+            separated = tokens[at].start in self._marks.separated
+            if separated:
+                bound = len(lines)
+            if lines and not tokens[at].newlines and not separated:
                 lines[-1].append(tokens[at])
             else:
                 lines.append([tokens[at]])
             at += 1
         leading: list[Token] = []
         ends = at == len(tokens) or tokens[at].text == "}"
-        if lines and not ends and not tokens[at].newlines:
+        if not ends and tokens[at].start in self._marks.separated:
+            bound = len(lines)
+        if len(lines) > bound and not ends and not tokens[at].newlines:
             leading = lines.pop()
         if lines and first > 0 and not tokens[first].newlines:
             trailing += lines.pop(0)

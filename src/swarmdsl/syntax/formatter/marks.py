@@ -33,12 +33,14 @@ from swarmdsl.syntax.formatter.tokens import Tokens, tokenize
 class Marks:
     """Tokens by their offsets: starts of items, and tokens with special spacing.
 
-    There is no space before a `tight` token; lines break before a `clause` first.
+    There is no space before a `tight` token; lines break before a `clause` first. A separator was
+    before a `separated` token, perhaps a comment.
     """
 
     items: dict[int, Node] = field(default_factory=dict)
     tight: set[int] = field(default_factory=set)
     clauses: set[int] = field(default_factory=set)
+    separated: set[int] = field(default_factory=set)
 
 
 def find_marks(model: Model, tokens: Tokens) -> Marks:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from swarmdsl.base.records import replace
 from swarmdsl.syntax.formatter.marks import Marks
 from swarmdsl.syntax.formatter.tokens import Kind, Token
 
@@ -12,13 +11,13 @@ _COMMA = Token(Kind.SYMBOL, ",", -1, 0)
 
 
 def without_separators(tokens: Sequence[Token], marks: Marks) -> list[Token]:
-    """Leave out the separators of items; commas in lists stay."""
+    """Leave out the separators of items, and mark the tokens after them; commas in lists stay."""
     kept: list[Token] = []
     ends = True  # True if an item begins or a body ends with the next token that is no comment
     for token in reversed(tokens):
         if token.text == ";" or (token.text == "," and ends):
-            if kept and token.newlines > kept[-1].newlines:
-                kept[-1] = replace(kept[-1], newlines=token.newlines)
+            if kept:
+                marks.separated.add(kept[-1].start)
             continue
         if not token.is_comment:
             ends = token.text == "}" or token.start in marks.items
@@ -29,10 +28,12 @@ def without_separators(tokens: Sequence[Token], marks: Marks) -> list[Token]:
 
 def with_commas(body: Iterable[Token], marks: Marks) -> Iterator[Token]:
     """Yield the tokens of a body on one line, with commas between the items of each body in it."""
-    ends = False  # True after an item of the same body
+    ends = False  # True after an item of the same body, until the comma
     for token in body:
-        if token.start in marks.items and ends:
-            yield _COMMA
+        if ends and (token.start in marks.items or token.start in marks.separated):
+            if token.text != "}":
+                yield _COMMA
+            ends = False
         if not token.is_comment:
             ends = token.text != "{"
         yield token

@@ -64,21 +64,21 @@ def tokenize(text: str) -> list[Token]:
 def content_of(tokens: list[Token]) -> list[tuple[str, bool]]:
     """Return what formatting must keep: the tokens, and which comments document something.
 
-    Lines of block comments may be re-indented; `///` documents only at the start of a line. Commas
-    and semicolons are left out: they separate items on one line only.
+    Lines of block comments may be re-indented; `///` documents only at the start of a line.
+    Semicolons, and commas outside of parentheses, are left out: they may separate items.
     """
-    return [
-        (
-            "\n".join(line.strip() for line in token.text.split("\n"))
-            if token.kind is Kind.BLOCK_COMMENT
-            else token.text,
-            token.kind is Kind.LINE_COMMENT
-            and token.text.startswith("///")
-            and (index == 0 or token.newlines > 0),
-        )
-        for index, token in enumerate(tokens)
-        if token.text not in (",", ";")
-    ]
+    content = []
+    depth = 0
+    for index, token in enumerate(tokens):
+        depth += (token.text == "(") - (token.text == ")")
+        if token.text == ";" or (token.text == "," and depth == 0):
+            continue
+        text = token.text
+        if token.kind is Kind.BLOCK_COMMENT:
+            text = "\n".join(line.strip() for line in text.split("\n"))
+        is_doc = token.kind is Kind.LINE_COMMENT and text.startswith("///")
+        content.append((text, is_doc and (index == 0 or token.newlines > 0)))
+    return content
 
 
 class Tokens:
