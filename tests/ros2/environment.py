@@ -81,9 +81,9 @@ def install(folder: Path) -> None:
     lines = [
         f"export PATH={shlex.quote(str(venv / 'bin'))}:$PATH",
         # CMake looks there first: another one that is active would hide this Python.
-        f"export, VIRTUAL_ENV={shlex.quote(str(venv))}",
-        f"export, AMENT_PREFIX_PATH={shlex.quote(str(venv))}",
-        f"export, CMAKE_PREFIX_PATH={shlex.quote(str(venv))}",
+        f"export VIRTUAL_ENV={shlex.quote(str(venv))}",
+        f"export AMENT_PREFIX_PATH={shlex.quote(str(venv))}",
+        f"export CMAKE_PREFIX_PATH={shlex.quote(str(venv))}",
         "export PYTHONWARNINGS=ignore  # setuptools about what colcon asks of it",
     ]
     (folder / "setup.sh").write_text("\n".join(lines) + "\n", encoding="utf-8")

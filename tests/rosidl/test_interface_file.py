@@ -352,7 +352,7 @@ def test_every_mistake_is_reported_and_the_rest_is_read(read: Read, report: Diag
     assert found.damaged
 
 
-@pytest.mark.parametrize("text", ["int32[{}] x", "string<={} x", "int32, X={}", "int32[] x [{}]"])
+@pytest.mark.parametrize("text", ["int32[{}] x", "string<={} x", "int32 X={}", "int32[] x [{}]"])
 def test_numbers_that_are_out_of_all_bounds(text: str, read: Read, report: Diagnostics) -> None:
     read(text.format("9" * 5000))
 
