@@ -88,6 +88,9 @@ class Libraries:
         if not package:
             return f"write `import {statement.name}.*` for all that a package declares"
         names = self._names(nearby)
+        if package.removesuffix(".msg").endswith("_msgs") and package not in names:
+            ros = statement.name.replace(".msg.", ".").replace(".", "/").replace("*", "Name")
+            return f"delete it: an interface of ROS needs no import, as in `x : {ros}`"
         library, _, last = package.partition(".")
         inside = {
             name[len(library) + 1 :]: name for name in names if name.startswith(f"{library}.")

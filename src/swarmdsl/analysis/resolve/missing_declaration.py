@@ -52,7 +52,7 @@ _LINES: dict[type[Node], str] = {
     Event: "event {0} : std_msgs/Empty",
     Function: 'function {0} : abstraction {{ service "{0}" : std_srvs/Trigger }}',
     Member: "member {0} {{ }}",
-    StateMachine: "statemachine {0} {{ initial Done final Done }}",
+    StateMachine: "statemachine {0} {{ initial Done; final Done }}",
     StructType: "struct {0} {{ }}",
 }
 
@@ -84,6 +84,8 @@ def suggest_declaration(name: str, kinds: tuple[type[Node], ...]) -> str | None:
 
     Return None for a kind that cannot be declared by its name alone, like a fitness or an enum.
     """
+    if Event in kinds and name.lower() in ("timeout", "timer"):
+        return "write a delay without `on`: `after 5 s -> Target`"
     line = next((_LINES[kind] for kind in kinds if kind in _LINES), None)
     if line is None:
         return None

@@ -144,6 +144,8 @@ class Typing:
             help_ = _bool_hint(tree, found) if expected == BOOL else None
             if expected == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"
+            if range_of(expected) and found == FLOAT and not isinstance(tree, Value):
+                help_ = self._whole_number(tree)
             enum = self.interfaces.get(expected) if isinstance(expected, Named) else None
             if isinstance(enum, EnumType) and enum.values and is_number(found):
                 help_ = f"name one of its values: `{enum.name}.{enum.values[0].name}`"
@@ -151,6 +153,14 @@ class Typing:
                 "type-mismatch", tree.span, expected=f"`{expected}`", found=f"`{found}`", help=help_
             )
         return len(self.report) == before
+
+    def _whole_number(self, tree: ExpressionTree) -> str:
+        """Hint for a number with a fraction in place of an integer."""
+        if isinstance(tree, OperatorUse) and tree.operator == "/":
+            left, right = tree.operands
+            if all(range_of(self.infer(each)) is not None for each in (left, right)):
+                return f"`/` keeps the fraction: write `div({left.span.text}, {right.span.text})`"
+        return f"write `round({tree.span.text})`, or `int(...)` to cut the fraction off"
 
     def _checked_result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """Return the type of an operation; report one that never has a result."""

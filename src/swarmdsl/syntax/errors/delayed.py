@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from swarmdsl.syntax.errors.foreign_statements import PHYSICAL_UNIT
+
 
 class DelayedError(NamedTuple):
     """Error at its own place: offsets of the token, message and hint."""
@@ -25,11 +27,32 @@ _OPEN_END = re.compile(
     r"(?P<token>(?<![:<>=!]):|->|(?<![<>=!:])=|\binitial\b|\bdo\b)[ \t]*(?://[^\n]*)?\n\s*"
     r"[A-Za-z_][\w/]*\s*(?=[:=.][^:=])"
 )
+# The start of a statement, on a line of its own or not.
+_BEGIN = r"(?:^|[{;])[ \t]*"
 _TARGET_FIRST = re.compile(
-    r"^[ \t]*(?:internal[ \t]+)?(?:on|after|monitor)\b[^\n]*?->[ \t]*[A-Za-z_][\w.]*[ \t]*"
-    r"(?P<token>[\[/])(?!/)",
+    rf"{_BEGIN}(?P<head>(?:(?:internal[ \t]+)?(?:on|after|monitor)\b|\[|else\b)[^\n]*?)[ \t]*"
+    r"(?P<target>->[ \t]*[A-Za-z_][\w.]*)[ \t]*(?P<token>[\[/])(?!/)",
     re.MULTILINE,
 )
+_REST = r"(?P<rest>[ \t]*(?:\[|/(?!/)|->)(?:[^\n;}/]|/(?!/))*)"
+_EVENTS = r"on[ \t]+(?P<events>[\w.]+(?:[ \t]*,[ \t]*[\w.]+)*?)[ \t]*"
+_MIXED = (
+    re.compile(
+        rf"{_BEGIN}{_EVENTS}(?:,|\|\||\bor\b)[ \t]*(?P<token>after)[ \t]+(?P<delay>[^/\[\n]*?)"
+        rf"{_REST}",
+        re.MULTILINE,
+    ),
+    re.compile(
+        rf"{_BEGIN}after[ \t]+(?P<delay>[^/\[\n]*?)[ \t]*(?:,|\|\||\bor\b)[ \t]*"
+        rf"(?P<token>on\b)(?<=on){_EVENTS[2:]}{_REST}",
+        re.MULTILINE,
+    ),
+)
+_TAIL = re.compile(r"(?P<guard>\[[^]\n]*\][ \t]*)?(?:/(?:[^\n;}/]|/(?!/))*)?")
+_LENGTH = re.compile(
+    rf"=[ \t]*-?(?P<number>\d+(?:\.\d+)?)[ \t]+(?P<token>{PHYSICAL_UNIT})\b", re.MULTILINE
+)
+_PER_CENT = re.compile(r"(?<![\w.])(?P<number>\d+(?:\.\d+)?)[ \t]*(?P<token>%)")
 _TWO_WORDS = re.compile(
     r"^[ \t]*[A-Za-z_]\w*[ \t]*:[ \t]*(?P<first>[a-z]+)[ \t]+(?P<token>[a-z]\w*)[ \t]*$",
     re.MULTILINE,
@@ -39,13 +62,31 @@ _TWO_WORDS = re.compile(
 def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
     """Find the error that made the parser stop at `at`; the token before it is at `before`."""
     line = text.rfind("\n", 0, before) + 1
-    if found := _TARGET_FIRST.match(text, line):
+    end = text.find("\n", at)
+    end = end if end >= 0 else len(text)
+    found: re.Match[str] | None
+    for found in _TARGET_FIRST.finditer(text, line, at + 1):
         what = "guard" if found["token"] == "[" else "effect"
-        end = text.find("\n", found.end())
         rest = text[found.end() : at]
-        if found.start("token") <= at and (what == "effect" or "->" not in rest or at < end):
+        if what == "effect" or "->" not in rest or "\n" not in rest:
             message = f"the {what} of a transition comes before its target"
-            return _delayed(found, message, "write `on event [guard] / effect -> Target`")
+            return _delayed(found, message, f"write {_in_order(found, text)}")
+    for mixed in _MIXED:
+        for found in mixed.finditer(text, line, end):
+            if found.start() <= at <= found.end("token"):
+                rest = found["rest"].strip()
+                one, other = f"on {found['events']} {rest}", f"after {found['delay']} {rest}"
+                message = "a transition waits for events or for a delay, not for both"
+                return _delayed(found, message, f"write two: `{one}` and `{other}`")
+    if (found := _last(_PER_CENT, text, line, before + 1)) and found.start("token") == before:
+        number = found["number"]
+        share = f"{float(number) / 100:.10g}"
+        help_ = f"`%` is a remainder: write `{number}`, or `{share}` where all is 1"
+        return _delayed(found, "expected a value after `%`", help_)
+    # The parser took the unit for the name of the next value.
+    if (found := _last(_LENGTH, text, line, at)) and found.start("token") == before:
+        message = f"expected `,` or the end of the line, found `{found['token']}`"
+        return _delayed(found, message, f"only times have a unit: write `{found['number']}`")
     if (found := _TWO_WORDS.match(text, line)) and found.end("token") > before:
         message = f"expected the end of the line, found `{found['token']}`"
         return _delayed(found, message, "the name of a type is one word, such as `uint32`")
@@ -59,3 +100,17 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
 
 def _delayed(found: re.Match[str], message: str, help_: str | None = None) -> DelayedError:
     return DelayedError(*found.span("token"), message, help_)
+
+
+def _last(pattern: re.Pattern[str], text: str, start: int, end: int) -> re.Match[str] | None:
+    return max(pattern.finditer(text, start, end), key=re.Match.end, default=None)
+
+
+def _in_order(found: re.Match[str], text: str) -> str:
+    """Return the transition with its target last; the order alone, if it is not so simple."""
+    tail = _TAIL.match(text, found.start("token"))
+    head = found["head"]
+    effects = re.search(r"\s/(?!/)", head) is not None
+    if tail is None or effects or ("[" in head and tail["guard"]):
+        return "`on event [guard] / effect -> Target`"
+    return f"`{head} {tail[0].rstrip()} {found['target']}`"

@@ -5,62 +5,26 @@ from __future__ import annotations
 import re
 from functools import cache
 
+from swarmdsl.syntax.errors.foreign_transitions import START, TRANSITIONS
+
 # Characters of the line on either side of the error.
 _WIDTH = 200
-_GUARD = "write a guard in square brackets: `on event [x < 3] -> Target`"
 _SERVER = 'write the name of the server first: `"cmd/name" : package/Type`'
 _FIELD = r"name the field of each value: `name = \1`"
 _POWER = "there is no power operator: write `x * x`"
 _MULTIPLICITY = "write `[3]`, `[1..5]`, `[2..*]` or `[*]`"
-_BEFORE_EFFECTS = r"(?:\b(?:entry|exit) *|\b(?:on|after) [^/]*)"
+# Without those of times.
+PHYSICAL_UNIT = (
+    "(?:[mcdk]?m|deg|degrees?|rad|k?g|m?V|m?A|m?Ah|k?Wh?|k?J|k?Hz|met(?:er|re)s?|percent)"
+)
+# Not after `after` and `size`, which have units.
+_NUMBER = r"^(?!.*\b(?:after|size) [^/\[]*@).*(?<![\w.])"
+_ONLY_TIMES = r"only times have a unit: write `\1`"
 
 # A line with a mark (@) where the parser stops, a terminal that must be expected there (any, if
 # empty), and the hint. The first that fits counts.
 _HINTS = (
-    # transitions
-    (r"\bon [^/[\]]*@(?:if|when|where)\b", "", _GUARD),
-    (
-        r"\bon [\w., ]*@(?:\|\||or\b)",
-        "",
-        "write `,`: the transition fires on any of the events",
-    ),
-    (
-        r"\bon [\w., ]*@(?:&&|and\b)",
-        "",
-        "events occur one at a time: wait for the second one in another state",
-    ),
-    (r"\bon +@(entry|exit)\b", "", r"write `\1 / ...` without `on`"),
-    (r"(?:^|\{) *@-> *([\w.]+)", "", r"write `on done -> \1` to leave the state when it is done"),
-    (r"\bon +@after\b", "", "write `after` without `on`"),
-    (r"\b(entry|exit) *@:", "", r"write `\1 / ...`"),
-    (
-        r"\b(?:entry|exit) *@(?: *do\b)",
-        "",
-        "write `do` on a line of its own: the activity starts on entry",
-    ),
-    (r"(?:^ *|\bon +)@timeout\b", "", "write a delay as `after 5 s -> Target`"),
-    (r"\bon timeout *@[\d(]", "", "write a delay as `after 5 s -> Target`"),
-    (r"\bon +[\w., ]*@: *-+>", "", "delete the `:`"),
-    (r"\bon [\w., ]+@enter +(\w+)", "", r"write `-> \1`"),
-    (
-        rf"{_BEFORE_EFFECTS}/ *(?:[^/]*, *)?[\w.]+(?:\([^()]*\))? *@ *(?:$|->|,)",
-        "`=`",
-        "an effect is `name = value` or `send Event`: what takes time is an activity, `do`",
-    ),
-    (r"/ *@\{", "", "write effects without braces, separated by `,`"),
-    (r"/ *\w[^\[\]>{};]*@; *\w", "", "separate effects with `,`"),
-    (
-        r"[/,] *(?:raise|emit|publish|fire|trigger) +@(\w+)",
-        "",
-        r"send an event with `send \1`",
-    ),
-    (
-        r"[/,] *(?:(?:call|run|start) +@\w|@do\b)",
-        "",
-        "an effect cannot start an activity: go to a state with `do`",
-    ),
-    (r"/ *[^/]*= *[\w.]+ +@(\w+) *=(?!=)", "`,`", r"write `,` before `\1`"),
-    (r"^ *@every\b", "", "for a periodic action, let `after 5 s` target its own state"),
+    *TRANSITIONS,
     # activities
     (r"\bdo *@/ *([\w.]+)", "", r"write `do \1`"),
     (
@@ -86,7 +50,15 @@ _HINTS = (
         "`+`",
         "expressions cannot index arrays: only `len` applies to them",
     ),
+    (rf"{_NUMBER}(\d+(?:\.\d+)?) *@{PHYSICAL_UNIT}\b", "", _ONLY_TIMES),
+    (rf"{_NUMBER}@(\d+(?:\.\d+)?){PHYSICAL_UNIT}\b", "", _ONLY_TIMES),
     # states
+    (
+        r"\bhistory +(\w+)@",
+        "`->`",
+        r"add the state to enter at first: `history \1 -> State`",
+    ),
+    (r"\bhistory@ *$", "", "write `history Name -> State`, with the state to enter at first"),
     (r"^ *@\[\*\] *-+> *(\w+)", "", r"write `initial \1`"),
     (
         r"^ *@(\w+) *-+> *\[\*\]",
@@ -177,6 +149,16 @@ _HINTS = (
         r"write the type before the value: `param \1 : type = \2`",
     ),
     (
+        rf"{START}@var +(\w+) *: *[\w./\[\]<=]+ *= *([^;}}/]*[^;}}/\s])",
+        "`do`",
+        r"declare it in the state machine, outside its states, and set it here: `entry / \1 = \2`",
+    ),
+    (
+        rf"{START}@(?:var|param) +\w+",
+        "`do`",
+        "declare it in the state machine, outside its states",
+    ),
+    (
         r"^ *@var\b",
         "",
         "declare a variable directly in a state machine, or a `const` at the top level",
@@ -188,6 +170,11 @@ _HINTS = (
     ),
     (r"^ *@abstract\b", "", "delete it: any component or member can be extended"),
     # interfaces
+    (
+        r"^ *import +(\w+)@/(?:(?:msg|srv|action)/)?(\w+)",
+        "",
+        r"delete the import: an interface of ROS needs none, write `\1/\2` where it is used",
+    ),
     (r"^ *import +ros +@([\w./-]+)", "", r'write `import ros "\1"`'),
     (r"\bfunction +\w+ *@\{", "", "add the category: `: abstraction` or `: swarm`"),
     (r"\b(?:action|service) +@:", "a string in double quotes", _SERVER),
