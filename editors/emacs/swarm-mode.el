@@ -80,6 +80,10 @@
   `(("\\.\\(done\\)\\_>" 1 font-lock-keyword-face)
     ;; A field may have the name of a keyword.
     ("\\.[ \t]*\\([A-Za-z_][A-Za-z0-9_]*\\)" 1 font-lock-variable-name-face)
+    ;; So may a port.
+    ("\\_<connect[ \t]+\\([A-Za-z_][A-Za-z0-9_]*\\)[ \t]*->" 1 font-lock-variable-name-face)
+    ("\\_<connect\\_>.*->[ \t]*\\([A-Za-z_][A-Za-z0-9_]*\\)[ \t]*\\(?:$\\|[;}/]\\)"
+     1 font-lock-variable-name-face)
     (,(concat (regexp-opt swarm--naming 'symbols) "[ \t]+\\([A-Za-z_][A-Za-z0-9_]*\\)")
      2 font-lock-type-face)
     ("\\_<\\(?:function\\|do\\)[ \t]+\\([A-Za-z_][A-Za-z0-9_.]*\\)" 1 font-lock-function-name-face)

@@ -99,6 +99,11 @@ def test_every_keyword_can_be_the_name_of_a_field(language: Any, tokenize: Any) 
     models = [
         f"message M {{\n{fields}}}",
         f"service S {{ request {{ {fields} }} response {{ {fields} }} }}",
+        *(
+            f'sensor P {{\n in {word} : T\n out {word} : T on "x" }}\n'
+            f"member R {{ connect a.{word} -> b.{word}\n connect {word} -> {word} }}"
+            for word in words
+        ),
         f"action A {{ goal {{ {fields} }} result {{ {fields} }} feedback {{ {fields} }} }}",
         *(
             f"""

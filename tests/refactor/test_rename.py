@@ -127,6 +127,28 @@ def test_what_cannot_be_renamed(old, new, code, said, swarmc, yard) -> None:
     assert (yard / "yard.swarm").read_text() == MODEL
 
 
+def test_a_port_can_have_any_word_as_its_name(swarmc, yard) -> None:
+    model = """sensor Camera { out seen : std_msgs/Empty }
+
+member Cart {
+  out shown : std_msgs/Empty
+  camera : Camera
+  connect camera.seen -> shown
+}
+"""
+    (yard / "yard.swarm").write_text(model)
+    for old, new in (("Camera.seen", "state"), ("Cart.shown", "event")):
+        ran = swarmc("rename", old, new)
+        assert ran.code == 0, ran.err
+
+    renamed = model.replace("seen", "state").replace("shown", "event")
+    assert (yard / "yard.swarm").read_text() == renamed
+    assert swarmc("check").code == 0
+    assert swarmc("fmt", "--check", "yard.swarm").code == 0
+    refused = swarmc("rename", "Cart.camera", "sensor")
+    assert "is a keyword" in refused.err
+
+
 def test_roles_and_their_params(swarmc, yard) -> None:
     model = """member Cart { param speed : float64 = 1.0 }
 swarm Yard {

@@ -9,6 +9,9 @@ syn match swarmArrow "->\|=>"
 " Field names may be keywords: a word after a dot, or before a colon or an equals sign.
 syn match swarmField "\.\s*\%(done\>\)\@!\h\w*"
 syn match swarmField "\%(\s\|[({,]\_s*\)\h\w*\ze\s*\%(:\|=>\|=[^=]\)"
+" So may ports.
+syn match swarmField "\%(\<connect\)\@<=\s\+\h\w*\ze\s*->"
+syn match swarmField "\%(\<connect\>.*->\)\@<=\s\+\h\w*\ze\s*\%($\|[;}/]\)"
 
 " made by `make parser`
 syn keyword swarmDeclaration action actuator behavior choice communication connect const controller

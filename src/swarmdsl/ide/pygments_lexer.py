@@ -52,6 +52,12 @@ class SwarmLexer(RegexLexer):  # type: ignore[misc]
                 rf"({_NAME})(\s*)(:)(?=\s*[A-Za-z_])",
                 bygroups(Name.Variable, Whitespace, Punctuation),
             ),
+            # So may a port.
+            (
+                rf"(inout|in|out|connect)([ \t]+)({_NAME})(?=[ \t]*(?::|->))",
+                bygroups(Keyword, Whitespace, Name.Variable),
+            ),
+            (rf"(->)([ \t]*)({_NAME})", bygroups(Operator, Whitespace, Name)),
             (words(sorted(PRIMITIVES), prefix=r"\b", suffix=r"\b"), Keyword.Type),
             (rf"{_NAME}(?=\s*=(?!=))", Name.Attribute),
             (r"\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?:[ \t]*(?:us|ms|s|min|h|km|cm|mm|m)\b)?", Number),

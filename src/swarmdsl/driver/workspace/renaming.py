@@ -16,7 +16,7 @@ from swarmdsl.base.text_edits import Edits
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Field, Node, Parameter
+from swarmdsl.syntax.ast import Field, Node, Parameter, Port
 from swarmdsl.syntax.parser.keywords import RESERVED
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -46,7 +46,7 @@ def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Spa
     found = renamable(workspace, file, offset)
     if not _NAME.fullmatch(name):
         raise RefusedError(f"`{name}` is not a valid name: use letters, digits and `_`")
-    if name in RESERVED:
+    if name in RESERVED and not isinstance(found.node, Port):
         raise RefusedError(f"`{name}` is a keyword")
     spans = list(dict.fromkeys(each.span for each in occurrences_of(found.node, workspace)))
     if any(span.text != found.span.text for span in spans):

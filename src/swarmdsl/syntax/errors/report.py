@@ -20,6 +20,7 @@ TERMINALS = {
     "IDENT": "a name",
     "QNAME": "a name",
     "WORD": "a name",
+    "PORTWORD": "a name",
     "INTERFACE": "the name of an interface",
     "TYPENAME": "a type",
     "QUOTED": "a string in double quotes",

@@ -249,7 +249,9 @@ class Emission:
             case Sequence(parts):
                 return self._joined(parts, fail, known=known)
             case Choice(parts) if not self.look.is_token(part):
-                regexes = [inner.regex for inner in parts if isinstance(inner, Terminal)]
+                rules = self.look.analysis.grammar.rules
+                named = (rules[each.rule].body if isinstance(each, Use) else each for each in parts)
+                regexes = [each.regex for each in named if isinstance(each, Terminal)]
                 if len(regexes) < len(parts):
                     raise self._unsupported("a text is too complicated")
                 return self._text(Terminal("|".join(regexes)), fail)
