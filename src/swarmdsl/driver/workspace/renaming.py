@@ -14,6 +14,7 @@ from swarmdsl.base.diagnostics.collector import Severity
 from swarmdsl.base.source import Span
 from swarmdsl.base.text_edits import Edits
 from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.bound_params import bound_together
 from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Field, Node, Parameter, Port
@@ -48,7 +49,11 @@ def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Spa
         raise RefusedError(f"`{name}` is not a valid name: use letters, digits and `_`")
     if name in RESERVED and not isinstance(found.node, Port):
         raise RefusedError(f"`{name}` is a keyword")
-    spans = list(dict.fromkeys(each.span for each in occurrences_of(found.node, workspace)))
+    together = bound_together(found.node, workspace)
+    homes = [_home(workspace, each) for each in together]
+    if any(home is None or home.library for home in homes):
+        raise RefusedError(f"`{found.span.text}` is bound to a param of a library by its name")
+    spans = _spans(found.node, workspace)
     if any(span.text != found.span.text for span in spans):
         raise RefusedError(f"`{found.span.text}` has a different name where it is used")
     objection = _conflict(workspace, found, spans, name) if name != found.span.text else None
@@ -78,8 +83,14 @@ def _conflict(workspace: Workspace, found: Occurrence, spans: list[Span], name: 
         again = occurrence_at(workspace, file, start) if file is not None else None
         if again is None:
             return other
-        same = len({each.span for each in occurrences_of(again.node, workspace)}) == len(spans)
-        return None if same else other
+        return None if len(_spans(again.node, workspace)) == len(spans) else other
+
+
+def _spans(node: Node, workspace: Workspace) -> list[Span]:
+    """Return the places of a name, and of those that are bound to it."""
+    nodes = bound_together(node, workspace)
+    found = (each.span for one in nodes for each in occurrences_of(one, workspace))
+    return list(dict.fromkeys(found))
 
 
 def _errors(workspace: Workspace) -> Counter[str]:
