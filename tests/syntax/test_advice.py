@@ -57,6 +57,7 @@ STATEMENTS = (
     ("on A -> Done [n > 1] / n = 1", "on A -> Done [n > 1] / n = 1", "{0}"),
     ("on A [n > 1] -> Done / n = 1, send B", "on A [n > 1] -> Done / n = 1, send B", "{0}"),
     ("[n > 1] -> Done / n = 1", "[n > 1] -> Done / n = 1", "{0}"),
+    ("on B / k = 2; on A -> Done / n = 1", "on A -> Done / n = 1", "{0}"),
     ("on A -> Done / n = 1; exit / n = 2", "on A -> Done / n = 1", "{0}"),
     ("on A -> Done / n = 1 // twice", "on A -> Done / n = 1", "{0}"),
     ("defer A", "defer A", "{1}"),

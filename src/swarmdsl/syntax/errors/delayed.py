@@ -27,10 +27,12 @@ _OPEN_END = re.compile(
     r"(?P<token>(?<![:<>=!]):|->|(?<![<>=!:])=|\binitial\b|\bdo\b)[ \t]*(?://[^\n]*)?\n\s*"
     r"[A-Za-z_][\w/]*\s*(?=[:=.][^:=])"
 )
+# Characters of the line on either side of the error.
+_WIDTH = 1000
 # The start of a statement, on a line of its own or not.
 _BEGIN = r"(?:^|[{;])[ \t]*"
 _TARGET_FIRST = re.compile(
-    rf"{_BEGIN}(?P<head>(?:(?:internal[ \t]+)?(?:on|after|monitor)\b|\[|else\b)[^\n]*?)[ \t]*"
+    rf"{_BEGIN}(?P<head>(?:(?:internal[ \t]+)?(?:on|after|monitor)\b|\[|else\b)[^\n;{{}}]*?)[ \t]*"
     r"(?P<target>->[ \t]*[A-Za-z_][\w.]*)[ \t]*(?P<token>[\[/])(?!/)",
     re.MULTILINE,
 )
@@ -63,28 +65,28 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
     """Find the error that made the parser stop at `at`; the token before it is at `before`."""
     line = text.rfind("\n", 0, before) + 1
     end = text.find("\n", at)
-    end = end if end >= 0 else len(text)
+    near, end = max(line, at - _WIDTH), min(end if end >= 0 else len(text), at + _WIDTH)
     found: re.Match[str] | None
-    for found in _TARGET_FIRST.finditer(text, line, at + 1):
+    for found in _TARGET_FIRST.finditer(text, near, at + 1):
         what = "guard" if found["token"] == "[" else "effect"
         rest = text[found.end() : at]
         if what == "effect" or "->" not in rest or "\n" not in rest:
             message = f"the {what} of a transition comes before its target"
             return _delayed(found, message, f"write {_in_order(found, text)}")
     for mixed in _MIXED:
-        for found in mixed.finditer(text, line, end):
+        for found in mixed.finditer(text, near, end):
             if found.start() <= at <= found.end("token"):
                 rest = found["rest"].strip()
                 one, other = f"on {found['events']} {rest}", f"after {found['delay']} {rest}"
                 message = "a transition waits for events or for a delay, not for both"
                 return _delayed(found, message, f"write two: `{one}` and `{other}`")
-    if (found := _last(_PER_CENT, text, line, before + 1)) and found.start("token") == before:
+    if (found := _last(_PER_CENT, text, near, before + 1)) and found.start("token") == before:
         number = found["number"]
         share = f"{float(number) / 100:.10g}"
         help_ = f"`%` is a remainder: write `{number}`, or `{share}` where all is 1"
         return _delayed(found, "expected a value after `%`", help_)
     # The parser took the unit for the name of the next value.
-    if (found := _last(_LENGTH, text, line, at)) and found.start("token") == before:
+    if (found := _last(_LENGTH, text, near, at)) and found.start("token") == before:
         message = f"expected `,` or the end of the line, found `{found['token']}`"
         return _delayed(found, message, f"only times have a unit: write `{found['number']}`")
     if (found := _TWO_WORDS.match(text, line)) and found.end("token") > before:
