@@ -25,6 +25,7 @@ MENDED = [
     ("plantuml", "parts and connectors"),
     ("import", "final states with done"),
     ("simulate", "eventless chain"),
+    ("document", "files"),
 ]
 """Phases that once took more than four times as long for four times the model."""
 

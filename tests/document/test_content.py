@@ -251,6 +251,21 @@ def test_who_sends_and_who_handles_which_event() -> None:
     assert {"handles", "sends"} <= {word for cell in matrix.values() for word in cell.split()}
 
 
+def test_many_state_machines_are_listed_by_event(tmp_path: Path) -> None:
+    machines = "".join(
+        f"statemachine M{number} {{\n  initial A\n"
+        f"  state A {{ on E{number} / send E0 -> F }}\n  final F\n}}\n"
+        for number in range(21)
+    )
+    events = "".join(f"event E{number} : std_msgs/Empty\n" for number in range(22))
+    path = tmp_path / "many.swarm"
+    path.write_text(f"package many\n{events}{machines}", encoding="utf-8")
+    head, *rows = page_of(path).table("section-events", "Senders and handlers of events")
+    assert head == ["event", "sent by", "handled by"]
+    assert rows[0] == ["E0", ", ".join(f"M{number}" for number in range(21)), "M0"]
+    assert rows[20:] == [["E20", "", "M20"], ["E21", "", ""]]
+
+
 def test_diagrams_lead_to_what_they_show(sar: Page) -> None:
     def shown(anchor: str) -> dict[str, str]:
         picture = sar.at(anchor).find("figure")

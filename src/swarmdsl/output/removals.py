@@ -17,11 +17,12 @@ def drop_stale(plan: Plan, targets: Collection[str]) -> None:
     for path in [path for path in plan.parked if not plan.is_there(f"{PARKED}/{path}")]:
         del plan.parked[path]
     new = {clash_key(path): path for path in plan.hashes}
-    moved = {source for source, _ in plan.moved.values()}
+    # A set: to look through all new paths for each old one is a product.
+    present = {*plan.hashes, *(source for source, _ in plan.moved.values())}
     for path, old in plan.before.files.items():
         if path.partition("/")[0] not in targets:
             plan.hashes[path] = old
-        elif path not in new.values() and path not in moved:
+        elif path not in present:
             _drop(plan, path, old, new.get(clash_key(path)))
     _keep_entries(plan)
 

@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import NamedTuple
+
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Component, Event, Member
 from swarmdsl.tools.document.elements import Element
 from swarmdsl.tools.document.entry_builder import EntryBuilder, link, links
 from swarmdsl.tools.document.page import Cell, Code, Fragment, Inline, Prose, Row, Table
+from swarmdsl.tools.document.traffic import States
+
+# A table with more columns cannot be read, and has a cell for each event and machine.
+_MOST_COLUMNS = 20
+_TITLE = "Senders and handlers of events"
+
+
+class _Users(NamedTuple):
+    """State machines that send or handle an event."""
+
+    sent: dict[Element, States]
+    handled: dict[Element, States]
 
 
 def packages_table(builder: EntryBuilder) -> Table:
@@ -29,30 +44,41 @@ def packages_table(builder: EntryBuilder) -> Table:
 
 
 def events_table(builder: EntryBuilder) -> Table:
-    """Matrix of events and the state machines that send or handle them."""
+    """Table of events and the state machines that send or handle them."""
+    machines = builder.traffic.machines()
+    if len(machines) > _MOST_COLUMNS:
+        rows = [
+            Row((head, links([*users.sent]), links([*users.handled])))
+            for head, users in _events(builder)
+        ]
+        return Table(_TITLE, ("event", "sent by", "handled by"), tuple(rows))
+    headers = (_machine_header(machine, builder) for machine in machines)
+    rows = [
+        Row((head, *(_marks(machine, users) for machine in machines)))
+        for head, users in _events(builder)
+    ]
+    return Table(_TITLE, ("event", *headers), tuple(rows), is_matrix=True)
+
+
+def _events(builder: EntryBuilder) -> Iterator[tuple[Cell, _Users]]:
+    """Yield the name of each event of the model and its users."""
     traffic = builder.traffic
-    machines = traffic.machines()
-    rows = []
     for event in builder.system.events:
-        sent, handled = traffic.sent.get(event.name, {}), traffic.handled.get(event.name, {})
+        users = _Users(traffic.sent.get(event.name, {}), traffic.handled.get(event.name, {}))
         element = builder.elements.at(event.origin)
         declared = element is not None and isinstance(element.node, Event)
-        if not (sent or handled or declared):
+        if not (users.sent or users.handled or declared):
             continue
         head: Inline = Code(((f'monitor "{event.topic}"', None),))
         if declared and element is not None:
             head = link(element)
-        cells: list[Cell] = [(head,)]
-        for machine in machines:
-            marks = ["sends"] if machine in sent else []
-            marks += ["handles"] if machine in handled else []
-            cells.append((" and ".join(marks),) if marks else ())
-        rows.append(Row(tuple(cells)))
-    columns: tuple[Inline, ...] = (
-        "event",
-        *(_machine_header(machine, builder) for machine in machines),
-    )
-    return Table("Senders and handlers of events", columns, tuple(rows), is_matrix=True)
+        yield (head,), users
+
+
+def _marks(machine: Element, users: _Users) -> Cell:
+    marks = ["sends"] if machine in users.sent else []
+    marks += ["handles"] if machine in users.handled else []
+    return (" and ".join(marks),) if marks else ()
 
 
 def _machine_header(machine: Element, builder: EntryBuilder) -> Code:
