@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.codegen import dataclass
+from swarmdsl.codegen import cell, code_cell, dataclass
 
 from .nodes import Node, Topic
 from .view import NodeView
@@ -26,7 +26,7 @@ def tables(node: Node, view: NodeView) -> tuple[Table, ...]:
             "Servers",
             ("name", "type", ""),
             tuple(
-                (_code(each.name), _code(f"{each.type} ({each.paradigm})"), _cell(each.doc))
+                (code_cell(each.name), code_cell(f"{each.type} ({each.paradigm})"), cell(each.doc))
                 for each in node.servers
             ),
         ),
@@ -36,7 +36,7 @@ def tables(node: Node, view: NodeView) -> tuple[Table, ...]:
             "ROS parameters",
             ("name", "type", "default", ""),
             tuple(
-                (_code(each.name), each.said, _code(each.yaml), _cell(setting.doc))
+                (code_cell(each.name), each.said, code_cell(each.yaml), cell(setting.doc))
                 for each, setting in zip(view.settings, node.settings, strict=True)
             ),
         ),
@@ -46,13 +46,4 @@ def tables(node: Node, view: NodeView) -> tuple[Table, ...]:
 
 def _topics(topics: tuple[Topic, ...]) -> Iterator[tuple[str, ...]]:
     for each in topics:
-        yield _code(each.topic), _code(str(each.type)), _cell(each.doc)
-
-
-def _code(text: str) -> str:
-    return f"`{_cell(text)}`" if text else ""
-
-
-def _cell(text: str) -> str:
-    """Return text escaped for a cell of a table."""
-    return " ".join(text.split()).replace("|", "\\|")
+        yield code_cell(each.topic), code_cell(str(each.type)), cell(each.doc)

@@ -7,6 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from markdown_it import MarkdownIt
 
 from swarmdsl.cli import run
 
@@ -184,3 +185,17 @@ def test_without_git(
 
     assert run(["diff", "--against", "HEAD", "models"]) == 2
     assert "git is not installed" in capsys.readouterr().err
+
+
+def test_strings_in_markdown_are_text(
+    models: tuple[str, str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    hostile = "` ![x](http://x/y.png) <b> [x](y)"
+    for path, text in zip(models, ("plain", hostile), strict=True):
+        param = f'param p : string = "{text}"; initial'
+        Path(path).write_text(BEFORE.replace("initial", param), encoding="utf-8")
+    assert run(["diff", *models, "--format", "markdown"]) == 1
+    tokens = MarkdownIt("commonmark").parse(capsys.readouterr().out)
+    inner = [child for token in tokens for child in token.children or ()]
+    assert "http://x/y.png" in "".join(token.content for token in inner)
+    assert not {token.type for token in inner} & {"image", "link_open", "html_inline"}

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from markdown_it import MarkdownIt
 
 from swarmdsl.codegen import registry
 
@@ -121,3 +122,28 @@ def test_documentation_changes_nothing_but_documentation(variant: Variant, make:
 
 def one_line(text: str) -> str:
     return " ".join(text.split())
+
+
+@pytest.mark.parametrize(
+    "variant", [each for each in VARIANTS if name_of(each) in ROS1 | ROS2], ids=name_of
+)
+def test_documentation_in_readmes_is_text(variant: Variant, make: Make) -> None:
+    target, options = variant
+    name = "<b>![x](x) --> [y](y).swarm"
+    hostile = make(
+        model(DOCS, "\n\n".join([*DOCS, "# head", "head", "---"])), target, options, name
+    )
+    plain = make(model(placeholders(DOCS), "\n\n".join("x" * (len(DOCS) + 3))), target, options)
+    paths = [path for path in hostile.files if path.endswith("README.md")]
+    assert paths
+    for path in paths:
+        mine, theirs = (marks(made.files[path]) for made in (hostile, plain))
+        assert mine == theirs, path
+
+
+def marks(text: str) -> list[str]:
+    """Return what is not text in a document, in order."""
+    tokens = MarkdownIt("gfm-like", {"linkify": False}).parse(text)
+    inner = [child for token in tokens for child in token.children or ()]
+    kinds = ("heading_open", "fence", "td_open", "html_block", "html_inline", "image", "link_open")
+    return [token.type for token in (*tokens, *inner) if token.type in kinds]

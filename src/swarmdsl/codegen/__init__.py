@@ -20,6 +20,10 @@ if TYPE_CHECKING:
         Label,
         listed,
     )
+    from swarmdsl.base.markdown import (
+        cell,
+        code_cell,
+    )
     from swarmdsl.base.naming import (
         FreshNames,
         camel_case,
@@ -94,6 +98,7 @@ else:
         globals(),
         {
             "swarmdsl.base.diagnostics.collector": "Diagnostics Label listed",
+            "swarmdsl.base.markdown": "cell code_cell",
             "swarmdsl.base.naming": (
                 "FreshNames camel_case fresh incoming_topic is_python_name is_ros_package_name "
                 "snake_case"
@@ -142,7 +147,9 @@ __all__ = [
     "all_machines",
     "at",
     "camel_case",
+    "cell",
     "chosen_machines",
+    "code_cell",
     "dataclass",
     "ecmascript_literal",
     "emit_of",

@@ -21,6 +21,7 @@ from jinja2.bccache import Bucket
 from jinja2.runtime import Context
 
 from swarmdsl import __version__
+from swarmdsl.base.markdown import code_cell, prose
 from swarmdsl.codegen.source_map import MappedText, TracedStr, at, mapped, marked
 
 _PRINTED = "places that were printed"
@@ -30,7 +31,8 @@ class Templates:
     """Templates in a folder; undefined names are errors, blocks leave no empty lines.
 
     In them, `at(origin)` marks a line with an origin in the model. Filters are
-    functions of a value, by their names; `repr` is one.
+    functions of a value, by their names; `repr` is one, and `prose` and `code_cell` put text of the
+    model into Markdown.
     """
 
     def __init__(self, folder: Path, **filters: Callable[..., Any]) -> None:
@@ -58,7 +60,7 @@ class Templates:
             bytecode_cache=_cache(),
         )
         made.globals["at"] = at
-        made.filters |= {"repr": repr, **self._filters}
+        made.filters |= {"repr": repr, "prose": prose, "code_cell": code_cell, **self._filters}
         return made
 
 

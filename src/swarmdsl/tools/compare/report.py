@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.markdown import prose
 from swarmdsl.base.source import Span
 from swarmdsl.tools.compare.breaking_changes import BreakingChange
 from swarmdsl.tools.compare.changes import Action, Change, display_name
@@ -42,7 +43,8 @@ def format_breaking_changes(
             found = {"rule": each.rule, "message": each.message, "place": at or None}
             yield json.dumps(found)
         elif format_ == "markdown":
-            yield f"- **{each.rule}** {each.message}{f' ({at})' if at else ''}"
+            line = _safe(f"{each.message}{f' ({at})' if at else ''}")
+            yield f"- **{each.rule}** {line}"
         else:
             yield f"{f'{at}: ' if at else ''}{printable(each.message)} [{each.rule}]"
 
@@ -84,11 +86,17 @@ def _markdown(
     _, inner = _summarize(top, changes)
     rule = _rule(changes[0], rules) if not inner else ""
     description = f" {changes[0].description}" if not inner else ""
-    yield f"- **{top.kind} `{display_name(top)}`**{description}{rule}{_at(top, location)}"
+    name = _safe(f"{top.kind} `{display_name(top)}`")
+    yield f"- **{name}**{_safe(description)}{rule}{_safe(_at(top, location))}"
     for each in inner:
         colon = "" if each.action in (Action.ADDED, Action.REMOVED) else ":"
         subject = f"{each.subject}{colon} " if each.subject else ""
-        yield f"  - {subject}{each.description}{_rule(each, rules)}{_at(each.element, location)}"
+        place = _safe(_at(each.element, location))
+        yield f"  - {_safe(f'{subject}{each.description}')}{_rule(each, rules)}{place}"
+
+
+def _safe(text: str) -> str:
+    return prose(printable(text))
 
 
 def _rule(change: Change, rules: Mapping[int, str]) -> str:
