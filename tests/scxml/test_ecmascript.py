@@ -47,6 +47,7 @@ Math.ceil(x)  Math.floor(x)  Math.round(x)  Math.round(2.5)  Math.trunc(x)  Math
 "a" in o  "b" in o  0 in l  3 in l  "length" in l  "x" in {x: undefined}  !("a" in o)
 [].concat(l, [4], 5)  l.concat()  "a".concat(1, true)  l.indexOf("two")  l.indexOf(2)
 s.indexOf("b")  s.indexOf("x")  l.join()  l.join("-")  [[1, 2], [3]].join(";")
+"\U0001f916a".length  "".length
 [1, 2].concat([3]).length  1 /* one */ + 2  1 + 2 // three
 [1] == 1  [1, 2] == "1,2"  [2] > 1  [1] + 1  o + ""  [1, [2]] * 1
 [7] * 2  "10" < [9]  -[3]  "" + [1, [2, "x"], []]  o == "[object Object]"  [1] == [1]

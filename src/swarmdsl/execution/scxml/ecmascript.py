@@ -20,6 +20,7 @@ from swarmdsl.execution.scxml.values import (
     METHODS,
     OPERATIONS,
     SIGNS,
+    code_units,
     contains,
     copied,
     number,
@@ -226,7 +227,7 @@ def _member(tree: Any) -> Value:
         if held is None:
             raise ExecutionError(f"undefined has no `{text(name)}`")
         if name == "length" and isinstance(held, (str, list)):
-            return len(held)
+            return len(held) if isinstance(held, list) else code_units(held)
         if isinstance(held, dict):
             return held.get(text(name))
         if isinstance(held, (str, list)) and type(name) is int and 0 <= name < len(held):

@@ -57,6 +57,11 @@ def whole(value: float | int) -> float | int:
     return int(value) if value.is_integer() and -_EXACT <= value <= _EXACT else value
 
 
+def code_units(value: str) -> int:
+    """Return the length of a string, in which characters above U+FFFF count twice."""
+    return len(value) + sum(each > "\uffff" for each in value)
+
+
 def text(value: Any, depth: int = 0) -> str:
     """Convert a value to a string."""
     if isinstance(value, bool):
