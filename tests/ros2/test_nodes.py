@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import operator
 import time
@@ -386,7 +387,11 @@ def test_time_may_be_simulated(ros: Any) -> None:
     lab.go()
     lab.node.wait_for("do.Busy.Head.Thinking.Asking.succeeded")
     lab.fakes.do("clock", time=3000 * 10**9)
-    time.sleep(0.3)
+    # The time may come after the event.
+    for count in itertools.count(1):
+        lab.fakes.publish("/lab/noise")
+        if lab.node.wait_for("Noise", count)["t"] > 2_000_000:
+            break
     assert lab.node.trace[-1]["configuration"][-1] == "Busy.Head.Thinking.Waiting"
     lab.fakes.do("clock", time=3700 * 10**9)
 
