@@ -70,6 +70,11 @@ def plain(node: Any) -> Any:
 
 def xml(text: str) -> Any:
     def tree(node: Any) -> Any:
+        if node.tag == "rosparam" and "param" in node.attrib:
+            # YAML, which roslaunch reads without substitutions.
+            given = {"type": "str", **node.attrib, "value": yaml.safe_load(node.text)}
+            given["name"] = given.pop("param")
+            return ["param", given, None]
         return [
             node.tag,
             dict(node.attrib),

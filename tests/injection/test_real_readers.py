@@ -173,7 +173,7 @@ found = {name: each.value for name, each in config.params.items()}
 
 def test_launch_files_of_ros_1(files: Any, ros1: Any) -> None:
     found = ros1(_LAUNCH, files("composition")["team/launch/bot.launch"])
-    check_same(numbered(found), len(HOSTILE) - 6)
+    check_same(numbered(found), len(HOSTILE))
 
 
 @pytest.fixture(scope="session")

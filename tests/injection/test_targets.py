@@ -51,8 +51,6 @@ def is_rejected(name: str, place: str, text: str) -> bool:
     if place == "message constant" and name in ROS1 | ROS2:
         changed = text != text.strip() if name in ROS1 else "#" in text
         return "\\" in text or not text.isprintable() or changed
-    if place != "message constant" and name == "composition":
-        return "$(" in text or text != text.strip()
     return False
 
 

@@ -18,6 +18,7 @@ from swarmdsl.base.xml_writer import legal
 from swarmdsl.codegen.api import Generator, OutputFile, option
 from swarmdsl.codegen.exchange.search_space import behaviour_package
 from swarmdsl.codegen.ros.package import package_fault
+from swarmdsl.codegen.ros.yaml_values import yaml_value
 from swarmdsl.codegen.shared.constants import Value
 from swarmdsl.codegen.shared.nodes import ParamValue, behavior_nodes
 from swarmdsl.codegen.xml_tree import add_comment, document
@@ -45,7 +46,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
         text = document(_composition(swarm, report))
         yield OutputFile(f"{folder}/composition.xml", text, origin=swarm.origin)
         for role in swarm.roles:
-            text = document(_launch(role, members[role.member], system, package, report))
+            text = document(_launch(role, members[role.member], system, package))
             yield OutputFile(f"{folder}/launch/{role.name}.launch", text, origin=role.origin)
 
 
@@ -71,9 +72,7 @@ def _composition(swarm: Swarm, report: Diagnostics) -> etree._Element:
     return root
 
 
-def _launch(
-    role: Role, member: Member, system: System, package: str, report: Diagnostics
-) -> etree._Element:
+def _launch(role: Role, member: Member, system: System, package: str) -> etree._Element:
     """Return a launch file with the node of a member and of each part that has one."""
     root = etree.Element("launch")
     add_comment(root, role.doc)
@@ -87,10 +86,10 @@ def _launch(
         type_ = snake_case(node.machine.name)
         attributes = {"pkg": package, "type": type_, "name": node.name, "output": "screen"}
         element = etree.SubElement(group, "node", attributes)
-        _add_params(element, node.params, report)
+        _add_params(element, node.params)
         for index, nodes in own.items():
             others = (g for g in nodes[number].params if g not in node.params)
-            _add_params(element, others, report, {"if": f"$(eval arg('id') == {index})"})
+            _add_params(element, others, {"if": f"$(eval arg('id') == {index})"})
         for name, topic in node.remaps:
             etree.SubElement(element, "remap", {"from": name, "to": topic})
     return root
@@ -99,31 +98,22 @@ def _launch(
 def _add_params(
     node: etree._Element,
     params: Iterable[ParamValue],
-    report: Diagnostics,
     condition: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
     """Add the params with a value that is known at compile time."""
     for given in params:
-        fault = _fault(given.value) if isinstance(given.value, str) else ""
-        if fault:
-            report.report(
-                "no-place",
-                given.expression.origin if given.expression is not None else None,
-                target="composition",
-                what=f"the value of `{given.param.name}`",
-                notes=(fault,),
-            )
+        if isinstance(given.value, str) and _is_changed(given.value):
+            attributes = {"param": given.param.name, **condition}
+            etree.SubElement(node, "rosparam", attributes).text = yaml_value(given.value)
         elif given.value is not None:
             type_, text = _kind(given.param.type), _text(given.value)
             attributes = {"name": given.param.name, "type": type_, "value": text, **condition}
             etree.SubElement(node, "param", attributes)
 
 
-def _fault(text: str) -> str:
-    """Return the reason why a launch file changes a string, or nothing."""
-    if "$(" in text:
-        return "`$(` begins a substitution in a launch file"
-    return "roslaunch removes the blanks around a value" if text != text.strip() else ""
+def _is_changed(text: str) -> bool:
+    """Return True if roslaunch changes a value: it substitutes `$(...)` and removes blanks."""
+    return "$(" in text or text != text.strip()
 
 
 def _kind(type_: Type) -> str:
