@@ -10,7 +10,7 @@ from swarmdsl.syntax.ast import NODES, Documented
 from swarmdsl.syntax.pegen.metamodel import metamodel
 
 # Words with a place, and the two rules for expressions, become `Word` and `Expression`.
-WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "RobotRole", "Text"}
+WORDS = {"Name", "FieldName", "PortName", "InterfaceName", "PackageName", "RobotRole", "Text"}
 EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
 OTHERS = {"Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
