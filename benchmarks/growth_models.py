@@ -378,6 +378,18 @@ FAMILIES: Mapping[str, Family] = {
     "functions of members": _functions,
     "parts and connectors": _parts,
     "swarm events": _events,
+    "addresses": lambda count: model(
+        "swarm event Told : std_msgs/Empty\n"
+        + repeated(
+            "endless statemachine M<i> {\n  initial S\n"
+            "  state S { on Told / send Told to r<i> }\n}\n"
+            "member R<i> { behavior M<i> }",
+            count,
+        )
+        + "\nswarm Team {\n"
+        + repeated("  r<i> : R<i>", count)
+        + "\n}\n"
+    ),
     "fields of a struct": lambda count: model(
         "struct T {\n" + repeated("  f<i> : float64", count) + "\n}\nevent Told : T\n"
         "statemachine M {\n  initial S0\n  state S0 { on Told -> F }\n  final F\n}\n"

@@ -26,6 +26,7 @@ MENDED = [
     ("import", "final states with done"),
     ("simulate", "eventless chain"),
     ("document", "files"),
+    ("check", "addresses"),
 ]
 """Phases that once took more than four times as long for four times the model."""
 

@@ -67,6 +67,7 @@ def reported(ran: Callable[..., Ran], text: str) -> tuple[str, str, str]:
         ('{ count = true, of = "lamp", in = "Off" }', "SW0013", "true", ""),
         ('{ in = "Off", sends = "Ping" }', "SW1103", "sends", ""),
         ('{ sends = "Pin" }', "SW0202", '"Pin"', "did you mean `Ping`?"),
+        ('{ sends = "Ping", to = "lam" }', "SW0202", '"lam"', "did you mean `lamp`?"),
         ('{ all = "lamp", sends = "Start" }', "SW1103", '"Start"', ""),
         ('{ all = "lamp.eye", starts = "blink" }', "SW1103", '"blink"', ""),
         ('{ no = "lamp", sends = "Ping", within = "1 s" }', "SW1103", "within", "use `for`"),

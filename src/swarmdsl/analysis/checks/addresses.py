@@ -6,7 +6,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.analysis.resolve.addresses import (
     NamedRole,
-    machines_in,
+    crews_of,
     named_roles,
     roles_of,
     values_like_roles,
@@ -21,12 +21,13 @@ from swarmdsl.syntax.ast import Address, Role, Send, StateMachine, Swarm, nodes_
 def check_addresses(project: Project, context: Context) -> None:
     """Check the roles that machines name: a swarm that runs a machine has them."""
     used = [node for _, node in context.used]
-    swarms = [node for node in used if isinstance(node, Swarm) and node not in context.incomplete]
+    complete = (node for node in used if node not in context.incomplete)
+    crews = crews_of(node for node in complete if isinstance(node, Swarm))
     missing: dict[Address, list[NamedRole]] = {}
     for machine in used:
         if isinstance(machine, StateMachine):
             sends = {send.to: send for send in nodes_of(machine, Send)}
-            for found in named_roles(machine, swarms):
+            for found in named_roles(machine, crews):
                 if found.role is None:
                     missing.setdefault(found.address, []).append(found)
                 else:
@@ -34,14 +35,14 @@ def check_addresses(project: Project, context: Context) -> None:
                     _check_handled(sends[found.address], found, found.role, context)
     for names in missing.values():
         _report_missing(names, context)
-    for swarm in swarms:
-        for machine in machines_in(swarm):
-            for use, role in values_like_roles(machine, swarm):
+    for crew in crews:
+        for machine in crew.machines:
+            for use, role in values_like_roles(machine, crew):
                 context.report.report(
                     "unclear-address",
                     use.span,
                     name=use.name,
-                    swarm=swarm.name,
+                    swarm=crew.swarm.name,
                     related=(Label(role.name.span, "a role has this name"),),
                     help="give the value another name",
                 )

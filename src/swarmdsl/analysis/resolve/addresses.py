@@ -5,7 +5,7 @@ A machine knows no swarm, so that several can run it; the roles that it names ar
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.linker import machines_of
@@ -26,29 +26,38 @@ class NamedRole:
     role: Role | None
 
 
-def named_roles(machine: StateMachine, swarms: Iterable[Swarm]) -> Iterator[NamedRole]:
-    """Yield the names in the addresses of a machine, for each swarm that runs it.
+@dataclass(frozen=True)
+class Crew:
+    """Roles of a swarm by name, and the machines that its members and their parts run, in order."""
 
-    A name that is also a value of the machine is among them where a role has it.
-    """
+    swarm: Swarm
+    roles: Mapping[str, Role]
+    machines: Mapping[StateMachine, None]
+
+
+def crews_of(swarms: Iterable[Swarm]) -> list[Crew]:
+    """Return the crews of swarms; they are made once for all machines."""
+    return [Crew(swarm, roles_of(swarm), dict.fromkeys(machines_in(swarm))) for swarm in swarms]
+
+
+def named_roles(machine: StateMachine, crews: Iterable[Crew]) -> Iterator[NamedRole]:
+    """Yield the names in the addresses of a machine, for each swarm that runs it."""
     addresses = nodes_of(machine, Address)
-    for swarm in swarms if addresses else ():
-        if machine not in machines_in(swarm):
+    for crew in crews if addresses else ():
+        if machine not in crew.machines:
             continue
-        roles = roles_of(swarm)
         for address in addresses:
             if address.named_role is not None:
                 name, span = address.named_role
-                yield NamedRole(address, name, span, swarm, roles.get(name))
+                yield NamedRole(address, name, span, crew.swarm, crew.roles.get(name))
 
 
-def values_like_roles(machine: StateMachine, swarm: Swarm) -> Iterator[tuple[NameUse, Role]]:
+def values_like_roles(machine: StateMachine, crew: Crew) -> Iterator[tuple[NameUse, Role]]:
     """Yield the values that are addresses of a machine, and that a role has the name of."""
-    roles = roles_of(swarm)
     for address in nodes_of(machine, Address):
         use = address.id.tree if address.id is not None else None
-        if isinstance(use, NameUse) and use.target is not None and use.name in roles:
-            yield use, roles[use.name]
+        if isinstance(use, NameUse) and use.target is not None and use.name in crew.roles:
+            yield use, crew.roles[use.name]
 
 
 def swarms_of(project: Project) -> list[Swarm]:

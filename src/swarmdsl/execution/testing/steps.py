@@ -248,6 +248,9 @@ class StepReader:
                 address = _text(table, "to", "the id of a robot, or a role")
                 if address is None:
                     return None
+                in_swarm = self._names.subject.swarm is not None
+                if in_swarm and not self._names.members(address, table.value_place(("to",))):
+                    return None
                 text += f" to `{address}`"
             claim = Claim(
                 place,
