@@ -51,8 +51,9 @@ statemachine {name} {{
 def test_node_of_a_machine(
     name: str, robot: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    # Only the main thread could handle signals.
+    # Only the main thread could handle signals, and this process goes on after the node.
     monkeypatch.setattr("signal.signal", lambda number, handler: None)
+    monkeypatch.setattr("faulthandler.dump_traceback_later", lambda *_, **__: None)
     module = snake_case(name)
     made = robot(MODEL.format(name=name), module, **{"~limit": 4})
     world = made.world
