@@ -22,7 +22,7 @@ class Values:
         self.dice = random.Random(0)
         nodes = [*_nodes(machine.states)]
         self.asks = any(isinstance(node, ir.EnvelopeField) for node in nodes)
-        """Whether the machine asks who sent an event, or when."""
+        """True if the machine asks who sent an event, or when."""
         literals = [node.value for node in nodes if isinstance(node, Literal)]
         numbers = [v for v in literals if isinstance(v, (int, float)) and abs(v) < 1e6]
         self.whole = sorted({int(v) + near for v in numbers for near in (-1, 0, 1)} | set(range(8)))

@@ -232,7 +232,7 @@ def test_models_that_are_too_large_together(
 
 
 def test_documents_that_are_too_large(project: Path, swarmc: Callable[..., Ran]) -> None:
-    """What parsers of XML, JSON, YAML and TOML need for them would fill the memory."""
+    """Parsers of XML, JSON, YAML and TOML would fill the memory with them."""
     for name in ("large.toml", "large.scxml", "large.json", "package/config/large.yaml"):
         with (project / name).open("wb") as file:
             file.truncate(read_files.MOST_DATA + 1)

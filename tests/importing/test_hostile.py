@@ -177,3 +177,16 @@ def test_size(tmp_path: Path) -> None:
 def test_a_file_without_an_end(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["import", "adf", os.devnull.replace("null", "zero")]) == 1
     assert "`/dev/zero` is a device, not a file" in capsys.readouterr().err
+
+
+def test_an_address_with_a_number_of_any_length() -> None:
+    number = "9" * 5_000
+    send = (
+        f"<send event='Go' type='urn:swarmdsl:swarm' targetexpr=\"'uav[{number}]'\" "
+        "xmlns:sw='urn:swarmdsl'/>"
+    )
+    text = (
+        f"{HEAD}<state id='A'><transition event='Go' target='A'>{send}</transition></state></scxml>"
+    )
+    # The document is read: what it lacks is said of the model, and nothing of the number.
+    assert not any(number in message for _, message in said(text))

@@ -263,6 +263,19 @@ def test_every_construct(compiled: Callable[[str], System], tmp_path: Path) -> N
     check(normalized(compiled(EVERYTHING)), tmp_path)
 
 
+def test_an_id_that_is_a_keyword_stays_an_id(
+    compiled: Callable[[str], System], tmp_path: Path
+) -> None:
+    text = """package test
+        swarm event Start : swarmros/SimpleEvent
+        statemachine Call {
+          initial A
+          state A { on Start / send Start to "state" -> B }
+          final B
+        }"""
+    check(compiled(text), tmp_path)
+
+
 @pytest.mark.parametrize("model", MODELS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_models(model: Path, tmp_path: Path) -> None:
     system = pipeline.check([model]).system

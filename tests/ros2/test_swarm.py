@@ -111,7 +111,7 @@ def test_robots_know_who_they_are(ros: Any) -> None:
 
 
 def test_robots_speak_to_one_other(ros: Any) -> None:
-    """What is sent to a robot or a role reaches no other; who is asked knows whom to answer."""
+    """An event for a robot or a role reaches no other, and can be answered."""
     fakes = ros.fakes()
     fakes.publisher("/lab/go", "lab_msgs/msg/Order")
     for event in ("Asked", "Answer"):

@@ -128,3 +128,19 @@ swarm S { r : R }
     path.write_text(before + rest)
     assert mended(path) == ["Declare `var n : bool = false`"]
     assert path.read_text() == after + rest
+
+
+def test_separators_are_inserted(tmp_path):
+    path = tmp_path / "m.swarm"
+    path.write_text(
+        "enum Level { LOW HIGH }\n"
+        "event Go : std_msgs/Empty /* a */ event Stop : std_msgs/Empty\n"
+        "statemachine M { initial A state A { on Go -> B on Stop -> B } final B }\n"
+        "member R { behavior M }\nswarm S { r : R }\n"
+    )
+    assert mended(path) == ["Insert `,`", "Insert `;`", "Insert `;`", "Insert `;`"]
+    assert path.read_text().startswith(
+        "enum Level { LOW, HIGH }\n"
+        "event Go : std_msgs/Empty /* a */; event Stop : std_msgs/Empty\n"
+        "statemachine M { initial A; state A { on Go -> B; on Stop -> B } final B }\n"
+    )

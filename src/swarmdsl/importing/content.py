@@ -13,6 +13,7 @@ from swarmdsl.execution.scxml.session import PROCESSOR
 from swarmdsl.importing.data import MachineData, written_value
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.expressions import UnsupportedError, path
+from swarmdsl.importing.names import is_plain
 from swarmdsl.ir import (
     Address,
     Assignment,
@@ -36,7 +37,8 @@ _UNSUPPORTED = {
     "cancel": "a model cancels delays only when their state is left",
 }
 _SENT = {"event", "id", "type", "target"}
-_ROBOT = re.compile(r"([A-Za-z_]\w*)(?:\[([0-9]+)\])?", re.ASCII)
+# Other strings are ids: a role has no keyword as its name, and no robot a longer number.
+_ROBOT = re.compile(r"([A-Za-z_]\w*)(?:\[([0-9]{1,9})\])?", re.ASCII)
 # Types and targets of a <send> to the machine itself (SCXML 6.2.4, C.1).
 _OWN_TYPES = ("", "scxml", PROCESSOR)
 _OWN_TARGETS = ("", "#_internal")
@@ -170,7 +172,9 @@ class ExecutableContent:
         """Return the address of a send: a role, one of its robots, or a value."""
         value = self.data.read(node, "targetexpr", node.get("targetexpr", ""), STRING, event)
         match value:
-            case Literal(value=str(text)) if found := _ROBOT.fullmatch(text):
+            case Literal(value=str(text)) if (found := _ROBOT.fullmatch(text)) and is_plain(
+                found[1]
+            ):
                 index = Literal(int(found[2]), INT) if found[2] is not None else None
                 return Address(found[1], index)
             case Binary(
