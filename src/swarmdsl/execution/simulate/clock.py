@@ -3,32 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from heapq import heappop, heappush
 
 
-@dataclass(order=True, slots=True)
 class Alarm:
-    """Scheduled action; actions at the same time run in the order of scheduling."""
+    """Scheduled action, None once it was cancelled."""
 
-    time: int
-    number: int
-    action: Callable[[], None] | None = field(compare=False)
+    __slots__ = ("action",)
+
+    def __init__(self, action: Callable[[], None]) -> None:
+        self.action: Callable[[], None] | None = action
 
 
 class Clock:
-    """Time in nanoseconds from 0; deterministic, advanced explicitly."""
+    """Time in nanoseconds from 0; deterministic, advanced explicitly.
+
+    Actions at the same time run in the order of scheduling.
+    """
 
     def __init__(self) -> None:
         self.now = 0
-        self._alarms: list[Alarm] = []
+        self._alarms: list[tuple[int, int, Alarm]] = []
         self._count = 0
 
     def schedule(self, delay: int, action: Callable[[], None]) -> Alarm:
         """Schedule a call of `action` after a delay in nanoseconds."""
         self._count += 1
-        alarm = Alarm(self.now + max(delay, 0), self._count, action)
-        heappush(self._alarms, alarm)
+        alarm = Alarm(action)
+        # The number is unique: alarms are never compared.
+        heappush(self._alarms, (self.now + max(delay, 0), self._count, alarm))
         return alarm
 
     def unschedule(self, alarm: Alarm) -> None:
@@ -38,16 +41,16 @@ class Clock:
     @property
     def next(self) -> int | None:
         """Time of the next action; None if there is none."""
-        while self._alarms and self._alarms[0].action is None:
-            heappop(self._alarms)
-        return self._alarms[0].time if self._alarms else None
+        alarms = self._alarms
+        while alarms and alarms[0][2].action is None:
+            heappop(alarms)
+        return alarms[0][0] if alarms else None
 
     def step(self) -> bool:
         """Advance to the next action and execute it; return False if there is none."""
         if self.next is None:
             return False
-        alarm = heappop(self._alarms)
-        self.now = alarm.time
+        self.now, _, alarm = heappop(self._alarms)
         assert alarm.action is not None
         alarm.action()
         return True
@@ -55,6 +58,6 @@ class Clock:
     def advance(self, duration: int) -> None:
         """Advance the time and execute all actions that become due."""
         end = self.now + duration
-        while self.next is not None and self.next <= end:
+        while (due := self.next) is not None and due <= end:
             self.step()
         self.now = end

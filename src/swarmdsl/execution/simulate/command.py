@@ -196,8 +196,7 @@ class _Play:
         report = Diagnostics()
         interrupted = False
         ending = "until an endless loop"
-        summary = Summary(self._subject, self._cast)
-        self._listeners.append(summary.note)
+        summary = Summary(self._subject, self._world)
         try:
             with ExitStack() as stack:
                 stream = self._stream(stack, report)
@@ -226,7 +225,7 @@ class _Play:
             times = "once" if count == 1 else f"{count} times"
             report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
         tell(report)
-        for line in summary.text(self._world, ending):
+        for line in summary.text(ending):
             click.echo(line, err=True)
         request = self._request
         unplayed = request.events is None and request.scenario is None

@@ -5,7 +5,7 @@ Elements of the model text are counted: a reused machine is counted once, wherev
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
@@ -86,15 +86,21 @@ class Coverage:
 
     def see(self, line: Line) -> None:
         """Process a trace line."""
-        known = self._of(line.actor.machine)
-        for state in line.entered:
+        self.reach(line.actor.machine, line.entered, line.taken)
+
+    def reach(
+        self, machine: Machine, states: Iterable[str], transitions: Iterable[Transition]
+    ) -> None:
+        """Record states that were entered, as ids, and transitions that were taken."""
+        known = self._of(machine)
+        for state in states:
             if state in known.states:
-                machine, key = known.states[state]
-                machine.entered.add(key)
-        for transition in line.taken:
+                found, key = known.states[state]
+                found.entered.add(key)
+        for transition in transitions:
             if _identity(transition) in known.transitions:
-                machine, key = known.transitions[_identity(transition)]
-                machine.taken.add(key)
+                found, key = known.transitions[_identity(transition)]
+                found.taken.add(key)
 
     @property
     def machines(self) -> list[MachineCoverage]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from random import Random
 
 from swarmdsl.base.records import dataclass
@@ -86,6 +87,13 @@ class Normal:
 
 
 Length = Fixed | Uniform | Normal
+
+
+def draw(length: Length, chance: Callable[[], Random]) -> int:
+    """Draw a duration; a random stream is asked for only if it is needed."""
+    return length.length if isinstance(length, Fixed) else length.draw(chance())
+
+
 AT_ONCE = Fixed(0)
 ONE_SECOND = Fixed(SECOND)
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from random import Random
 from typing import Any
 
 from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import dataclass, field, replace
-from swarmdsl.execution.simulate.durations import AT_ONCE, ONE_SECOND, Length
+from swarmdsl.execution.simulate.durations import AT_ONCE, ONE_SECOND, Fixed, Length
 from swarmdsl.syntax.types import SELF_FIELDS
 
 EVERY_FUNCTION = "*"
@@ -55,6 +55,15 @@ class Robot:
 
 
 @dataclass(frozen=True)
+class Answer:
+    """End of a call: its outcome, None if there is no answer, its result and its duration."""
+
+    outcome: str | None
+    result: Mapping[str, Any]
+    duration: int
+
+
+@dataclass(frozen=True)
 class FunctionBehavior:
     """Behavior of a called function; the remaining probability is that of success.
 
@@ -68,9 +77,17 @@ class FunctionBehavior:
     never: float = 0.0
     results: tuple[Mapping[str, Any], ...] = ()
 
-    def outcome(self, chance: Random) -> str | None:
-        """Draw the outcome of a call, None for no answer."""
-        drawn = chance.random()
+    def draw(self, stream: Callable[[], Random]) -> Answer:
+        """Draw the end of a call; a random stream is asked for only if it is needed."""
+        certain = not (self.aborted or self.preempted or self.never or len(self.results) > 1)
+        if certain and isinstance(self.duration, Fixed):
+            return Answer("succeeded", (self.results or ({},))[0], self.duration.length)
+        chance = stream()
+        outcome = self._outcome(chance.random())
+        chosen = int(chance.random() * len(self.results))
+        return Answer(outcome, (self.results or ({},))[chosen], self.duration.draw(chance))
+
+    def _outcome(self, drawn: float) -> str | None:
         for outcome, share in (
             ("aborted", self.aborted),
             ("preempted", self.preempted),

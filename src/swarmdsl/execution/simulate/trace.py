@@ -13,7 +13,6 @@ from swarmdsl.execution.engine import (
     Event,
     Instance,
     InstanceLike,
-    LoopError,
     Observer,
     Run,
     State,
@@ -22,10 +21,8 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.statistics import Life, Statistics
 from swarmdsl.execution.simulate.trace_line import named_numbers
-
-_LIMIT = 10_000
-"""Maximum number of events that a machine may process at one point in time."""
 
 
 @dataclass(slots=True)
@@ -54,20 +51,28 @@ class Line:
 
 
 class Trace(Observer):
-    """Build trace lines, and pass each to the listeners after the macrostep."""
+    """Build trace lines, and pass each to the listeners after the macrostep.
+
+    Without listeners there are no lines: instances are then observed by their statistics alone.
+    """
 
     def __init__(self, clock: Clock, listeners: Sequence[Callable[[Line], None]]) -> None:
+        self.statistics = Statistics()
+        self.lives: dict[InstanceLike, Life] = {}
         self._clock = clock
         self._listeners = listeners
-        self._actors: dict[InstanceLike, Actor] = {}
         self._line: Line | None = None
-        self._instance: InstanceLike | None = None
-        self._busy: dict[InstanceLike, tuple[int, int]] = {}
 
     def watch(self, instance: Instance, actor: Actor) -> None:
         """Observe an instance."""
-        self._actors[instance] = actor
+        self.lives[instance] = Life(instance, actor, self._clock, self.statistics)
         instance.observer = self
+
+    def open(self) -> None:
+        """Begin the trace; there are no more listeners to come."""
+        if not self._listeners:
+            for life in self.lives.values():
+                life.instance.observer = life
 
     def begin(
         self,
@@ -81,30 +86,28 @@ class Trace(Observer):
         Raises LoopError if this repeats too often at one point in time.
         """
         self.flush()
-        now = self._clock.now
-        since, count = self._busy.get(instance, (now, 0))
-        count = count + 1 if since == now else 1
-        self._busy[instance] = (now, count)
-        self._instance = instance
-        if count > _LIMIT:
-            raise LoopError(instance.machine.name, instance.configuration.innermost)
-        self._line = Line(now, self._actors[instance], event, data=data, envelope=envelope)
+        life = self.lives[instance]
+        life.arrives()
+        if self._listeners:
+            self._line = Line(self._clock.now, life.actor, event, data=data, envelope=envelope)
 
     @property
     def actor(self) -> Actor:
         """Actor that processed the last event."""
-        assert self._instance is not None
-        return self._actors[self._instance]
+        assert self.statistics.active is not None
+        return self.statistics.active.actor
 
     def flush(self) -> None:
         """Pass the completed line to the listeners, if there is one."""
         line, self._line = self._line, None
         if line is None:
             return
-        assert self._instance is not None
-        final = self._instance.final
+        assert self.statistics.active is not None
+        instance = self.statistics.active.instance
         # An ended machine has no active states: report its final state instead.
-        line.configuration = [final] if final else self._instance.configuration.innermost
+        line.configuration = (
+            [instance.final] if instance.final else instance.configuration.innermost
+        )
         for listener in self._listeners:
             listener(line)
 
@@ -117,22 +120,26 @@ class Trace(Observer):
 
     def entered(self, instance: InstanceLike, state: State) -> None:
         """Record it."""
+        self.lives[instance].entered(instance, state)
         assert self._line is not None
         self._line.entered.append(state.id)
 
     def exited(self, instance: InstanceLike, state: State) -> None:
         """Record it, except for the final state of the machine."""
+        self.lives[instance].exited(instance, state)
         assert self._line is not None
         if instance.final is None:
             self._line.exited.append(state.id)
 
     def taken(self, instance: InstanceLike, transition: Transition) -> None:
         """Record it."""
+        self.lives[instance].taken(instance, transition)
         assert self._line is not None
         self._line.taken.append(transition)
 
     def started(self, instance: InstanceLike, run: Run) -> None:
         """Record it."""
+        self.lives[instance].started(instance, run)
         assert self._line is not None
         self._line.started.append(run.activity.name)
 
@@ -143,6 +150,7 @@ class Trace(Observer):
 
     def sent(self, instance: InstanceLike, event: Event) -> None:
         """Record it."""
+        self.lives[instance].sent(instance, event)
         assert self._line is not None
         self._line.sent.append(event.name)
         self._line.messages.append(event.data)
@@ -150,8 +158,8 @@ class Trace(Observer):
 
     def reaches_nobody(self) -> None:
         """Record that no other robot has the address of the last sent event."""
-        assert self._line is not None
-        self._line.nobody.append(len(self._line.sent) - 1)
+        if self._line is not None:
+            self._line.nobody.append(len(self._line.sent) - 1)
 
 
 def as_json(line: Line) -> str:

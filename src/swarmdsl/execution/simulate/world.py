@@ -19,11 +19,13 @@ from swarmdsl.execution.engine import (
 )
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
+from swarmdsl.execution.simulate.durations import Fixed, draw
 from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import (
     EVERY_FUNCTION,
     Fault,
+    FunctionBehavior,
     Message,
     Robot,
     Scenario,
@@ -81,20 +83,33 @@ class World:
         self._system = system
         self._scenario = scenario
         self._chance = RandomSource(seed)
+        self._latency = (
+            scenario.latency.length
+            if scenario.loss == 0 and isinstance(scenario.latency, Fixed)
+            else None
+        )
+        """Latency of all events, if it is the same and none is lost."""
         self._calls: Counter[tuple[str | None, str]] = Counter()
         self._transmissions: Counter[tuple[str | None, str | None]] = Counter()
         self._last_arrival: dict[tuple[Robot, Robot, str], int] = {}
         """Time at which the last event on a topic arrives, by sender, receiver and topic."""
         self._ends: dict[Run, Alarm | None] = {}
-        self._listeners: dict[tuple[str, Robot], list[Actor]] = {}
+        self._listeners: dict[tuple[str, str | None], list[Actor]] = {}
         self._silent: Counter[tuple[Robot, str]] = Counter()
         """Number of current silences of a function."""
+        self._behaviors: dict[tuple[str, str | None], FunctionBehavior] = {}
+        self._audiences: dict[str, list[tuple[Robot, list[Actor]]]] = {}
+        """Robots that listen to an event, with the machines that do."""
         self._unheard: list[Run] = []
         self._gone: set[Robot] = set()
         self._instances: dict[Actor, Instance] = {}
         self._actors: dict[InstanceLike, Actor] = {}
+        self._one: Instance | None = None
+        """An instance that was running when somebody asked."""
+        self._machines: dict[str | None, list[Actor]] = {}
         servers: dict[Robot, Servers] = {}
         for actor in actors:
+            self._machines.setdefault(actor.robot.name, []).append(actor)
             shared = servers.setdefault(actor.robot, Servers())
             instance = Instance(actor.machine, self, data=actor.data, servers=shared)
             self.trace.watch(instance, actor)
@@ -106,6 +121,7 @@ class World:
 
     def begin(self) -> None:
         """Start all machines and schedule the scenario."""
+        self.trace.open()
         for instance in self._instances.values():
             self.trace.begin(instance, None)
             instance.start()
@@ -128,7 +144,10 @@ class World:
     @property
     def over(self) -> bool:
         """True if no machine is running."""
-        return not any(instance.running for instance in self._instances.values())
+        if self._one is None or not self._one.running:
+            running = (instance for instance in self._instances.values() if instance.running)
+            self._one = next(running, None)
+        return self._one is None
 
     def step(self) -> None:
         """Execute the next scheduled action, if any."""
@@ -153,9 +172,14 @@ class World:
             run = next((r for r in going_on if event.name in r.activity.events.values()), None)
             if run is not None:
                 self._end(run, event.name, event.data)
-            elif instance.running:
-                self.trace.begin(instance, event.name, event.data, event.envelope)
-                instance.receive(event)
+                self.trace.flush()
+            else:
+                self._receive(instance, event)
+
+    def _receive(self, instance: Instance, event: Event) -> None:
+        if instance.running:
+            self.trace.begin(instance, event.name, event.data, event.envelope)
+            instance.receive(event)
             self.trace.flush()
 
     def runs(self, actor: Actor) -> list[Run]:
@@ -168,10 +192,10 @@ class World:
 
     def listeners(self, event: str, robot: Robot) -> list[Actor]:
         """Return the machines of a robot that react to an event."""
-        found = self._listeners.get((event, robot))
+        found = self._listeners.get((event, robot.name))
         if found is None:
-            found = [a for a in self._instances if a.robot is robot and a.listens(event)]
-            self._listeners[event, robot] = found
+            found = [actor for actor in self._machines[robot.name] if actor.listens(event)]
+            self._listeners[event, robot.name] = found
         return found
 
     # ---- called by the engine
@@ -188,20 +212,18 @@ class World:
         """Start an activity, with a random end."""
         robot, function = self._actors[run.instance].robot, run.activity.name
         self._calls[robot.name, function] += 1
-        behavior = self._scenario.behavior(function, robot)
-        chance = self._chance.stream(robot.name, function, self._calls[robot.name, function])
-        outcome = behavior.outcome(chance)
-        chosen = int(chance.random() * len(behavior.results))
+        call = self._calls[robot.name, function]
+        answer = self._behavior(function, robot).draw(
+            lambda: self._chance.stream(robot.name, function, call)
+        )
         self._ends[run] = None
-        if outcome is None or self._is_silent(robot, function):
+        if answer.outcome is None or self._is_silent(robot, function):
             return
         data = None
-        if outcome == "succeeded":
-            data = {**self._blank(function), **(behavior.results or ({},))[chosen]}
-        name = run.activity.events[outcome]
-        self._ends[run] = self.clock.schedule(
-            behavior.duration.draw(chance), lambda: self._end(run, name, data)
-        )
+        if answer.outcome == "succeeded":
+            data = {**self._blank(function), **answer.result}
+        name = run.activity.events[answer.outcome]
+        self._ends[run] = self.clock.schedule(answer.duration, lambda: self._end(run, name, data))
 
     def cancel(self, run: Run) -> None:
         """Stop an activity, after the time given in the scenario."""
@@ -229,28 +251,57 @@ class World:
             return
         envelope = Envelope(robot.name or "", self.clock.now, to)
         arriving = Event(event.name, data, envelope=envelope)
+        if to is None and self._latency is not None and not self._gone and not self.transmitted:
+            self._send_to_all(robot, arriving, self._latency)
+            return
         others = [other for other in self.robots if other is not robot and other.is_meant_by(to)]
         if not others and to is not None and robot.name is not None:
             self.nobody[event.name] += 1
             self.trace.reaches_nobody()
         for other in others:
-            if not self.listeners(event.name, other):
-                continue
-            self._transmissions[robot.name, other.name] += 1
-            count = self._transmissions[robot.name, other.name]
-            chance = self._chance.stream(robot.name, "to", other.name, count)
-            arrives = chance.random() >= self._scenario.loss and other not in self._gone
-            now = self.clock.now
-            due = now + self._scenario.latency.draw(chance)
-            if arrives:
-                due = self._in_order(due, (robot, other, sent.topic))
-            if self.transmitted is not None:
-                self.transmitted(Transmission(event.name, robot, other, now, due, arrives, to))
-            if not arrives:
-                self.lost[event.name] += 1
-                continue
-            self.delivered[event.name] += 1
-            self._later(due - now, arriving, other)
+            if self.listeners(event.name, other):
+                self._transmit(arriving, sent.topic, robot, other)
+
+    def _send_to_all(self, robot: Robot, event: Event, latency: int) -> None:
+        """Send an event to all other robots, which get it at the same time."""
+        audience = self._audience(event.name)
+        others = len(audience) - any(other is robot for other, _ in audience)
+        self.delivered[event.name] += others
+
+        def arrive() -> None:
+            for other, to in audience:
+                if other is not robot:
+                    for actor in to:
+                        self._receive(self._instances[actor], event)
+
+        if others:
+            self.clock.schedule(latency, arrive)
+
+    def _audience(self, event: str) -> list[tuple[Robot, list[Actor]]]:
+        found = self._audiences.get(event)
+        if found is None:
+            pairs = ((robot, self.listeners(event, robot)) for robot in self.robots)
+            found = self._audiences[event] = [pair for pair in pairs if pair[1]]
+        return found
+
+    def _transmit(self, event: Event, topic: str, robot: Robot, other: Robot) -> None:
+        """Send an event to another robot; draw whether and when it arrives."""
+        self._transmissions[robot.name, other.name] += 1
+        count = self._transmissions[robot.name, other.name]
+        chance = self._chance.stream(robot.name, "to", other.name, count)
+        arrives = chance.random() >= self._scenario.loss and other not in self._gone
+        now = self.clock.now
+        due = now + self._scenario.latency.draw(chance)
+        if arrives:
+            due = self._in_order(due, (robot, other, topic))
+        if self.transmitted is not None:
+            to = event.envelope.to
+            self.transmitted(Transmission(event.name, robot, other, now, due, arrives, to))
+        if not arrives:
+            self.lost[event.name] += 1
+            return
+        self.delivered[event.name] += 1
+        self._later(due - now, event, other)
 
     def failed(self, instance: InstanceLike, error: Exception) -> None:
         """Count the failure."""
@@ -268,11 +319,19 @@ class World:
 
     def _stop(self, run: Run) -> None:
         robot, function = self._actors[run.instance].robot, run.activity.name
-        behavior = self._scenario.behavior(function, robot)
-        chance = self._chance.stream(
-            robot.name, function, self._calls[robot.name, function], "stops"
+        call = self._calls[robot.name, function]
+        delay = draw(
+            self._behavior(function, robot).stopping,
+            lambda: self._chance.stream(robot.name, function, call, "stops"),
         )
-        self.clock.schedule(behavior.stopping.draw(chance), lambda: run.end("preempted"))
+        self.clock.schedule(delay, lambda: run.end("preempted"))
+
+    def _behavior(self, function: str, robot: Robot) -> FunctionBehavior:
+        found = self._behaviors.get((function, robot.name))
+        if found is None:
+            found = self._scenario.behavior(function, robot)
+            self._behaviors[function, robot.name] = found
+        return found
 
     def _later(self, delay: int, event: Event, robot: Robot) -> None:
         to = self.listeners(event.name, robot)
@@ -348,6 +407,7 @@ class World:
         for actor, instance in self._instances.items():
             if actor.robot is robot and instance.running:
                 self.trace.begin(instance, LOST)
+                self.trace.lives[instance].lose()
                 instance.running = False
                 self.trace.flush()
         for run in [run for run in self._ends if self._actors[run.instance].robot is robot]:
