@@ -300,3 +300,40 @@ def test_no_trace_and_a_file_for_it(simulate: Simulate) -> None:
 
     assert ran.code == 2
     assert "`--trace none` and `--trace-file` conflict: omit one of them" in ran.err
+
+
+def test_ignored_events_are_told_and_counted(simulate: Simulate) -> None:
+    text = """
+    statemachine M {
+      var n : int32 = 0
+      initial A
+      state A { on Start [n > 0] -> B; on Stop / n = n + 1 }
+      state B { after 1 s -> End }
+      final End
+    }
+    """
+    events = [{"event": name} for name in ("Start", "Start", "Stop", "Start", "Start")]
+
+    ran = simulate(text, events=events)
+    told = simulate(text, "--trace", "text", events=events)
+
+    assert [(line["event"], line.get("ignored")) for line in ran.trace] == [
+        (None, None),
+        ("Start", True),
+        ("Start", True),
+        ("Stop", None),
+        ("Start", None),
+        ("Start", True),
+        ("after.B.1", None),
+    ]
+    assert told.out.splitlines()[1:4] == [
+        "     0.000  Start (ignored)",
+        "     0.000  Start (ignored)",
+        "     0.000  Stop",
+    ]
+    lines = ran.err.splitlines()
+    head = lines.index("ignored event  in state  times")
+    assert lines[head + 1 : head + 3] == [
+        "Start          M: A          2",
+        "Start          M: B          1",
+    ]

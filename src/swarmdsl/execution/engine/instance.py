@@ -179,8 +179,11 @@ class Instance:
             self._take(step, event)
             if step.quiet and self.running and not self._internal:
                 return
-        elif self.running and not self._internal and not self.configuration.restless:
-            return
+        else:
+            if self.observer is not None:
+                self.observer.ignored(self, event)
+            if self.running and not self._internal and not self.configuration.restless:
+                return
         self._settle(event)
 
     def _settle(self, event: Event) -> None:

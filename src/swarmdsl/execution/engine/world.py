@@ -76,6 +76,9 @@ class Observer:
     def received(self, instance: InstanceLike, event: Event) -> None:
         """Handle an event that is about to be processed."""
 
+    def ignored(self, instance: InstanceLike, event: Event) -> None:
+        """Handle an event from outside that enables no transition."""
+
     def exited(self, instance: InstanceLike, state: State) -> None:
         """Handle the exit of a state."""
 

@@ -41,6 +41,8 @@ class Statistics:
         self.machines: dict[Machine, MachineStatistics] = {}
         self.called: Counter[str] = Counter()
         self.sent: Counter[str] = Counter()
+        self.ignored: Counter[tuple[str, str]] = Counter()
+        """Numbers of events that enabled no transition, by event and states."""
         self.active: Life | None = None
         """The instance that processed the last event."""
 
@@ -120,6 +122,11 @@ class Life(Observer):
         """Count a delay or an activity; the world counts other events."""
         if event.origin is not None:
             self.arrives()
+
+    def ignored(self, instance: InstanceLike, event: Event) -> None:
+        """Count it."""
+        where = f"{instance.machine.name}: {', '.join(instance.configuration.innermost)}"
+        self._whole.ignored[event.name, where] += 1
 
     def entered(self, instance: InstanceLike, state: State) -> None:
         """Begin the time in a state."""

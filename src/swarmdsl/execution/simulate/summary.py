@@ -41,6 +41,7 @@ class Summary:
         yield from _table(("function", "called", *_OUTCOMES, "unfinished"), self._functions())
         nobody = ("to nobody",) if world.nobody else ()
         yield from _table(("event", "sent", "heard", "lost", *nobody), self._events())
+        yield from _table(("ignored event", "in state", "times"), self._ignored_events(), left=2)
         yield from self._unseen()
 
     @property
@@ -89,6 +90,14 @@ class Summary:
             if world.nobody:
                 counts.append(world.nobody[event])
             yield event, *(str(count or "-") for count in counts)
+
+    def _ignored_events(self) -> Iterator[Row]:
+        """Yield the events that enabled no transition, the most frequent first."""
+        counts = self._statistics.ignored.most_common()
+        for (event, where), count in counts[:_MOST]:
+            yield event, where, str(count)
+        if len(counts) > _MOST:
+            yield f"and {len(counts) - _MOST} more", "", ""
 
     def _unseen(self) -> Iterator[str]:
         """Yield the coverage and the unreached elements."""

@@ -29,6 +29,8 @@ from swarmdsl.execution.simulate.trace_line import named_numbers
 class Line:
     """Effects of one event; `event` is None for the start, states are given as ids.
 
+    `ignored` is True for an event that enables no transition.
+
     `data` and `envelope` belong to the event, `messages` and `addresses` to the events in
     `sent`; `nobody` are the indices of those whose address no other robot has.
     """
@@ -46,6 +48,7 @@ class Line:
     addresses: list[str | None] = field(default_factory=list)
     nobody: list[int] = field(default_factory=list)
     taken: list[Transition] = field(default_factory=list)
+    ignored: bool = False
     data: Any = None
     envelope: Envelope = NO_ENVELOPE
 
@@ -118,6 +121,12 @@ class Trace(Observer):
         if event.origin is not None:
             self.begin(instance, event.name, event.data)
 
+    def ignored(self, instance: InstanceLike, event: Event) -> None:
+        """Record it."""
+        self.lives[instance].ignored(instance, event)
+        assert self._line is not None
+        self._line.ignored = True
+
     def entered(self, instance: InstanceLike, state: State) -> None:
         """Record it."""
         self.lives[instance].entered(instance, state)
@@ -177,6 +186,8 @@ def as_json(line: Line) -> str:
         "cancelled": line.cancelled,
         "sent": line.sent,
     }
+    if line.ignored:
+        values["ignored"] = True
     if line.data:
         values["data"] = named_numbers(line.data)
     if line.envelope.sender:
@@ -191,12 +202,16 @@ def as_json(line: Line) -> str:
 def as_text(line: Line, width: int = 0) -> str:
     """Format a line as text: time, member, event, new states and actions.
 
+    An event that enables no transition is `(ignored)`.
+
     Member names are padded to `width`.
     """
     who = f"{line.actor.name:<{width}}  " if line.actor.name is not None else ""
     head = f"{line.time / SECOND:>10.3f}  {who}{line.event or '(start)'}"
     if line.entered or line.exited:
         head += f" -> {', '.join(line.configuration)}"
+    elif line.ignored:
+        head += " (ignored)"
     sent = [_sent(line, number) for number in range(len(line.sent))]
     done = (("start", line.started), ("cancel", line.cancelled), ("send", sent))
     words = [f"{word} {', '.join(names)}" for word, names in done if names]

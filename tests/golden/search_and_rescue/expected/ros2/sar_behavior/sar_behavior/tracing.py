@@ -70,6 +70,11 @@ class Trace(Observer):
         if isinstance(event.origin, Run):
             self.on_end(event)
 
+    def ignored(self, instance, event):
+        """Note that the event enables no transition."""
+        if self._line is not None:
+            self._line['ignored'] = True
+
     def entered(self, instance, state):
         """Note an entered state."""
         self._note('entered', state.id)
@@ -141,6 +146,8 @@ class Output:
         what = line['event'] or 'start'
         # Not `info`: rclpy inspects the frames of its callers, which takes longer than the rest.
         said = f'{what} -> {where} ({places})' if places else f'{what} -> {where}'
+        if line.get('ignored'):
+            said = f'{what} (ignored in {where})'
         self._node.get_logger().log(said, LoggingSeverity.INFO)
 
     def release(self):
