@@ -26,6 +26,7 @@ import parsing
 import peers
 import ros1
 import ros2
+import simulation
 from measure import Section
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "performance.md"
@@ -36,6 +37,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "generation": generation.section,
     "workspace": large.section,
     "engine": engine.section,
+    "simulate": simulation.section,
     "lsp": editing.section,
     "import": importing.section,
     "diagram": drawing.section,

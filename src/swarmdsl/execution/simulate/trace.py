@@ -73,9 +73,14 @@ class Trace(Observer):
 
     def open(self) -> None:
         """Begin the trace; there are no more listeners to come."""
-        if not self._listeners:
+        if not self.is_heard:
             for life in self.lives.values():
                 life.instance.observer = life
+
+    @property
+    def is_heard(self) -> bool:
+        """True if there are listeners."""
+        return bool(self._listeners)
 
     def begin(
         self,
@@ -91,7 +96,7 @@ class Trace(Observer):
         self.flush()
         life = self.lives[instance]
         life.arrives()
-        if self._listeners:
+        if self.is_heard:
             self._line = Line(self._clock.now, life.actor, event, data=data, envelope=envelope)
 
     @property

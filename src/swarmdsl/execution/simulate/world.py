@@ -31,6 +31,7 @@ from swarmdsl.execution.simulate.scenario import (
     Scenario,
     is_selected,
 )
+from swarmdsl.execution.simulate.statistics import Life
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.ir import System
 
@@ -98,8 +99,9 @@ class World:
         self._silent: Counter[tuple[Robot, str]] = Counter()
         """Number of current silences of a function."""
         self._behaviors: dict[tuple[str, str | None], FunctionBehavior] = {}
-        self._audiences: dict[str, list[tuple[Robot, list[Actor]]]] = {}
-        """Robots that listen to an event, with the machines that do."""
+        self._audiences: dict[str, list[tuple[Robot, list[Life]]]] = {}
+        """Robots that listen to an event, with the instances that do."""
+        self._blanks: dict[str, Mapping[str, Any]] = {}
         self._unheard: list[Run] = []
         self._gone: set[Robot] = set()
         self._instances: dict[Actor, Instance] = {}
@@ -267,20 +269,30 @@ class World:
         audience = self._audience(event.name)
         others = len(audience) - any(other is robot for other, _ in audience)
         self.delivered[event.name] += others
+        heard = self.trace.is_heard
 
         def arrive() -> None:
-            for other, to in audience:
-                if other is not robot:
-                    for actor in to:
-                        self._receive(self._instances[actor], event)
+            for other, lives in audience:
+                for life in lives if other is not robot else ():
+                    instance = life.instance
+                    if heard:
+                        self._receive(instance, event)
+                    elif instance.running:
+                        # As there, without a call for each of what may be millions.
+                        life.arrives()
+                        instance.receive(event)
 
         if others:
             self.clock.schedule(latency, arrive)
 
-    def _audience(self, event: str) -> list[tuple[Robot, list[Actor]]]:
+    def _audience(self, event: str) -> list[tuple[Robot, list[Life]]]:
         found = self._audiences.get(event)
         if found is None:
-            pairs = ((robot, self.listeners(event, robot)) for robot in self.robots)
+            lives = self.trace.lives
+            pairs = (
+                (robot, [lives[self._instances[actor]] for actor in self.listeners(event, robot)])
+                for robot in self.robots
+            )
             found = self._audiences[event] = [pair for pair in pairs if pair[1]]
         return found
 
@@ -315,7 +327,9 @@ class World:
         return due
 
     def _is_silent(self, robot: Robot, function: str) -> bool:
-        return any(self._silent[robot, name] for name in (function, EVERY_FUNCTION))
+        return bool(self._silent) and any(
+            self._silent[robot, name] for name in (function, EVERY_FUNCTION)
+        )
 
     def _stop(self, run: Run) -> None:
         robot, function = self._actors[run.instance].robot, run.activity.name
@@ -352,7 +366,10 @@ class World:
         """Return the default result of a function."""
         if self._system is None:
             return {}
-        return default_result(self._system.function(function).communication, self._system)
+        if function not in self._blanks:
+            call = self._system.function(function).communication
+            self._blanks[function] = default_result(call, self._system)
+        return self._blanks[function]
 
     def _outcome(self, run: Run, event: str, data: Any) -> str:
         """Return the outcome of an end event: a service response may report failure."""

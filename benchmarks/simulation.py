@@ -1,0 +1,163 @@
+"""Measure the simulator and comparable simulators with the same swarms."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from statistics import median
+from time import process_time
+
+import peers
+from measure import Section, interleaved, spread
+from peers import mesa_model, simpy_model
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.driver import pipeline
+from swarmdsl.execution.simulate.actors import actors
+from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.run import run
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.subject import Subject, choose
+from swarmdsl.execution.simulate.trace import as_json
+from swarmdsl.execution.simulate.world import World
+
+ROUNDS = 3
+GOAL = 400_000
+"""Least number of deliveries a second."""
+
+TALK = """package talk
+swarm event Hello : std_msgs/Empty
+endless statemachine Listening {{
+  var heard : int32 = 0
+  initial Here
+  state Here {{ on Hello / heard = heard + 1 }}
+}}
+endless statemachine Talking {{
+  var heard : int32 = 0
+  initial Here
+  state Here {{
+    after 1 s / send Hello -> Here
+    on Hello / heard = heard + 1
+  }}
+}}
+member Talker {{ behavior Talking }}
+member Listener {{ behavior Listening }}
+swarm Crowd {{
+  talker : Talker[{talkers}]
+  listener : Listener[{listeners}]
+}}
+"""
+
+
+@dataclass(frozen=True)
+class Crowd:
+    """Robots that all hear what some of them broadcast each second."""
+
+    talkers: int
+    listeners: int
+    seconds: int
+
+    @property
+    def title(self) -> str:
+        """Name in the table."""
+        hear = f", {self.listeners:,} more listen" if self.listeners else ""
+        return f"{self.talkers:,} talk{hear}: {self.deliveries:,} deliveries"
+
+    @property
+    def deliveries(self) -> int:
+        """Number of events that reach a robot."""
+        return self.seconds * self.talkers * (self.talkers + self.listeners - 1)
+
+
+CROWDS = (Crowd(300, 0, 10), Crowd(10, 990, 100), Crowd(10, 9_990, 10))
+"""The last two have as many deliveries: the time must not grow with the robots."""
+
+
+def load(folder: Path, crowd: Crowd) -> Subject:
+    """Return the swarm of a crowd."""
+    file = folder / "talk.swarm"
+    counts = {"talkers": crowd.talkers, "listeners": crowd.listeners}
+    text = TALK.format(**counts)
+    if not crowd.listeners:
+        text = text.replace("  listener : Listener[0]\n", "")
+    file.write_text(text, encoding="utf-8")
+    report = Diagnostics()
+    system = pipeline.check([file]).system
+    found = choose(system, [], None, None, report)
+    assert found is not None, [each.message for each in report]
+    return found
+
+
+def deliveries(subject: Subject, crowd: Crowd, *, trace: bool = False) -> float:
+    """Return deliveries per second of CPU time of a run, with a trace or without one."""
+    scenario = Scenario()
+    robots = subject.create_robots({})
+    cast = actors(subject, robots, scenario, Diagnostics())
+    lines: list[str] = []
+    listeners = [lambda line: lines.append(as_json(line))] if trace else []
+    world = World(subject.system, cast, scenario, 0, listeners)
+    gc.collect()
+    start = process_time()
+    run(world, [], crowd.seconds * SECOND)
+    spent = process_time() - start
+    assert world.delivered["Hello"] == crowd.deliveries
+    return crowd.deliveries / spent
+
+
+def deliveries_of(model: Callable[[int, int, int], int], crowd: Crowd) -> float:
+    """Return deliveries per second of CPU time of another simulator."""
+    gc.collect()
+    start = process_time()
+    heard = model(crowd.talkers, crowd.listeners, crowd.seconds)
+    spent = process_time() - start
+    assert heard == crowd.deliveries
+    return crowd.deliveries / spent
+
+
+@dataclass(frozen=True)
+class Simulator:
+    """Simulator with its deliveries per second; `peer` is the package that it needs."""
+
+    name: str
+    speed: Callable[[Subject, Crowd], float]
+    peer: str | None = None
+
+
+SIMULATORS = (
+    Simulator("swarmdsl", deliveries),
+    Simulator("swarmdsl, JSON trace", partial(deliveries, trace=True)),
+    Simulator("SimPy", lambda _, crowd: deliveries_of(simpy_model.heard, crowd), "simpy"),
+    Simulator("Mesa", lambda _, crowd: deliveries_of(mesa_model.heard, crowd), "mesa"),
+)
+
+
+def section(folder: Path) -> Section:
+    """Run each crowd in each simulator."""
+    present, absent = peers.divide(SIMULATORS)
+    found = Section(
+        "Thousands of deliveries a second of CPU time (minimum / median / maximum of "
+        f"{ROUNDS} rounds). Robots broadcast an event each second, and every other robot counts "
+        "it. In swarmdsl a delivery is a macrostep of a state machine, with statistics and "
+        "coverage. In SimPy a robot is a process that takes events from its store; in Mesa it is "
+        "an agent whose method is called at each step, with neither queue nor state machine.",
+        ["swarm", *(peers.title(each.name, each.peer) for each in present)],
+    )
+    for crowd in CROWDS:
+        subject = load(folder, crowd)
+        speeds = interleaved(
+            {each.name: partial(each.speed, subject, crowd) for each in present}, ROUNDS
+        )
+        found.rows.append(
+            [crowd.title, *(spread(values, "{:.0f}", 1e-3) for values in speeds.values())]
+        )
+        found.goal(
+            f"deliveries a second, {crowd.title}",
+            median(speeds["swarmdsl"]),
+            GOAL,
+            "{:,.0f}",
+            least=True,
+        )
+    found.notes += absent
+    return found
