@@ -43,6 +43,7 @@
 
 (defconst swarm--contextual
   '("\\_<\\(abstraction\\)\\_>[ \t]*[{]"
+    "\\_<\\(as\\)\\_>[ \t]*[A-Za-z_]"
     "\\_<\\(by\\)\\_>[ \t]*[A-Za-z_]"
     "\\_<\\(count\\)\\_>[ \t]*\\(?:of\\)\\_>"
     "\\_<\\(deep\\)\\_>[ \t]*\\(?:history\\)\\_>"

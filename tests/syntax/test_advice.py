@@ -77,8 +77,6 @@ STATEMENTS = (
     ("on A -> [*]", "-> [*]", "{1}"),
     ("on A / n = 1 -> [*]", "-> [*]", "{1}"),
     ("var k : int32 = 7", "var k : int32 = 7", "{0}"),
-    ("state T { on A -> T }\nhistory H", "history H", "{0}"),
-    ("state T { on A -> T }\ndeep history H", "history H", "{0}"),
 )
 # Imports and values outside of state machines.
 DECLARATIONS = (

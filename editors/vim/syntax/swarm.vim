@@ -27,6 +27,7 @@ syn keyword swarmBoolean false true
 syn keyword swarmType bool byte char int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32
 syn keyword swarmType float64 string wstring time duration
 syn match swarmDeclaration #\<abstraction\>\ze[ \t]*[{]#
+syn match swarmStatement #\<as\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<count\>\ze[ \t]*\%(of\)\>#
 syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#

@@ -22,6 +22,7 @@ from swarmdsl.ir import (
     Assignment,
     Expression,
     Literal,
+    OutcomeTrigger,
     State,
     StateKind,
     StateMachine,
@@ -224,7 +225,8 @@ class MachineBuilder:
         )
         for conditions, nodes in paths:
             effects = self.content.effects(nodes, event)
-            if target is None and not effects:
+            stays = all(isinstance(trigger, OutcomeTrigger) for trigger in triggers)
+            if target is None and not effects and (guard or conditions or not stays):
                 if not self._blocks_others(edges, draft):
                     if len(paths) > 1:
                         continue

@@ -184,20 +184,26 @@ def operations_of(owner: Component | Part) -> list[Operation]:
 def _monitored(
     pairs: Iterable[tuple[File, Declaration]], declared: Container[str], taken: set[str]
 ) -> Iterator[ir.Event]:
-    """Yield an event for each other monitored topic, named after the topic."""
-    seen: set[str] = set()
+    """Yield an event for each other monitored topic, with its chosen name or that of the topic."""
+    monitors: dict[str, MonitorTrigger] = {}
+    chosen: dict[str, str] = {}
     for _, declaration in pairs:
         for node in nodes_of(declaration, MonitorTrigger):
-            if node.type.type is None:
-                continue
             topic = received_topic(node)
-            if topic in declared or topic in seen:
+            if node.type.type is None or topic in declared:
                 continue
-            seen.add(topic)
+            monitors.setdefault(topic, node)
+            if node.name is not None:
+                chosen.setdefault(topic, str(node.name))
+    taken.update(chosen.values())
+    for topic, node in monitors.items():
+        assert node.type.type is not None
+        name = chosen.get(topic)
+        if name is None:
             name = camel_case(topic)
             if not name[:1].isalpha():
                 name = f"Topic{name}"
             while name in taken:
                 name += "_"
             taken.add(name)
-            yield ir.Event(name, node.type.type, topic, False, "", node.span)
+        yield ir.Event(name, node.type.type, topic, False, "", node.span)

@@ -110,8 +110,8 @@ class _Builder:
             case FinalState():
                 return made(kind=ir.StateKind.FINAL)
             case History():
-                assert state.target.target is not None
-                target = frame.ids[state.target.target]
+                assert state.default is not None
+                target = frame.ids[state.default]
                 resume = ir.Transition((), None, (), target, origin=state.span)
                 return made(kind=ir.StateKind.HISTORY, deep=state.deep, transitions=(resume,))
             case Choice():

@@ -31,6 +31,7 @@ from swarmdsl.analysis.checks.interfaces import (
     check_values,
 )
 from swarmdsl.analysis.checks.livelock import check_livelock
+from swarmdsl.analysis.checks.monitor_names import check_monitor_names
 from swarmdsl.analysis.checks.names import check_names, check_names_inside
 from swarmdsl.analysis.checks.optimization import (
     check_constant,
@@ -77,6 +78,7 @@ PROJECT_PASSES: Sequence[Callable[[Project, Context], None]] = (
     check_unused,
     collect_used,
     check_topics,
+    check_monitor_names,
     check_events,
     check_addresses,
 )

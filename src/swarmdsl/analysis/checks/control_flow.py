@@ -34,7 +34,6 @@ from swarmdsl.syntax.ast import (
     FinalState,
     History,
     Parallel,
-    Ref,
     Region,
     State,
     StateMachine,
@@ -203,17 +202,17 @@ class ControlFlowGraph:
             return
         if not path:
             initials = self._hierarchy.initials[container]
-            path = self._below(container, initials[0].target) if initials else ()
+            path = self._below(container, initials[0].target.target) if initials else ()
         for vertex in path[:1]:
             assert not isinstance(vertex, (StateMachine, Region))
             self._enter_state(node, vertex, path[1:])
 
     def _enter_state(self, node: Node, vertex: Vertex, path: _Path) -> None:
         """Connect a node with a state and the states on a path inside it."""
-        if isinstance(vertex, History) and not isinstance(vertex.target.target, History):
+        if isinstance(vertex, History) and not isinstance(vertex.default, History):
             # The states that a history restores were reached before, with fewer writes.
             container = self._hierarchy.parent[vertex]
-            self._enter(node, container, self._below(container, vertex.target))
+            self._enter(node, container, self._below(container, vertex.default))
             return
         if isinstance(vertex, (State, Parallel)):
             node.accesses += self._on_entry.get(vertex, ())
@@ -235,9 +234,9 @@ class ControlFlowGraph:
             )
         )
 
-    def _below(self, container: Container, ref: Ref[Vertex]) -> _Path:
+    def _below(self, container: Container, inside: Vertex | None) -> _Path:
         """Path from a container to a state in it, without the container."""
-        path = self._hierarchy.path(ref.target) if ref.target is not None else ()
+        path = self._hierarchy.path(inside) if inside is not None else ()
         return path[path.index(container) + 1 :] if container in path else ()
 
 

@@ -46,8 +46,9 @@ class EventlessSteps:
 
         def successors(vertex: Vertex) -> Iterator[tuple[Step, Vertex]]:
             for step in self._steps_from(vertex, hierarchy, context):
-                if step.target is not None and step.target.target is not None:
-                    yield step, step.target.target
+                target = _target(step)
+                if target is not None:
+                    yield step, target
 
         self.cycles: Sequence[tuple[Vertex, list[Step]]] = ()
         # Initial states alone make no cycle: they lead inwards only.
@@ -62,7 +63,7 @@ class EventlessSteps:
         match vertex:
             case Choice(branches=branches):
                 yield from (branch for branch in branches if _is_always_taken(branch, context))
-            case History(target=default) if isinstance(default.target, History):
+            case History(default=History()):
                 yield vertex
             case State() | Parallel():
                 yield from self.immediate.get(vertex, ())
@@ -70,6 +71,12 @@ class EventlessSteps:
                     yield from hierarchy.initials[region]
                 if hierarchy.children[vertex]:
                     yield from hierarchy.initials[vertex]
+
+
+def _target(step: Step) -> Vertex | None:
+    if isinstance(step, History):
+        return step.default
+    return step.target.target if step.target is not None else None
 
 
 def check_livelock(machine: StateMachine, context: Context) -> None:

@@ -75,7 +75,7 @@ def _initials(container: Container, hierarchy: StateHierarchy) -> list[Vertex | 
 def _successors(state: Vertex | Region, hierarchy: StateHierarchy) -> list[Vertex | Region]:
     """States entered with a state, and the targets of its transitions."""
     found: list[Vertex | Region] = []
-    arrows: Sequence[Transition | Branch | History] = ()
+    arrows: Sequence[Transition | Branch] = ()
     match state:
         case State() | Parallel():
             found, arrows = _initials(state, hierarchy), hierarchy.transitions[state]
@@ -84,7 +84,7 @@ def _successors(state: Vertex | Region, hierarchy: StateHierarchy) -> list[Verte
         case Choice():
             arrows = state.branches
         case History():
-            arrows = [state]
+            found = [state.default] if state.default is not None else []
     targets = [arrow.target.target for arrow in arrows if arrow.target is not None]
     return found + [target for target in targets if target is not None]
 

@@ -80,12 +80,15 @@ class _MachineLinker:
                             self._link_done(trigger, container)
                 case Initial() if inside or not isinstance(container, State):
                     # A check reports an initial state in a state without states.
-                    self._link_inside(item, container, inside, (*outer, *beside))
+                    self._link_inside(item, item.target, container, inside, (*outer, *beside))
                 case Choice():
                     for branch in item.branches:
                         self._link_vertex(branch.target, (inside, *outer, *beside))
-                case History():
-                    self._link_inside(item, container, inside, (*outer, *beside))
+                case History(target=None):
+                    initials = (each for each in container.items if isinstance(each, Initial))
+                    item.initial = next((each.target for each in initials), None)
+                case History(target=Ref() as target):
+                    self._link_inside(item, target, container, inside, (*outer, *beside))
                 case Region():
                     self.link(item, outer, (inside, *beside))
                 case State() | Parallel():
@@ -94,17 +97,18 @@ class _MachineLinker:
     def _link_inside(
         self,
         arrow: Initial | History,
+        target: Ref[Vertex],
         container: Container,
         inside: Level,
         around: tuple[Level, ...],
     ) -> None:
         """Resolve the target of an initial state or a history: a state inside its container."""
-        name = arrow.target.name
+        name = target.name
         outside = next((level[name][0] for level in around if name in level), None)
         if outside is None or name in inside:
-            self._link_vertex(arrow.target, (inside,))
+            self._link_vertex(target, (inside,))
             return
-        report_state_outside(arrow, container, outside, self._report)
+        report_state_outside(arrow, target, container, outside, self._report)
 
     def _link_vertex(self, ref: Ref[Vertex], levels: tuple[Level, ...]) -> None:
         """Resolve a path to a state, its first name in the nearest level that has it."""

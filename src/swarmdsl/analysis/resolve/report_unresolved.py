@@ -357,15 +357,19 @@ def report_missing_state(
 
 
 def report_state_outside(
-    arrow: Initial | History, container: Container, outside: Vertex, report: Diagnostics
+    arrow: Initial | History,
+    target: Ref[Vertex],
+    container: Container,
+    outside: Vertex,
+    report: Diagnostics,
 ) -> None:
     """Report an initial state or a history whose target is not inside its container."""
     what = "`initial` names" if isinstance(arrow, Initial) else f"history `{arrow.name}` leads to"
     report.report(
         "unresolved-name",
-        arrow.target.span,
+        target.span,
         kind=f"state in `{container.name}`",
-        name=arrow.target.name,
+        name=target.name,
         related=(Label(outside.name.span, "this state is not inside"),),
         help=f"{what} a state inside `{container.name}`",
     )

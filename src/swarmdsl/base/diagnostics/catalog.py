@@ -167,6 +167,7 @@ CODES: dict[str, Code] = {
     "undescribed-interface": Code(
         "SW0616", "warning", "no definition of interface `{name}`", silent=True
     ),
+    "monitor-name": Code("SW0617", "error", "topic `{topic}` cannot be called `{name}`"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

@@ -63,12 +63,17 @@ class _Printer:
     reuse: Reuse
     names: Names
 
-    def states(self, states: Iterable[State], place: Place) -> list[str]:
+    def states(
+        self, states: Iterable[State], place: Place, initial: str | None = None
+    ) -> list[str]:
+        """Return states in one container, in which `initial` is the id of the initial state."""
         return [
-            line for state in states for line in documented(state.doc, self._state(state, place))
+            line
+            for state in states
+            for line in documented(state.doc, self._state(state, place, initial))
         ]
 
-    def _state(self, state: State, place: Place) -> list[str]:
+    def _state(self, state: State, place: Place, initial: str | None) -> list[str]:
         match state.kind:
             case StateKind.FINAL:
                 return [f"final {state.name}"]
@@ -76,6 +81,8 @@ class _Printer:
                 deep = "deep " if state.deep else ""
                 (resume,) = state.transitions
                 assert resume.target is not None
+                if resume.target == initial:
+                    return [f"{deep}history {state.name}"]
                 target = place.path(resume.target, place.outer[:1])
                 return [f"{deep}history {state.name} -> {target}"]
             case StateKind.CHOICE:
@@ -112,7 +119,8 @@ class _Printer:
         """Return the initial state and the states of a composite state or region."""
         assert state.initial is not None
         initial = place.path(state.initial, (level(state),))
-        return _initial(state, initial), self.states(state.states, place.inside(state))
+        inside = self.states(state.states, place.inside(state), state.initial)
+        return _initial(state, initial), inside
 
     def _own(self, state: State) -> list[str]:
         """Return the activity and the effects on entry and exit of a state."""
@@ -129,11 +137,20 @@ class _Printer:
     def _transitions(self, state: State, place: Place) -> list[str]:
         levels = place.from_state(state)
         regions = {each.id: each for each in state.states if each.kind is StateKind.REGION}
-        return [
-            line
-            for each in state.transitions
-            for line in documented(each.doc, [_transition(each, state, regions, place, levels)])
-        ]
+        lines: list[str] = []
+        before: Transition | None = None
+        for each in state.transitions:
+            line = _transition(each, state, regions, place, levels)
+            if line.startswith("[") and _stays(before):
+                lines[-1] += ";"  # else the guard would belong to the outcome
+            lines += documented(each.doc, [line])
+            before = each
+        return lines
+
+
+def _stays(transition: Transition | None) -> bool:
+    """Return True for a transition that only handles outcomes."""
+    return transition is not None and transition.target is None and not transition.effects
 
 
 def _transition(
@@ -157,7 +174,8 @@ def _transition(
     if effects:
         parts.append(f"/ {_effects(effects)}")
     elif target is None:
-        raise UnprintableError(f"a transition of `{state.id}` has no effect")
+        if guard is not None or not all(isinstance(t, OutcomeTrigger) for t in transition.triggers):
+            raise UnprintableError(f"a transition of `{state.id}` has no effect")
     if target is not None:
         parts.append(f"-> {place.path(target, levels)}")
     return " ".join(parts)

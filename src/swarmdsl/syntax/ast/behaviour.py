@@ -71,10 +71,11 @@ class TimeTrigger(Node):
 
 @dataclass(slots=True, eq=False)
 class MonitorTrigger(Node):
-    """`monitor "topic" : Type`."""
+    """`monitor "topic" : Type` or `monitor "topic" : Type as Name`."""
 
     topic: Word
     type: TypeRef
+    name: Word | None
 
 
 Trigger = OutcomeTrigger | DoneTrigger | EventTrigger | TimeTrigger | MonitorTrigger
@@ -216,11 +217,21 @@ class StateMachine(TopLevel):
 
 @dataclass(slots=True, eq=False)
 class History(Documented):
-    """`history Name -> target` or `deep history Name -> target`."""
+    """`history Name`, `history Name -> target`, or either after `deep`.
+
+    `initial` is the target of `initial` beside a history without a target; only the linker sets it.
+    """
 
     deep: bool
     name: Word
-    target: Ref[Vertex]
+    target: Ref[Vertex] | None
+    initial: Ref[Vertex] | None = field(default=None, init=False, metadata={"elsewhere": True})
+
+    @property
+    def default(self) -> Vertex | None:
+        """The state to enter if there is nothing to restore; None if it is not known."""
+        ref = self.target or self.initial
+        return ref.target if ref is not None else None
 
 
 Vertex = State | Parallel | Choice | History | FinalState

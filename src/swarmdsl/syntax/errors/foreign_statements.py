@@ -53,12 +53,7 @@ _HINTS = (
     (rf"{_NUMBER}(\d+(?:\.\d+)?) *@{PHYSICAL_UNIT}\b", "", _ONLY_TIMES),
     (rf"{_NUMBER}@(\d+(?:\.\d+)?){PHYSICAL_UNIT}\b", "", _ONLY_TIMES),
     # states
-    (
-        r"\bhistory +(\w+)@",
-        "`->`",
-        r"add the state to enter at first: `history \1 -> State`",
-    ),
-    (r"\bhistory@ *$", "", "write `history Name -> State`, with the state to enter at first"),
+    (r"\bhistory@ *$", "", "write `history Name`"),
     (r"^ *@\[\*\] *-+> *(\w+)", "", r"write `initial \1`"),
     (
         r"^ *@(\w+) *-+> *\[\*\]",

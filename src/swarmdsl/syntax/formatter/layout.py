@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
-from swarmdsl.syntax.ast import EnumValue, ImportFile, ImportLibrary, ImportRos, Node, PartValue
+from itertools import zip_longest
+
+from swarmdsl.syntax.ast import (
+    EnumValue,
+    ImportFile,
+    ImportLibrary,
+    ImportRos,
+    Node,
+    PartValue,
+    Transition,
+)
 from swarmdsl.syntax.formatter.columns import align, set_cells
 from swarmdsl.syntax.formatter.items import Body, Item
 from swarmdsl.syntax.formatter.lines import INDENT, WIDTH, Line
@@ -87,13 +97,23 @@ def _item_lines(item: Item, indent: int, marks: Marks) -> list[Line]:
 
 def _body_lines(body: Body, indent: int, marks: Marks) -> list[Line]:
     lines: list[Line] = []
-    for item in body.items:
+    for item, following in zip_longest(body.items, body.items[1:]):
         lines += _comment_lines(item.above, indent)
         lines += _item_lines(item, indent, marks)
+        if _needs_separator(item, following):
+            lines[-1].text += ";"
     lines += _comment_lines(body.below, indent)
     if lines:
         lines[0].blank_above = False
     return lines
+
+
+def _needs_separator(item: Item, following: Item | None) -> bool:
+    """Return True if a guard on the next line would belong to the outcomes before it."""
+    match item.node:
+        case Transition(effects=[], target=None):
+            return following is not None and following.head[0].text == "["
+    return False
 
 
 def _stays_on_one_line(body: Body) -> bool:

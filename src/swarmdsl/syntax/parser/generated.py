@@ -11,7 +11,7 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
 from swarmdsl.syntax.parser.lexer import Lexer
 
-GRAMMAR = 2791068487
+GRAMMAR = 2987401596
 new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
@@ -116,8 +116,9 @@ SET15 = frozenset(['[', 'after', 'choice', 'deep', 'do', 'entry', 'exit', 'final
 SET16 = frozenset(['[', 'after', 'entry', 'exit', 'internal', 'monitor', 'on', 'region'])
 SET17 = frozenset(['[', 'else'])
 SET18 = frozenset(['after', 'monitor', 'on'])
-SET19 = frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state'])
-SET20 = frozenset(['!', '#', '$', '%', '&', "'", ')', '*', '+', ',', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'exit', 'extends', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+SET19 = frozenset(['aborted', 'preempted', 'succeeded'])
+SET20 = frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state'])
+SET21 = frozenset(['!', '#', '$', '%', '&', "'", ')', '*', '+', ',', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'exit', 'extends', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
 RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
 TERMINALS = (
     ('\\Z', 'EOF', ''),
@@ -235,6 +236,7 @@ TERMINALS = (
     ('=>', '', '=>'),
     ('after\\b', '', 'after'),
     ('monitor\\b', '', 'monitor'),
+    ('as\\b', '', 'as'),
     ('send\\b', '', 'send'),
     ('to\\b', '', 'to'),
     ('done\\b', '', 'done'),
@@ -891,7 +893,7 @@ PROGRAM = (
     (1, 647),
     (3, 855),
     (2, 648),
-    (3, 863),
+    (3, 865),
     (4, 0),
     (0, 31),
     (3, 370),
@@ -904,7 +906,7 @@ PROGRAM = (
     (3, 370),
     (1, 663),
     (0, 63),
-    (3, 866),
+    (3, 868),
     (0, 64),
     (2, 663),
     (1, 676),
@@ -923,7 +925,7 @@ PROGRAM = (
     (4, 0),
     (3, 497),
     (0, 63),
-    (3, 872),
+    (3, 874),
     (0, 64),
     (0, 4),
     (1, 691),
@@ -941,12 +943,12 @@ PROGRAM = (
     (3, 381),
     (4, 0),
     (0, 66),
-    (3, 874),
+    (3, 876),
     (0, 67),
-    (3, 874),
+    (3, 876),
     (1, 704),
     (0, 67),
-    (3, 874),
+    (3, 876),
     (2, 704),
     (4, 0),
     (0, 43),
@@ -954,7 +956,7 @@ PROGRAM = (
     (0, 11),
     (3, 392),
     (4, 0),
-    (3, 876),
+    (3, 878),
     (3, 406),
     (4, 0),
     (1, 716),
@@ -968,9 +970,9 @@ PROGRAM = (
     (0, 71),
     (4, 0),
     (1, 726),
-    (3, 881),
+    (3, 883),
     (2, 723),
-    (3, 886),
+    (3, 888),
     (4, 0),
     (1, 731),
     (0, 72),
@@ -1000,7 +1002,7 @@ PROGRAM = (
     (0, 80),
     (2, 765),
     (1, 758),
-    (3, 908),
+    (3, 910),
     (2, 765),
     (1, 761),
     (0, 81),
@@ -1028,7 +1030,7 @@ PROGRAM = (
     (2, 783),
     (0, 84),
     (4, 0),
-    (3, 910),
+    (3, 912),
     (4, 0),
     (1, 790),
     (3, 771),
@@ -1046,7 +1048,7 @@ PROGRAM = (
     (3, 497),
     (0, 45),
     (2, 802),
-    (3, 910),
+    (3, 912),
     (4, 0),
     (0, 86),
     (3, 386),
@@ -1056,10 +1058,10 @@ PROGRAM = (
     (1, 820),
     (0, 55),
     (1, 818),
-    (3, 915),
+    (3, 917),
     (1, 817),
     (0, 9),
-    (3, 915),
+    (3, 917),
     (2, 813),
     (2, 818),
     (0, 56),
@@ -1068,7 +1070,7 @@ PROGRAM = (
     (1, 831),
     (0, 4),
     (1, 829),
-    (3, 919),
+    (3, 921),
     (1, 828),
     (0, 1),
     (2, 828),
@@ -1081,7 +1083,7 @@ PROGRAM = (
     (3, 386),
     (0, 4),
     (1, 842),
-    (3, 936),
+    (3, 938),
     (1, 841),
     (0, 1),
     (2, 841),
@@ -1092,7 +1094,7 @@ PROGRAM = (
     (3, 386),
     (0, 4),
     (1, 853),
-    (3, 947),
+    (3, 949),
     (1, 852),
     (0, 1),
     (2, 852),
@@ -1104,107 +1106,109 @@ PROGRAM = (
     (2, 858),
     (0, 90),
     (3, 386),
+    (1, 864),
     (0, 60),
     (3, 370),
+    (2, 864),
     (4, 0),
     (0, 91),
     (3, 386),
     (4, 0),
-    (3, 964),
-    (1, 871),
+    (3, 966),
+    (1, 873),
     (0, 44),
-    (3, 964),
-    (2, 871),
+    (3, 966),
+    (2, 873),
     (4, 0),
     (0, 92),
     (4, 0),
     (0, 93),
     (4, 0),
-    (1, 879),
+    (1, 881),
     (0, 94),
-    (2, 880),
+    (2, 882),
     (0, 95),
     (4, 0),
-    (1, 884),
+    (1, 886),
     (0, 96),
-    (2, 885),
-    (3, 908),
+    (2, 887),
+    (3, 910),
     (4, 0),
-    (1, 889),
-    (3, 966),
-    (2, 907),
-    (1, 892),
-    (3, 522),
-    (2, 907),
-    (1, 895),
-    (0, 97),
-    (2, 907),
-    (1, 898),
-    (0, 98),
-    (2, 907),
-    (1, 901),
+    (1, 891),
     (3, 968),
-    (2, 907),
-    (1, 904),
-    (3, 979),
-    (2, 907),
+    (2, 909),
+    (1, 894),
+    (3, 522),
+    (2, 909),
+    (1, 897),
+    (0, 97),
+    (2, 909),
+    (1, 900),
+    (0, 98),
+    (2, 909),
+    (1, 903),
+    (3, 970),
+    (2, 909),
+    (1, 906),
+    (3, 981),
+    (2, 909),
     (0, 55),
     (3, 535),
     (0, 56),
     (4, 0),
     (0, 99),
     (4, 0),
-    (1, 913),
+    (1, 915),
     (3, 497),
-    (2, 914),
-    (3, 985),
+    (2, 916),
+    (3, 987),
     (4, 0),
     (3, 524),
     (0, 13),
     (3, 406),
     (4, 0),
-    (1, 922),
-    (3, 987),
-    (2, 935),
-    (1, 925),
-    (3, 1019),
-    (2, 935),
-    (1, 928),
-    (3, 1027),
-    (2, 935),
-    (1, 931),
-    (3, 1035),
-    (2, 935),
-    (1, 934),
+    (1, 924),
+    (3, 989),
+    (2, 937),
+    (1, 927),
+    (3, 1021),
+    (2, 937),
+    (1, 930),
+    (3, 1029),
+    (2, 937),
+    (1, 933),
+    (3, 1037),
+    (2, 937),
+    (1, 936),
     (3, 632),
-    (2, 935),
+    (2, 937),
     (3, 635),
     (4, 0),
-    (1, 939),
-    (3, 1093),
-    (2, 946),
-    (1, 942),
-    (3, 1019),
-    (2, 946),
-    (1, 945),
-    (3, 1027),
-    (2, 946),
-    (3, 1035),
+    (1, 941),
+    (3, 1103),
+    (2, 948),
+    (1, 944),
+    (3, 1021),
+    (2, 948),
+    (1, 947),
+    (3, 1029),
+    (2, 948),
+    (3, 1037),
     (4, 0),
-    (1, 952),
+    (1, 954),
     (0, 63),
     (3, 406),
     (0, 64),
-    (2, 953),
+    (2, 955),
     (0, 100),
-    (1, 961),
+    (1, 963),
     (0, 82),
-    (3, 1104),
-    (1, 960),
+    (3, 1114),
+    (1, 962),
     (0, 9),
-    (3, 1104),
-    (2, 956),
-    (2, 961),
+    (3, 1114),
+    (2, 958),
+    (2, 963),
     (0, 60),
     (3, 370),
     (4, 0),
@@ -1214,252 +1218,264 @@ PROGRAM = (
     (4, 0),
     (3, 497),
     (0, 55),
-    (1, 977),
+    (1, 979),
     (3, 535),
-    (1, 976),
+    (1, 978),
     (0, 9),
     (3, 535),
-    (2, 972),
-    (2, 977),
+    (2, 974),
+    (2, 979),
     (0, 56),
     (4, 0),
-    (3, 1109),
-    (1, 984),
+    (3, 1119),
+    (1, 986),
     (0, 45),
     (3, 721),
-    (2, 980),
+    (2, 982),
     (4, 0),
     (0, 103),
     (4, 0),
     (0, 104),
     (3, 370),
-    (1, 1004),
+    (1, 1006),
     (0, 55),
-    (1, 995),
+    (1, 997),
     (0, 105),
     (3, 386),
-    (2, 1002),
-    (1, 1002),
-    (3, 915),
-    (1, 1001),
-    (0, 9),
-    (3, 915),
-    (2, 997),
-    (2, 1002),
-    (0, 56),
     (2, 1004),
-    (1, 1018),
+    (1, 1004),
+    (3, 917),
+    (1, 1003),
+    (0, 9),
+    (3, 917),
+    (2, 999),
+    (2, 1004),
+    (0, 56),
+    (2, 1006),
+    (1, 1020),
     (0, 106),
-    (1, 1010),
+    (1, 1012),
     (0, 105),
     (3, 386),
-    (2, 1017),
+    (2, 1019),
     (0, 55),
-    (3, 1117),
-    (1, 1016),
+    (3, 1127),
+    (1, 1018),
     (0, 9),
-    (3, 1117),
-    (2, 1012),
+    (3, 1127),
+    (2, 1014),
     (0, 56),
-    (2, 1018),
+    (2, 1020),
     (4, 0),
     (0, 107),
     (0, 82),
-    (3, 1104),
-    (1, 1026),
+    (3, 1114),
+    (1, 1028),
     (0, 9),
-    (3, 1104),
-    (2, 1022),
+    (3, 1114),
+    (2, 1024),
     (4, 0),
     (0, 108),
     (0, 82),
-    (3, 1104),
-    (1, 1034),
+    (3, 1114),
+    (1, 1036),
     (0, 9),
-    (3, 1104),
-    (2, 1030),
+    (3, 1114),
+    (2, 1032),
     (4, 0),
-    (1, 1038),
+    (1, 1040),
     (0, 109),
-    (2, 1038),
-    (1, 1079),
-    (1, 1047),
+    (2, 1040),
+    (1, 1081),
+    (1, 1049),
     (0, 25),
-    (3, 1121),
-    (1, 1046),
+    (3, 1131),
+    (1, 1048),
     (0, 9),
-    (3, 1121),
-    (2, 1042),
-    (2, 1059),
-    (1, 1054),
-    (3, 1129),
-    (1, 1053),
+    (3, 1131),
+    (2, 1044),
+    (2, 1061),
+    (1, 1056),
+    (3, 1139),
+    (1, 1055),
     (0, 9),
-    (3, 1129),
-    (2, 1049),
-    (2, 1059),
-    (3, 1132),
-    (1, 1059),
+    (3, 1139),
+    (2, 1051),
+    (2, 1061),
+    (3, 1142),
+    (1, 1061),
     (0, 9),
-    (3, 1132),
-    (2, 1055),
-    (1, 1064),
+    (3, 1142),
+    (2, 1057),
+    (1, 1066),
     (0, 63),
     (3, 406),
     (0, 64),
-    (2, 1064),
-    (1, 1076),
+    (2, 1066),
+    (1, 1078),
     (0, 82),
-    (3, 1104),
-    (1, 1071),
+    (3, 1114),
+    (1, 1073),
     (0, 9),
-    (3, 1104),
-    (2, 1067),
-    (1, 1075),
+    (3, 1114),
+    (2, 1069),
+    (1, 1077),
     (0, 60),
     (3, 370),
-    (2, 1075),
-    (2, 1078),
+    (2, 1077),
+    (2, 1080),
     (0, 60),
     (3, 370),
-    (2, 1092),
-    (0, 63),
-    (3, 406),
-    (0, 64),
-    (1, 1090),
-    (0, 82),
-    (3, 1104),
+    (2, 1102),
     (1, 1089),
+    (0, 25),
+    (3, 1151),
+    (1, 1088),
     (0, 9),
-    (3, 1104),
-    (2, 1085),
-    (2, 1090),
+    (3, 1151),
+    (2, 1084),
+    (2, 1102),
+    (0, 63),
+    (3, 406),
+    (0, 64),
+    (1, 1100),
+    (0, 82),
+    (3, 1114),
+    (1, 1099),
+    (0, 9),
+    (3, 1114),
+    (2, 1095),
+    (2, 1100),
     (0, 60),
     (3, 370),
     (4, 0),
     (0, 110),
     (3, 386),
     (0, 4),
-    (1, 1102),
-    (3, 1137),
-    (1, 1101),
+    (1, 1112),
+    (3, 1153),
+    (1, 1111),
     (0, 1),
-    (2, 1101),
-    (2, 1096),
+    (2, 1111),
+    (2, 1106),
     (0, 5),
     (4, 0),
-    (1, 1107),
-    (3, 1142),
-    (2, 1108),
-    (3, 1160),
+    (1, 1117),
+    (3, 1158),
+    (2, 1118),
+    (3, 1176),
     (4, 0),
-    (1, 1112),
+    (1, 1122),
     (0, 24),
-    (2, 1116),
-    (1, 1115),
+    (2, 1126),
+    (1, 1125),
     (0, 111),
-    (2, 1116),
+    (2, 1126),
     (3, 497),
     (4, 0),
     (3, 524),
     (0, 112),
-    (3, 1164),
+    (3, 1180),
     (4, 0),
-    (1, 1124),
-    (3, 1166),
-    (2, 1128),
-    (1, 1127),
-    (3, 1168),
-    (2, 1128),
-    (3, 1178),
+    (1, 1134),
+    (3, 1151),
+    (2, 1138),
+    (1, 1137),
+    (3, 1182),
+    (2, 1138),
+    (3, 1192),
     (4, 0),
     (0, 113),
-    (3, 1180),
+    (3, 1194),
     (4, 0),
     (0, 114),
     (3, 381),
     (0, 11),
     (3, 392),
+    (1, 1150),
+    (0, 115),
+    (3, 386),
+    (2, 1150),
     (4, 0),
-    (1, 1140),
+    (3, 1196),
+    (4, 0),
+    (1, 1156),
     (3, 632),
-    (2, 1141),
+    (2, 1157),
     (3, 635),
     (4, 0),
-    (0, 115),
-    (3, 370),
-    (1, 1155),
-    (0, 55),
-    (1, 1153),
-    (3, 915),
-    (1, 1152),
-    (0, 9),
-    (3, 915),
-    (2, 1148),
-    (2, 1153),
-    (0, 56),
-    (2, 1155),
-    (1, 1159),
     (0, 116),
-    (3, 1182),
-    (2, 1159),
+    (3, 370),
+    (1, 1171),
+    (0, 55),
+    (1, 1169),
+    (3, 917),
+    (1, 1168),
+    (0, 9),
+    (3, 917),
+    (2, 1164),
+    (2, 1169),
+    (0, 56),
+    (2, 1171),
+    (1, 1175),
+    (0, 117),
+    (3, 1204),
+    (2, 1175),
     (4, 0),
-    (3, 1164),
+    (3, 1180),
     (0, 13),
     (3, 406),
     (4, 0),
     (3, 723),
     (4, 0),
-    (3, 1190),
-    (4, 0),
-    (1, 1172),
+    (1, 1186),
     (3, 497),
     (0, 45),
-    (2, 1172),
-    (0, 117),
-    (1, 1177),
+    (2, 1186),
+    (0, 118),
+    (1, 1191),
     (0, 45),
     (3, 497),
-    (2, 1177),
+    (2, 1191),
     (4, 0),
     (3, 370),
     (4, 0),
-    (3, 1198),
+    (3, 1212),
     (4, 0),
-    (1, 1188),
-    (3, 1204),
+    (1, 1199),
+    (0, 119),
+    (2, 1203),
+    (1, 1202),
+    (0, 120),
+    (2, 1203),
+    (0, 121),
+    (4, 0),
+    (1, 1210),
+    (3, 1218),
     (0, 63),
     (3, 406),
     (0, 64),
-    (2, 1189),
+    (2, 1211),
     (3, 406),
     (4, 0),
-    (1, 1193),
-    (0, 118),
-    (2, 1197),
-    (1, 1196),
-    (0, 119),
-    (2, 1197),
-    (0, 120),
-    (4, 0),
     (3, 723),
-    (1, 1203),
-    (3, 1206),
+    (1, 1217),
+    (3, 1220),
     (3, 723),
-    (2, 1199),
+    (2, 1213),
     (4, 0),
-    (3, 1214),
+    (3, 1228),
     (4, 0),
-    (1, 1209),
+    (1, 1223),
     (0, 80),
-    (2, 1213),
-    (1, 1212),
-    (3, 908),
-    (2, 1213),
+    (2, 1227),
+    (1, 1226),
+    (3, 910),
+    (2, 1227),
     (0, 81),
     (4, 0),
     (3, 497),
-    (0, 121),
+    (0, 122),
     (4, 0),
 )
 
@@ -3586,32 +3602,38 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = new_word(Word, taken1)
         value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
-        if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
-        at += 2; token = tokens[at]
-        first = ends[at + 1] - len(token)
-        if not (token >= 'A' and token not in SET2): return None
-        taken3 = token; at += 1; token = tokens[at]
-        text2 = taken3
-        if token == '.':
-            match4 = REGEX0(text, ends[at + 1] - len(token))
-            if match4[0]:
-                text2 += match4[0]
-                end = match4.end()
-                while ends[at] < end: at += 1
-                if ends[at] > end: return None
-                token = tokens[at]
-        value = new_node(Ref)
-        value.name = text2
-        value.kind = 'Vertex'
-        value.span = new_span(Span, (source, first, first + len(text2)))
-        value.target = None
-        target_ = value
+        if token == '-':
+            before2 = at
+            before3 = target_
+            while True:
+                if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): at = before2; token = tokens[at]; target_ = before3; break
+                at += 2; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; target_ = before3; break
+                taken5 = token; at += 1; token = tokens[at]
+                text4 = taken5
+                if token == '.':
+                    match6 = REGEX0(text, ends[at + 1] - len(token))
+                    if match6[0]:
+                        text4 += match6[0]
+                        end = match6.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before2; token = tokens[at]; target_ = before3; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text4
+                value.kind = 'Vertex'
+                value.span = new_span(Span, (source, first, first + len(text4)))
+                value.target = None
+                target_ = value
+                break
         made = new_node(History)
         made.span = new_span(Span, (source, start, ends[at]))
         made.deep = deep_
         made.name = name_
         made.target = target_
         made.doc = docs.pop(start) if start in docs else ''
+        made.initial = None
         return made
 
     def r_FinalState():
@@ -3922,161 +3944,195 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if token == 'internal':
             at += 1; token = tokens[at]
             internal_ = True
-        if token in SET18:
-            if token == 'on':
-                at += 1; token = tokens[at]
-                rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
-                value = rule()
-                if value is None: return None
-                triggers_.append(value)
-                while token == ',':
-                    before1 = at
+        chosen1 = False
+        if not chosen1 and token in SET18:
+            before2 = at
+            before3 = len(triggers_)
+            before4 = guard_
+            before5 = len(effects_)
+            before6 = target_
+            while True:
+                if token == 'on':
                     at += 1; token = tokens[at]
                     rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
                     value = rule()
-                    if value is None: at = before1; token = tokens[at]; break
+                    if value is None: at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
                     triggers_.append(value)
-            elif token == 'after':
-                value = r_TimeTrigger()
-                if value is None: return None
-                triggers_.append(value)
-                while token == ',':
-                    before2 = at
-                    at += 1; token = tokens[at]
-                    if not (token == 'after'): at = before2; token = tokens[at]; break
+                    while token == ',':
+                        before7 = at
+                        at += 1; token = tokens[at]
+                        rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
+                        value = rule()
+                        if value is None: at = before7; token = tokens[at]; break
+                        triggers_.append(value)
+                elif token == 'after':
                     value = r_TimeTrigger()
-                    if value is None: at = before2; token = tokens[at]; break
+                    if value is None: at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
                     triggers_.append(value)
-            elif token == 'monitor':
-                value = r_MonitorTrigger()
-                if value is None: return None
-                triggers_.append(value)
-                while token == ',':
-                    before3 = at
-                    at += 1; token = tokens[at]
-                    if not (token == 'monitor'): at = before3; token = tokens[at]; break
+                    while token == ',':
+                        before8 = at
+                        at += 1; token = tokens[at]
+                        if not (token == 'after'): at = before8; token = tokens[at]; break
+                        value = r_TimeTrigger()
+                        if value is None: at = before8; token = tokens[at]; break
+                        triggers_.append(value)
+                elif token == 'monitor':
                     value = r_MonitorTrigger()
-                    if value is None: at = before3; token = tokens[at]; break
+                    if value is None: at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
                     triggers_.append(value)
-            else: return None
-            if token == '[':
-                before4 = at
-                before5 = guard_
-                while True:
-                    at += 1; token = tokens[at]
-                    found = expression(at)
-                    if found is None: at = before4; token = tokens[at]; guard_ = before5; break
-                    value, at = found; token = tokens[at]
-                    guard_ = value
-                    if not (token == ']'): at = before4; token = tokens[at]; guard_ = before5; break
-                    at += 1; token = tokens[at]
-                    break
-            if token == '/':
-                at += 1; token = tokens[at]
-                rule = Effect_RULES.get(token, r_Assignment)
-                value = rule()
-                if value is None: return None
-                effects_.append(value)
-                while token == ',':
-                    before6 = at
-                    at += 1; token = tokens[at]
-                    rule = Effect_RULES.get(token, r_Assignment)
-                    value = rule()
-                    if value is None: at = before6; token = tokens[at]; break
-                    effects_.append(value)
-                if token == '-':
-                    before7 = at
-                    before8 = target_
+                    while token == ',':
+                        before9 = at
+                        at += 1; token = tokens[at]
+                        if not (token == 'monitor'): at = before9; token = tokens[at]; break
+                        value = r_MonitorTrigger()
+                        if value is None: at = before9; token = tokens[at]; break
+                        triggers_.append(value)
+                else: at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
+                if token == '[':
+                    before10 = at
+                    before11 = guard_
                     while True:
-                        if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): at = before7; token = tokens[at]; target_ = before8; break
-                        at += 2; token = tokens[at]
-                        first = ends[at + 1] - len(token)
-                        if not (token >= 'A' and token not in SET2): at = before7; token = tokens[at]; target_ = before8; break
-                        taken10 = token; at += 1; token = tokens[at]
-                        text9 = taken10
-                        if token == '.':
-                            match11 = REGEX0(text, ends[at + 1] - len(token))
-                            if match11[0]:
-                                text9 += match11[0]
-                                end = match11.end()
-                                while ends[at] < end: at += 1
-                                if ends[at] > end: at = before7; token = tokens[at]; target_ = before8; break
-                                token = tokens[at]
-                        value = new_node(Ref)
-                        value.name = text9
-                        value.kind = 'Vertex'
-                        value.span = new_span(Span, (source, first, first + len(text9)))
-                        value.target = None
-                        target_ = value
+                        at += 1; token = tokens[at]
+                        found = expression(at)
+                        if found is None: at = before10; token = tokens[at]; guard_ = before11; break
+                        value, at = found; token = tokens[at]
+                        guard_ = value
+                        if not (token == ']'): at = before10; token = tokens[at]; guard_ = before11; break
+                        at += 1; token = tokens[at]
                         break
-            elif token == '-':
-                if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
-                at += 2; token = tokens[at]
-                first = ends[at + 1] - len(token)
-                if not (token >= 'A' and token not in SET2): return None
-                taken13 = token; at += 1; token = tokens[at]
-                text12 = taken13
-                if token == '.':
-                    match14 = REGEX0(text, ends[at + 1] - len(token))
-                    if match14[0]:
-                        text12 += match14[0]
-                        end = match14.end()
-                        while ends[at] < end: at += 1
-                        if ends[at] > end: return None
-                        token = tokens[at]
-                value = new_node(Ref)
-                value.name = text12
-                value.kind = 'Vertex'
-                value.span = new_span(Span, (source, first, first + len(text12)))
-                value.target = None
-                target_ = value
-            else: return None
-        elif token == '[':
-            at += 1; token = tokens[at]
-            found = expression(at)
-            if found is None: return None
-            value, at = found; token = tokens[at]
-            guard_ = value
-            if not (token == ']'): return None
-            at += 1; token = tokens[at]
-            if token == '/':
-                before15 = at
-                before16 = len(effects_)
-                while True:
+                if token == '/':
                     at += 1; token = tokens[at]
                     rule = Effect_RULES.get(token, r_Assignment)
                     value = rule()
-                    if value is None: at = before15; token = tokens[at]; del effects_[before16:]; break
+                    if value is None: at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
                     effects_.append(value)
                     while token == ',':
-                        before17 = at
+                        before12 = at
                         at += 1; token = tokens[at]
                         rule = Effect_RULES.get(token, r_Assignment)
                         value = rule()
-                        if value is None: at = before17; token = tokens[at]; break
+                        if value is None: at = before12; token = tokens[at]; break
                         effects_.append(value)
-                    break
-            if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
-            at += 2; token = tokens[at]
-            first = ends[at + 1] - len(token)
-            if not (token >= 'A' and token not in SET2): return None
-            taken19 = token; at += 1; token = tokens[at]
-            text18 = taken19
-            if token == '.':
-                match20 = REGEX0(text, ends[at + 1] - len(token))
-                if match20[0]:
-                    text18 += match20[0]
-                    end = match20.end()
-                    while ends[at] < end: at += 1
-                    if ends[at] > end: return None
-                    token = tokens[at]
-            value = new_node(Ref)
-            value.name = text18
-            value.kind = 'Vertex'
-            value.span = new_span(Span, (source, first, first + len(text18)))
-            value.target = None
-            target_ = value
-        else: return None
+                    if token == '-':
+                        before13 = at
+                        before14 = target_
+                        while True:
+                            if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): at = before13; token = tokens[at]; target_ = before14; break
+                            at += 2; token = tokens[at]
+                            first = ends[at + 1] - len(token)
+                            if not (token >= 'A' and token not in SET2): at = before13; token = tokens[at]; target_ = before14; break
+                            taken16 = token; at += 1; token = tokens[at]
+                            text15 = taken16
+                            if token == '.':
+                                match17 = REGEX0(text, ends[at + 1] - len(token))
+                                if match17[0]:
+                                    text15 += match17[0]
+                                    end = match17.end()
+                                    while ends[at] < end: at += 1
+                                    if ends[at] > end: at = before13; token = tokens[at]; target_ = before14; break
+                                    token = tokens[at]
+                            value = new_node(Ref)
+                            value.name = text15
+                            value.kind = 'Vertex'
+                            value.span = new_span(Span, (source, first, first + len(text15)))
+                            value.target = None
+                            target_ = value
+                            break
+                elif token == '-':
+                    if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
+                    at += 2; token = tokens[at]
+                    first = ends[at + 1] - len(token)
+                    if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
+                    taken19 = token; at += 1; token = tokens[at]
+                    text18 = taken19
+                    if token == '.':
+                        match20 = REGEX0(text, ends[at + 1] - len(token))
+                        if match20[0]:
+                            text18 += match20[0]
+                            end = match20.end()
+                            while ends[at] < end: at += 1
+                            if ends[at] > end: at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
+                            token = tokens[at]
+                    value = new_node(Ref)
+                    value.name = text18
+                    value.kind = 'Vertex'
+                    value.span = new_span(Span, (source, first, first + len(text18)))
+                    value.target = None
+                    target_ = value
+                else: at = before2; token = tokens[at]; del triggers_[before3:]; guard_ = before4; del effects_[before5:]; target_ = before6; break
+                chosen1 = True
+                break
+        if not chosen1 and token == 'on':
+            before21 = at
+            before22 = len(triggers_)
+            while True:
+                at += 1; token = tokens[at]
+                if not (token in SET19): at = before21; token = tokens[at]; del triggers_[before22:]; break
+                value = r_OutcomeTrigger()
+                if value is None: at = before21; token = tokens[at]; del triggers_[before22:]; break
+                triggers_.append(value)
+                while token == ',':
+                    before23 = at
+                    at += 1; token = tokens[at]
+                    if not (token in SET19): at = before23; token = tokens[at]; break
+                    value = r_OutcomeTrigger()
+                    if value is None: at = before23; token = tokens[at]; break
+                    triggers_.append(value)
+                chosen1 = True
+                break
+        if not chosen1 and token == '[':
+            before24 = at
+            before25 = guard_
+            before26 = len(effects_)
+            before27 = target_
+            while True:
+                at += 1; token = tokens[at]
+                found = expression(at)
+                if found is None: at = before24; token = tokens[at]; guard_ = before25; del effects_[before26:]; target_ = before27; break
+                value, at = found; token = tokens[at]
+                guard_ = value
+                if not (token == ']'): at = before24; token = tokens[at]; guard_ = before25; del effects_[before26:]; target_ = before27; break
+                at += 1; token = tokens[at]
+                if token == '/':
+                    before28 = at
+                    before29 = len(effects_)
+                    while True:
+                        at += 1; token = tokens[at]
+                        rule = Effect_RULES.get(token, r_Assignment)
+                        value = rule()
+                        if value is None: at = before28; token = tokens[at]; del effects_[before29:]; break
+                        effects_.append(value)
+                        while token == ',':
+                            before30 = at
+                            at += 1; token = tokens[at]
+                            rule = Effect_RULES.get(token, r_Assignment)
+                            value = rule()
+                            if value is None: at = before30; token = tokens[at]; break
+                            effects_.append(value)
+                        break
+                if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): at = before24; token = tokens[at]; guard_ = before25; del effects_[before26:]; target_ = before27; break
+                at += 2; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before24; token = tokens[at]; guard_ = before25; del effects_[before26:]; target_ = before27; break
+                taken32 = token; at += 1; token = tokens[at]
+                text31 = taken32
+                if token == '.':
+                    match33 = REGEX0(text, ends[at + 1] - len(token))
+                    if match33[0]:
+                        text31 += match33[0]
+                        end = match33.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before24; token = tokens[at]; guard_ = before25; del effects_[before26:]; target_ = before27; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text31
+                value.kind = 'Vertex'
+                value.span = new_span(Span, (source, first, first + len(text31)))
+                value.target = None
+                target_ = value
+                chosen1 = True
+                break
+        if not chosen1: return None
         made = new_node(Transition)
         made.span = new_span(Span, (source, start, ends[at]))
         made.internal = internal_
@@ -4103,7 +4159,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = value
         if not (token == '{'): depth -= 1; return None
         at += 1; token = tokens[at]
-        while token in SET19:
+        while token in SET20:
             before2 = at
             before3 = len(items_)
             rule = RegionItem_RULES.get(token)
@@ -4164,6 +4220,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 7
         topic_ = None
         type_ = None
+        name_ = None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         match1 = REGEX1(text, ends[at + 1] - len(token))
@@ -4180,10 +4237,33 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
+        if token == 'as':
+            before2 = at
+            before3 = name_
+            while True:
+                at += 1; token = tokens[at]
+                if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; name_ = before3; break
+                taken4 = token; at += 1; token = tokens[at]
+                value = new_word(Word, taken4)
+                value.span = new_span(Span, (source, ends[at] - len(taken4), ends[at]))
+                name_ = value
+                break
         made = new_node(MonitorTrigger)
         made.span = new_span(Span, (source, start, ends[at]))
         made.topic = topic_
         made.type = type_
+        made.name = name_
+        return made
+
+    def r_OutcomeTrigger():
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
+        outcome_ = None
+        taken1 = token; at += 1; token = tokens[at]
+        outcome_ = taken1
+        made = new_node(OutcomeTrigger)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.outcome = outcome_
         return made
 
     def r_Send():
@@ -4267,17 +4347,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.span = new_span(Span, (source, start, ends[at]))
         made.target = target_
         made.value = value_
-        return made
-
-    def r_OutcomeTrigger():
-        nonlocal at, token
-        start = ends[at + 1] - len(token)
-        outcome_ = None
-        taken1 = token; at += 1; token = tokens[at]
-        outcome_ = taken1
-        made = new_node(OutcomeTrigger)
-        made.span = new_span(Span, (source, start, ends[at]))
-        made.outcome = outcome_
         return made
 
     def r_DoneTrigger():
@@ -4383,7 +4452,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 at += 1; token = tokens[at]
                 chosen1 = True
                 break
-        if not chosen1 and token not in SET20:
+        if not chosen1 and token not in SET21:
             before8 = at
             while True:
                 found = expression(at)
@@ -4479,7 +4548,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return model, len(expressions.faults)
     finally:
         # They refer to each other: so they are gone at once, without the garbage collector.
-        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Field = r_TypeRef = r_EnumValue = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Argument = r_Branch = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_Send = r_Assignment = r_OutcomeTrigger = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
+        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Field = r_TypeRef = r_EnumValue = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Argument = r_Branch = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_OutcomeTrigger = r_Send = r_Assignment = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
 
 LANGUAGE = Language(LEXER, RESERVED)
 # An item may stand after them on one line; the last one is the start of the file.

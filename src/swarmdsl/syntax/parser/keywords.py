@@ -7,6 +7,7 @@ RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior
 # Words that are keywords only where the grammar expects them, with a pattern of what follows them.
 CONTEXTUAL = {
     'abstraction': '[{]',
+    'as': '[A-Za-z_]',
     'by': '[A-Za-z_]',
     'count': '(?:of)\\b',
     'deep': '(?:history)\\b',
@@ -73,7 +74,7 @@ NAMING = frozenset(['actuator', 'choice', 'communication', 'const', 'controller'
 # Keywords by what they are for, where that is more special than a declaration.
 GROUPS = {
     'include': frozenset(['import', 'package', 'ros']),
-    'statement': frozenset(['after', 'by', 'count', 'do', 'done', 'else', 'evaluations', 'gives', 'in', 'internal', 'maximize', 'minimize', 'monitor', 'of', 'on', 'seed', 'send', 'size', 'step', 'steps', 'to', 'world', 'x']),
+    'statement': frozenset(['after', 'as', 'by', 'count', 'do', 'done', 'else', 'evaluations', 'gives', 'in', 'internal', 'maximize', 'minimize', 'monitor', 'of', 'on', 'seed', 'send', 'size', 'step', 'steps', 'to', 'world', 'x']),
     'outcome': frozenset(['aborted', 'preempted', 'succeeded']),
     'operator': frozenset(['and', 'not', 'or']),
     'boolean': frozenset(['false', 'true']),
@@ -81,4 +82,4 @@ GROUPS = {
 # Keywords of declarations that can follow `:`, as categories.
 CATEGORIES = frozenset(['swarm'])
 # Keywords that a name can follow.
-BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'and', 'behavior', 'by', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'enum', 'environment', 'evaluations', 'event', 'extends', 'final', 'fitness', 'function', 'history', 'import', 'in', 'initial', 'inout', 'maximize', 'member', 'message', 'minimize', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'param', 'region', 'seed', 'send', 'sensor', 'service', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'to', 'type', 'var', 'virtual'])
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'and', 'as', 'behavior', 'by', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'enum', 'environment', 'evaluations', 'event', 'extends', 'final', 'fitness', 'function', 'history', 'import', 'in', 'initial', 'inout', 'maximize', 'member', 'message', 'minimize', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'param', 'region', 'seed', 'send', 'sensor', 'service', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'to', 'type', 'var', 'virtual'])

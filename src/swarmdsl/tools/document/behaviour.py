@@ -82,7 +82,9 @@ def _state(element: Element, builder: EntryBuilder) -> Entry:
         case Choice():
             rows = [_transition(each, element, builder) for each in node.branches]
         case History():
-            facts.append(("default", (builder.names.code(node.target.span, element),)))
+            default = node.target or node.initial
+            assert default is not None
+            facts.append(("default", (builder.names.code(default.span, element),)))
     facts.append(("regions" if isinstance(node, Parallel) else "states", links(inside)))
     facts.append(("reached from", links(builder.names.sources(element))))
     tables = (Table("Transitions", _COLUMNS, tuple(rows)),)

@@ -30,17 +30,17 @@ class Data:
     def __init__(self, parameters):
         # The robot: its id, role, index and count.
         self.self = parameters['self']
-        # model.swarm:58
-        self.n = 0
         # model.swarm:59
-        self.mode = 0
+        self.n = 0
         # model.swarm:60
-        self.ok = False
+        self.mode = 0
         # model.swarm:61
-        self.here = geometry_msgs.msg.Point()
+        self.ok = False
         # model.swarm:62
+        self.here = geometry_msgs.msg.Point()
+        # model.swarm:63
         self.seen = geometry_msgs.msg.PoseStamped()
-        # model.swarm:64
+        # model.swarm:65
         # Number of the robot in its role.
         self.mine = self.self.index
         # model.swarm:47
@@ -63,37 +63,37 @@ def goal_a_a(machine):
 
 
 def guard_d(machine, event):
-    # model.swarm:70
+    # model.swarm:71
     return event.data.mode == MODE_MANUAL
 
 
 def effect_d(machine, event):
-    # model.swarm:70
+    # model.swarm:71
     machine.data.n = 1
 
 
 def guard_d_2(machine, event):
-    # model.swarm:71
+    # model.swarm:72
     return event.data.level < 3
 
 
 def effect_d_2(machine, event):
-    # model.swarm:71
+    # model.swarm:72
     machine.data.n = 4
 
 
 def guard_d_3(machine, event):
-    # model.swarm:72
+    # model.swarm:73
     return event.data.level > 3 and event.data.header.seq > 2
 
 
 def effect_d_3(machine, event):
-    # model.swarm:72
+    # model.swarm:73
     machine.data.n = 4
 
 
 def guard_d_4(machine, event):
-    # model.swarm:73
+    # model.swarm:74
     return (
         machine.data.n > 3
         and machine.data.mine < machine.data.self.count
@@ -102,12 +102,12 @@ def guard_d_4(machine, event):
 
 
 def guard_d_5(machine, event):
-    # model.swarm:75
+    # model.swarm:76
     return event.envelope.sent > 3_000_000_000
 
 
 def effect_d_4(machine, event):
-    # model.swarm:75
+    # model.swarm:76
     machine.emit(Event('X', language.msg.M(), envelope=Envelope(to=event.envelope.sender)))
     machine.emit(
         Event(
@@ -119,54 +119,54 @@ def effect_d_4(machine, event):
 
 
 def guard_d_6(machine, event):
-    # model.swarm:76
+    # model.swarm:77
     return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(9, 12)  # noqa: E501
 
 
 def guard_d_7(machine, event):
-    # model.swarm:86
+    # model.swarm:88
     return event.data.event_header.node != machine.data.self.role
 
 
 def enter_d(machine, event):
-    # model.swarm:68
+    # model.swarm:69
     machine.emit(Event('X', filled(language.msg.M(), mode=MODE_AUTO), envelope=Envelope(to='big')))
     machine.data.n = LIMIT
 
 
 def leave_d(machine, event):
-    # model.swarm:69
+    # model.swarm:70
     machine.data.n = bounded(min(max(machine.data.n // 2, 1), round(2.5)), 'int32')
 
 
 def wait_d_out(machine, event):
-    # model.swarm:83
+    # model.swarm:84
     machine.send_after(Event('after.D.Out.1'), math.ceil(2_000_000_000 * 2), 'after.D.Out.1')
     machine.send_after(Event('after.D.Out.2'), 3_000_000_000, 'after.D.Out.2')
 
 
 def stop_waiting_d_out(machine, event):
-    # model.swarm:83
+    # model.swarm:84
     machine.cancel('after.D.Out.1')
     machine.cancel('after.D.Out.2')
 
 
 def goal_d_out(machine):
-    # model.swarm:80
+    # model.swarm:81
     return filled(language.srv.BaseTake.Request(), mode=machine.data.mode)
 
 
 def result_d_out(machine, event):
-    # model.swarm:80
+    # model.swarm:81
     machine.data.ok = deepcopy(get(event.data, 'ok'))
 
 
 STATES = tree(
-    # model.swarm:66
+    # model.swarm:67
     State(
         'A',
         initial=('A.A',),
-        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:66'),),
+        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:67'),),
         entry=(enter_a,),
     ),
     # model.swarm:49
@@ -176,44 +176,45 @@ STATES = tree(
             Transition(
                 ('do.A.A.succeeded',), ('A.D',), effect=effect_a_a, origin='model.swarm:51'
             ),
-            Transition(('do.A.A.aborted', 'do.A.A.preempted'), ('A.D',), origin='model.swarm:52'),
+            Transition(('do.A.A.aborted',), ('A.D',), origin='model.swarm:52'),
+            Transition(('do.A.A.preempted',), (), origin='model.swarm:53'),
         ),
         activity=Activity('go', 'go', outcomes('A.A'), goal=goal_a_a),
     ),
-    # model.swarm:54
+    # model.swarm:55
     State('A.D', Kind.FINAL),
-    # model.swarm:67
+    # model.swarm:68
     State(
         'D',
         initial=('D.In',),
         transitions=(
-            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:70'),
+            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:71'),
             Transition(
-                ('Battery',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:71'
+                ('Charge',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:72'
             ),
             Transition(
-                ('Battery',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:72'
+                ('Charge',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:73'
             ),
-            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:73'),
-            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:74'),
-            Transition(('X',), (), guard=guard_d_5, effect=effect_d_4, origin='model.swarm:75'),
-            Transition(('X',), ('D.H',), guard=guard_d_6, origin='model.swarm:76'),
-            Transition(('MissionAbort',), ('Z',), guard=guard_d_7, origin='model.swarm:86'),
+            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:74'),
+            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:75'),
+            Transition(('X',), (), guard=guard_d_5, effect=effect_d_4, origin='model.swarm:76'),
+            Transition(('X',), ('D.H',), guard=guard_d_6, origin='model.swarm:77'),
+            Transition(('MissionAbort',), ('Z',), guard=guard_d_7, origin='model.swarm:88'),
         ),
         entry=(enter_d,),
         exit=(leave_d,),
     ),
-    # model.swarm:78
-    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:78'),)),
     # model.swarm:79
+    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:79'),)),
+    # model.swarm:80
     State(
         'D.Out',
         transitions=(
-            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:81'),
+            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:82'),
             Transition(
-                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:82'
+                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:83'
             ),
-            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.In',), origin='model.swarm:83'),
+            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.Last',), origin='model.swarm:84'),
         ),
         entry=(wait_d_out,),
         exit=(stop_waiting_d_out,),
@@ -221,17 +222,19 @@ STATES = tree(
             'cam_take', 'cam/take', outcomes('D.Out'), goal=goal_d_out, finalize=result_d_out
         ),
     ),
-    # model.swarm:85
+    # model.swarm:86
     State('D.H', Kind.DEEP_HISTORY, transitions=(Transition((), ('D.In',)),)),
-    # model.swarm:88
+    # model.swarm:87
+    State('D.Last', Kind.HISTORY, transitions=(Transition((), ('D.Out',)),)),
+    # model.swarm:90
     State('Z', Kind.FINAL),
 )
 
 TOPICS = (
     # model.swarm:40
     Topic('E', language.msg.M, 'e', heard=True),
-    # model.swarm:71
-    Topic('Battery', my_msgs.msg.Level, 'battery', heard=True),
+    # model.swarm:72
+    Topic('Charge', my_msgs.msg.Level, 'battery', heard=True),
     # model.swarm:41
     Topic('F', std_msgs.msg.Empty, 'f', heard=True),
     # model.swarm:39

@@ -14,11 +14,11 @@ CHART = Chart(
     in_node_of_its_own(BEHAVIOR, 'b'),
     ways={
         'A': (Way('done', 'A'),),
-        'A.A': (Way('succeeded', 'A.A'), Way('aborted', 'A.A')),
+        'A.A': (Way('succeeded', 'A.A'), Way('aborted', 'A.A'), None),
         'D': (
             None,
-            Way('Battery', 'D'),
-            Way('Battery', 'D'),
+            Way('Charge', 'D'),
+            Way('Charge', 'D'),
             Way('A', 'D'),
             Way('F', 'D'),
             None,
@@ -29,7 +29,7 @@ CHART = Chart(
         'D.Out': (
             Way('succeeded', 'D.Out'),
             Way('aborted', 'D.Out'),
-            Way({'after.D.Out.1': 'timeout', 'after.D.Out.2': 'timeout_2'}, 'D.Out'),
+            Way({'after.D.Out.1': 'timeout', 'after.D.Out.2': 'timeout_2'}, 'D.Out', 'D.Last'),
         ),
     },
     entries={'D': 'Entry'},
@@ -40,14 +40,14 @@ def build():
     """Build state machine B."""
     machine = Machine(CHART, ['Z', 'preempted'])
     with machine:
-        # model.swarm:66
-        StateMachine.add('A', build_a(), transitions={'done': 'D', 'preempted': 'preempted'})
         # model.swarm:67
+        StateMachine.add('A', build_a(), transitions={'done': 'D', 'preempted': 'preempted'})
+        # model.swarm:68
         StateMachine.add(
             'D',
             build_d(),
             transitions={
-                'Battery': 'A',
+                'Charge': 'A',
                 'A': 'A',
                 'X': 'D',
                 'MissionAbort': 'Z',
@@ -59,7 +59,7 @@ def build():
 
 def build_a():
     """Build state A."""
-    # model.swarm:66
+    # model.swarm:67
     machine = StateMachine(['done', 'preempted'])
     with machine:
         # model.swarm:49
@@ -69,7 +69,7 @@ def build_a():
             ActionState(CHART, 'A.A', ['succeeded', 'aborted', 'preempted']),
             transitions={'succeeded': 'D', 'aborted': 'D', 'preempted': 'preempted'},
         )
-        # model.swarm:54
+        # model.swarm:55
         StateMachine.add(
             'D',
             State(CHART, 'A.D', ['done', 'preempted']),
@@ -80,8 +80,8 @@ def build_a():
 
 def build_d():
     """Build state D."""
-    # model.swarm:67
-    machine = StateMachine(['Battery', 'A', 'X', 'MissionAbort', 'preempted'])
+    # model.swarm:68
+    machine = StateMachine(['Charge', 'A', 'X', 'MissionAbort', 'preempted'])
     with machine:
         # Leads to the state that is entered first.
         StateMachine.add(
@@ -89,12 +89,12 @@ def build_d():
             Junction(CHART, 'D.Entry', ['In', 'Out', 'preempted']),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
-        # model.swarm:78
+        # model.swarm:79
         StateMachine.add(
             'In',
-            State(CHART, 'D.In', ['Battery', 'A', 'F', 'X', 'MissionAbort', 'Out', 'preempted']),
+            State(CHART, 'D.In', ['Charge', 'A', 'F', 'X', 'MissionAbort', 'Out', 'preempted']),
             transitions={
-                'Battery': 'Battery',
+                'Charge': 'Charge',
                 'A': 'A',
                 'F': 'In',
                 'X': 'X',
@@ -103,7 +103,7 @@ def build_d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:79
+        # model.swarm:80
         # Calls service cam/take.
         StateMachine.add(
             'Out',
@@ -111,7 +111,7 @@ def build_d():
                 CHART,
                 'D.Out',
                 [
-                    'Battery',
+                    'Charge',
                     'A',
                     'F',
                     'X',
@@ -124,17 +124,23 @@ def build_d():
                 ],
             ),
             transitions={
-                'Battery': 'Battery',
+                'Charge': 'Charge',
                 'A': 'A',
                 'F': 'In',
                 'X': 'X',
                 'MissionAbort': 'MissionAbort',
                 'succeeded': 'In',
                 'aborted': 'In',
-                'timeout': 'In',
-                'timeout_2': 'In',
+                'timeout': 'Last',
+                'timeout_2': 'Last',
                 'preempted': 'preempted',
             },
+        )
+        # model.swarm:87
+        StateMachine.add(
+            'Last',
+            Junction(CHART, 'D.Last', ['In', 'Out', 'preempted']),
+            transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
     return machine
 

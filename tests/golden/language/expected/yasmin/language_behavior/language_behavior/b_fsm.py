@@ -14,11 +14,11 @@ CHART = Chart(
     in_node_of_its_own(BEHAVIOR, 'b'),
     ways={
         'A': (Way('done', 'A'),),
-        'A.A': (Way('succeeded', 'A.A'), Way('aborted', 'A.A')),
+        'A.A': (Way('succeeded', 'A.A'), Way('aborted', 'A.A'), None),
         'D': (
             None,
-            Way('Battery', 'D'),
-            Way('Battery', 'D'),
+            Way('Charge', 'D'),
+            Way('Charge', 'D'),
             Way('A', 'D'),
             Way('F', 'D'),
             None,
@@ -29,7 +29,7 @@ CHART = Chart(
         'D.Out': (
             Way('succeeded', 'D.Out'),
             Way('aborted', 'D.Out'),
-            Way({'after.D.Out.1': 'timeout', 'after.D.Out.2': 'timeout_2'}, 'D.Out'),
+            Way({'after.D.Out.1': 'timeout', 'after.D.Out.2': 'timeout_2'}, 'D.Out', 'D.Last'),
         ),
     },
     entries={'D': 'Entry'},
@@ -46,7 +46,7 @@ class AA(ActionState):
 
 
 class AD(State):
-    # model.swarm:54
+    # model.swarm:55
     """Waits until the complete state around it is left."""
 
     chart = CHART
@@ -63,22 +63,22 @@ class DEntry(Junction):
 
 
 class DIn(State):
-    # model.swarm:78
+    # model.swarm:79
     """Waits for a transition."""
 
     chart = CHART
     path = 'D.In'
-    outcomes = ('Battery', 'A', 'F', 'X', 'MissionAbort', 'Out', 'canceled')
+    outcomes = ('Charge', 'A', 'F', 'X', 'MissionAbort', 'Out', 'canceled')
 
 
 class DOut(ServiceState):
-    # model.swarm:79
+    # model.swarm:80
     """Calls service cam/take."""
 
     chart = CHART
     path = 'D.Out'
     outcomes = (
-        'Battery',
+        'Charge',
         'A',
         'F',
         'X',
@@ -91,16 +91,25 @@ class DOut(ServiceState):
     )
 
 
+class DLast(Junction):
+    # model.swarm:87
+    """Leads to the state that was active last."""
+
+    chart = CHART
+    path = 'D.Last'
+    outcomes = ('In', 'Out', 'canceled')
+
+
 def build():
     """Build state machine B."""
     machine = StateMachine({'Z', 'canceled'})
-    # model.swarm:66
-    machine.add_state('A', build_a(), {'done': 'D', 'canceled': 'canceled'})
     # model.swarm:67
+    machine.add_state('A', build_a(), {'done': 'D', 'canceled': 'canceled'})
+    # model.swarm:68
     machine.add_state(
         'D',
         build_d(),
-        {'Battery': 'A', 'A': 'A', 'X': 'D', 'MissionAbort': 'Z', 'canceled': 'canceled'},
+        {'Charge': 'A', 'A': 'A', 'X': 'D', 'MissionAbort': 'Z', 'canceled': 'canceled'},
     )
     machine.set_start_state('A')
     machine.set_name('B')
@@ -109,11 +118,11 @@ def build():
 
 def build_a():
     """Build state A."""
-    # model.swarm:66
+    # model.swarm:67
     machine = StateMachine({'done', 'canceled'})
     # model.swarm:49
     machine.add_state('A', AA(), {'succeeded': 'D', 'aborted': 'D', 'canceled': 'canceled'})
-    # model.swarm:54
+    # model.swarm:55
     machine.add_state('D', AD(), {'done': 'done', 'canceled': 'canceled'})
     machine.set_start_state('A')
     machine.set_name('A')
@@ -122,15 +131,15 @@ def build_a():
 
 def build_d():
     """Build state D."""
-    # model.swarm:67
-    machine = StateMachine({'Battery', 'A', 'X', 'MissionAbort', 'canceled'})
+    # model.swarm:68
+    machine = StateMachine({'Charge', 'A', 'X', 'MissionAbort', 'canceled'})
     machine.add_state('Entry', DEntry(), {'In': 'In', 'Out': 'Out', 'canceled': 'canceled'})
-    # model.swarm:78
+    # model.swarm:79
     machine.add_state(
         'In',
         DIn(),
         {
-            'Battery': 'Battery',
+            'Charge': 'Charge',
             'A': 'A',
             'F': 'In',
             'X': 'X',
@@ -139,23 +148,25 @@ def build_d():
             'canceled': 'canceled',
         },
     )
-    # model.swarm:79
+    # model.swarm:80
     machine.add_state(
         'Out',
         DOut(),
         {
-            'Battery': 'Battery',
+            'Charge': 'Charge',
             'A': 'A',
             'F': 'In',
             'X': 'X',
             'MissionAbort': 'MissionAbort',
             'succeeded': 'In',
             'aborted': 'In',
-            'timeout': 'In',
-            'timeout_2': 'In',
+            'timeout': 'Last',
+            'timeout_2': 'Last',
             'canceled': 'canceled',
         },
     )
+    # model.swarm:87
+    machine.add_state('Last', DLast(), {'In': 'In', 'Out': 'Out', 'canceled': 'canceled'})
     machine.set_start_state('Entry')
     machine.set_name('D')
     return machine

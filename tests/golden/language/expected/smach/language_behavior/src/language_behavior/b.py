@@ -29,14 +29,14 @@ def build():
     userdata = initial_userdata()
     machine = Machine(['Z'], userdata)
     with machine:
-        # model.swarm:66
-        StateMachine.add('A', _a(), transitions={'done': 'D', 'preempted': 'preempted'})
         # model.swarm:67
+        StateMachine.add('A', _a(), transitions={'done': 'D', 'preempted': 'preempted'})
+        # model.swarm:68
         StateMachine.add(
             'D',
             _d(),
             transitions={
-                'Battery': 'A',
+                'Charge': 'A',
                 'A': 'A',
                 'X': 'D',
                 'MissionAbort': 'Z',
@@ -51,17 +51,17 @@ def initial_userdata():
     userdata = smach.UserData()
     # The robot: its id, role, index and count.
     userdata.self = identity()
-    # model.swarm:58
-    userdata.n = 0
     # model.swarm:59
-    userdata.mode = 0
+    userdata.n = 0
     # model.swarm:60
-    userdata.ok = False
+    userdata.mode = 0
     # model.swarm:61
-    userdata.here = Point()
+    userdata.ok = False
     # model.swarm:62
+    userdata.here = Point()
+    # model.swarm:63
     userdata.seen = PoseStamped()
-    # model.swarm:64
+    # model.swarm:65
     # Number of the robot in its role.
     userdata.mine = userdata.self.index
     # model.swarm:47
@@ -80,11 +80,15 @@ def _a():
                 'go',
                 GoAction,
                 goal=GoGoal(h=3.0),
-                on=[On('succeeded', effect=_a_a_succeeded_effect), On('aborted')],
+                on=[
+                    On('succeeded', effect=_a_a_succeeded_effect),
+                    On('aborted'),
+                    On('preempted', None),
+                ],
             ),
             transitions={'succeeded': 'D', 'aborted': 'D', 'preempted': 'preempted'},
         )
-        # model.swarm:54
+        # model.swarm:55
         StateMachine.add('D', Final(), transitions={'preempted': 'preempted'})
     return machine
 
@@ -100,14 +104,14 @@ def _d():
                 effect=_d_e_effect,
             ),
             On(
-                events.BATTERY,
+                events.CHARGE,
                 guard=lambda userdata, event: event.level < 3,
-                effect=_d_battery_effect,
+                effect=_d_charge_effect,
             ),
             On(
-                events.BATTERY,
+                events.CHARGE,
                 guard=lambda userdata, event: event.level > 3 and event.header.seq > 2,
-                effect=_d_battery_effect_2,
+                effect=_d_charge_effect_2,
             ),
             On(AT_ONCE, 'A', guard=_d_a_guard),
             On(events.F, 'D_F', internal=True),
@@ -122,13 +126,13 @@ def _d():
         on_exit=_d_exit,
     )
     with machine:
-        # model.swarm:78
+        # model.swarm:79
         StateMachine.add(
             'In',
             State(on=[On(AT_ONCE, 'Out')], outcomes=['D_F']),
             transitions={'Out': 'Out', 'D_F': 'In', 'preempted': 'preempted'},
         )
-        # model.swarm:79
+        # model.swarm:80
         StateMachine.add(
             'Out',
             ServiceState(
@@ -146,16 +150,22 @@ def _d():
             transitions={
                 'succeeded': 'In',
                 'aborted': 'In',
-                'timeout': 'In',
-                'timeout_2': 'In',
+                'timeout': 'Last',
+                'timeout_2': 'Last',
                 'D_F': 'In',
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:85
+        # model.swarm:86
         StateMachine.add(
             'H',
             History('In', ['In', 'Out'], deep=True),
+            transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
+        )
+        # model.swarm:87
+        StateMachine.add(
+            'Last',
+            History('Out', ['In', 'Out']),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
     return machine
@@ -172,57 +182,57 @@ def _a_entry(userdata):
 
 
 def _d_e_effect(userdata, event):
-    # model.swarm:70
+    # model.swarm:71
     userdata.n = 1
 
 
-def _d_battery_effect(userdata, event):
-    # model.swarm:71
-    userdata.n = 4
-
-
-def _d_battery_effect_2(userdata, event):
+def _d_charge_effect(userdata, event):
     # model.swarm:72
     userdata.n = 4
 
 
-def _d_a_guard(userdata, event):
+def _d_charge_effect_2(userdata, event):
     # model.swarm:73
+    userdata.n = 4
+
+
+def _d_a_guard(userdata, event):
+    # model.swarm:74
     return userdata.n > 3 and userdata.mine < userdata.self.count and userdata.self.role != userdata.self.id
 
 
 def _d_x_guard(userdata, event, envelope):
-    # model.swarm:75
+    # model.swarm:76
     return rospy.Duration(0, envelope.sent) > rospy.Duration(3.0)
 
 
 def _d_x_effect(userdata, event, envelope):
-    # model.swarm:75
+    # model.swarm:76
     events.X.send(M(), envelope.sender)
     events.X.send(M(), 'uav[{}]'.format(userdata.self.index + 1))
 
 
 def _d_x_guard_2(userdata, event):
-    # model.swarm:76
+    # model.swarm:77
     return math.hypot(userdata.here.x - userdata.seen.pose.position.x, userdata.here.y - userdata.seen.pose.position.y, userdata.here.z - userdata.seen.pose.position.z) < math.hypot(9, 12)
 
 
 def _d_out_request(userdata, request):
-    # model.swarm:80
+    # model.swarm:81
     return BaseTakeRequest(mode=userdata.mode)
 
 
 def _d_out_response(userdata, response):
-    # model.swarm:80
+    # model.swarm:81
     userdata.ok = response.ok
 
 
 def _d_entry(userdata):
-    # model.swarm:68
+    # model.swarm:69
     events.X.send(M(mode=MODE_AUTO), 'big')
     userdata.n = LIMIT
 
 
 def _d_exit(userdata):
-    # model.swarm:69
+    # model.swarm:70
     userdata.n = bounded(min(max(userdata.n // 2, 1), round(2.5)), 'int32')

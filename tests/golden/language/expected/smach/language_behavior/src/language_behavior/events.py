@@ -15,8 +15,8 @@ X = Event('X', M, 'bridge/events/x', 'x', envelope=XEnvelope)
 # model.swarm:40
 E = Event('E', M, 'e', 'e')
 
-# model.swarm:71
-BATTERY = Event('Battery', Level, 'battery', 'battery')
+# model.swarm:72
+CHARGE = Event('Charge', Level, 'battery', 'battery')
 
 # model.swarm:41
 F = Event('F', Empty, 'f', 'f')
