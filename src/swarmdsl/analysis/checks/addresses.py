@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator
+
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.analysis.resolve.addresses import (
+    Crew,
     NamedRole,
     crews_of,
     named_roles,
@@ -16,6 +20,9 @@ from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.suggest import suggest
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import Address, Role, Send, StateMachine, Swarm, nodes_of
+
+
+_ROBOT = re.compile(r"(.*)\[(\d{1,18})\]", re.DOTALL)
 
 
 def check_addresses(project: Project, context: Context) -> None:
@@ -31,8 +38,16 @@ def check_addresses(project: Project, context: Context) -> None:
                 if found.role is None:
                     missing.setdefault(found.address, []).append(found)
                 else:
-                    _check_index(found, found.role, context)
+                    index = found.address.index
+                    tree = index.tree if index is not None else None
+                    number = context.typing.folding.value(tree) if tree is not None else None
+                    _check_index(found, found.role, number, context)
                     _check_handled(sends[found.address], found, found.role, context)
+            for found, number in _constant_ids(machine, crews, context):
+                if found.role is None:
+                    missing.setdefault(found.address, []).append(found)
+                else:
+                    _check_index(found, found.role, number, context)
     for names in missing.values():
         _report_missing(names, context)
     for crew in crews:
@@ -48,9 +63,27 @@ def check_addresses(project: Project, context: Context) -> None:
                 )
 
 
-def _check_index(found: NamedRole, role: Role, context: Context) -> None:
-    index, most = found.address.index, greatest(role)
-    number = context.typing.folding.value(index.tree) if index and index.tree else None
+def _constant_ids(
+    machine: StateMachine, crews: list[Crew], context: Context
+) -> Iterator[tuple[NamedRole, int | None]]:
+    """Yield the ids that are known at compile time, `"uav"` and `"uav[2]"`, in each swarm."""
+    for address in nodes_of(machine, Address):
+        tree = address.id.tree if address.id is not None else None
+        if tree is None or address.named_role is not None:
+            continue
+        value = context.typing.folding.value(tree)
+        if not isinstance(value, str):
+            continue
+        robot = _ROBOT.fullmatch(value)
+        name, number = (robot[1], int(robot[2])) if robot else (value, None)
+        for crew in crews:
+            if machine in crew.machines:
+                role = crew.roles.get(name)
+                yield NamedRole(address, name, address.span, crew.swarm, role), number
+
+
+def _check_index(found: NamedRole, role: Role, number: object, context: Context) -> None:
+    most = greatest(role)
     if most is not None and isinstance(number, int) and number >= most:
         context.report.report(
             "unknown-robot",
