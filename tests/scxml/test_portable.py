@@ -295,3 +295,24 @@ def happen(first: Runner, other: Runner, system: System, dice: random.Random) ->
         in_document = {"sent": sent / 1_000_000, **plain(given)} if sent else plain(given)
         for each, data in ((first, plain(given)), (other, in_document)):
             each.instance.receive(Event(event.name, data, envelope=envelope))
+
+
+def test_an_event_that_nobody_sent_has_the_time_0(compiled: Callable[[str], System]) -> None:
+    system = compiled("""
+        swarm event Go : std_msgs/Empty
+        statemachine M {
+          var at : duration = 1 s
+          initial A
+          state A { on Go [event.sent < 1 s] / at = event.sent -> B }
+          state B { on Go [at == 0 s] -> Z }
+          final Z
+        }
+    """)
+    document = portable(system.machines[0], system)
+    for data in ({}, None):
+        runner = Runner(document, document.data())
+        runner.instance.start()
+        runner.instance.receive(Event("Go", data))
+        assert runner.instance.configuration.innermost == ["B"]
+        runner.instance.receive(Event("Go", data))
+        assert runner.instance.final == "Z"

@@ -87,6 +87,8 @@ class TypeInference:
             case "sign":
                 return BOOL if children[0] == "!" else self.of(children[1])
             case "both" | "either":
+                if self.is_time(tree):
+                    return DURATION
                 return STRING if self.is_sender(tree) else BOOL
             case "operation":
                 left, operator, right = children
@@ -107,6 +109,10 @@ class TypeInference:
     def is_sender(self, tree: Any) -> bool:
         """Return True for the sender of the event, empty without one."""
         return self.envelopes and bool(tree == _sender())
+
+    def is_time(self, tree: Any) -> bool:
+        """Return True for the time at which the event was sent, 0 without one."""
+        return self.envelopes and bool(tree == _time())
 
     def is_time_of_event(self, tree: Any) -> bool:
         """Return True for the time of the event, unless its message has a field of that name."""
@@ -252,6 +258,11 @@ _ARGUMENTS = {
 @cache
 def _sender() -> Any:
     return parse(translate(EnvelopeField("sender", STRING), dialect({})))
+
+
+@cache
+def _time() -> Any:
+    return parse(translate(EnvelopeField("sent", DURATION), dialect({})))
 
 
 @cache

@@ -161,6 +161,8 @@ class _ExpressionReader:
                 return self._sign(str(children[0]), children[1], expected)
             case "either" if self.types.is_sender(tree):
                 return EnvelopeField("sender", STRING)
+            case "either" if self.types.is_time(tree):
+                return EnvelopeField("sent", DURATION)
             case "both" | "either" as word:
                 left, right = (self.expression(each, BOOL) for each in children)
                 return Binary("and" if word == "both" else "or", left, right, BOOL)

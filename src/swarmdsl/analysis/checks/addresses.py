@@ -21,7 +21,6 @@ from swarmdsl.base.suggest import suggest
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import Address, Role, Send, StateMachine, Swarm, nodes_of
 
-
 _ROBOT = re.compile(r"(.*)\[(\d{1,18})\]", re.DOTALL)
 
 

@@ -173,12 +173,17 @@ def _transition(
         parts.append(f"[{expression(guard)}]")
     if effects:
         parts.append(f"/ {_effects(effects)}")
-    elif target is None:
-        if guard is not None or not all(isinstance(t, OutcomeTrigger) for t in transition.triggers):
-            raise UnprintableError(f"a transition of `{state.id}` has no effect")
+    elif target is None and not _handles_outcomes(transition):
+        raise UnprintableError(f"a transition of `{state.id}` has no effect")
     if target is not None:
         parts.append(f"-> {place.path(target, levels)}")
     return " ".join(parts)
+
+
+def _handles_outcomes(transition: Transition) -> bool:
+    """Return True if a transition can stand without effects and target."""
+    triggers = transition.triggers
+    return transition.guard is None and all(isinstance(each, OutcomeTrigger) for each in triggers)
 
 
 def _branch(branch: Transition, place: Place) -> str:

@@ -68,8 +68,10 @@ def dialect(data: Mapping[str, str]) -> Dialect:
 
 
 def _envelope(fact: EnvelopeField) -> str:
-    """Return who sent the event, empty if nobody of the swarm did, or when it was sent."""
-    return '(_event.origin || "")' if fact.field == "sender" else f"_event.data.{fact.field}"
+    """Return who sent the event, empty if nobody of the swarm did, or when, 0 if nobody says."""
+    if fact.field == "sender":
+        return '(_event.origin || "")'
+    return f"(_event.data && _event.data.{fact.field} || 0)"
 
 
 # `Infinity` and `NaN` of ECMAScript are errors in the language.
