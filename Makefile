@@ -12,6 +12,7 @@ WORKERS := auto
 PARALLEL = $(BIN)/pytest -n $(WORKERS)
 MUTANTS ?= 10000
 CASES ?= 20000
+PAIRS ?= 10000
 BENCH_READY := benchmarks/node_modules/.ready
 EXTENSION := editors/vscode
 EXTENSION_READY := $(EXTENSION)/node_modules/.package-lock.json
@@ -22,7 +23,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement w3c check fmt docs bench fuzz bless parser dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement w3c check fmt docs bench fuzz properties bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o out
@@ -90,6 +91,9 @@ fuzz: $(READY) ## Run commands with 10,000 models with random mistakes, and in 2
 	$(BIN)/pytest -q --timeout 0 tests/swarm_printer/test_property.py tests/importing/test_adf_back.py tests/importing/test_portable.py \
 		--hypothesis-profile chance
 	$(BIN)/pytest -q tests/fuzz --cases $(CASES)
+
+properties: $(READY) ## Compare monitors of properties with their definitions, on 10,000 random pairs of a property and a run; PAIRS=100000 for more.
+	$(BIN)/python -m tests.monitor.random_runs $(PAIRS)
 
 parser: $(READY) ## Make the parser from the grammar.
 	$(BIN)/python -m swarmdsl.syntax.pegen

@@ -24,8 +24,8 @@
     "controller" "do" "done" "else" "endless" "entry" "enum" "environment" "event" "exit"
     "extends" "final" "fitness" "function" "gives" "history" "import" "in" "initial" "inout"
     "member" "message" "monitor" "not" "on" "operation" "optimize" "or" "out" "package" "parallel"
-    "param" "region" "self" "send" "sensor" "service" "state" "statemachine" "struct" "swarm"
-    "type" "var" "virtual")
+    "param" "property" "region" "self" "send" "sensor" "service" "state" "statemachine" "struct"
+    "swarm" "type" "var" "virtual")
   "Words that cannot be names.")
 
 (defconst swarm--constants
@@ -37,32 +37,58 @@
 
 (defconst swarm--naming
   '("actuator" "choice" "communication" "const" "controller" "enum" "environment" "event" "final"
-    "fitness" "history" "member" "operation" "region" "sensor" "state" "statemachine" "struct"
-    "type" "virtual")
+    "fitness" "history" "member" "operation" "property" "region" "sensor" "state" "statemachine"
+    "struct" "type" "virtual")
   "Words that the name of a new element follows.")
 
 (defconst swarm--contextual
   '("\\_<\\(abstraction\\)\\_>[ \t]*[{]"
+    "\\_<\\(again\\)\\_>[ \t]*[*A-Za-z_0-9\"]"
+    "\\_<\\(all\\)\\_>[ \t]*[A-Za-z_]"
+    "\\_<\\(always\\)\\_>[ \t]*\\(?:possible\\)\\_>"
     "\\_<\\(as\\)\\_>[ \t]*[A-Za-z_]"
+    "\\_<\\(at\\)\\_>[ \t]*\\(?:all\\|least\\|most\\)\\_>"
+    "\\_<\\(before\\)\\_>[ \t]*[*A-Za-z_0-9\"]"
+    "\\_<\\(between\\)\\_>[ \t]*[*A-Za-z_0-9\"]"
     "\\_<\\(by\\)\\_>[ \t]*[A-Za-z_]"
-    "\\_<\\(count\\)\\_>[ \t]*\\(?:of\\)\\_>"
+    "\\_<\\(cancels\\)\\_>[ \t]*[A-Za-z_]"
+    "\\_<\\(count\\)\\_>[ \t]*\\(?:\\(?:of\\)\\_>\\|[(]\\)"
     "\\_<\\(deep\\)\\_>[ \t]*\\(?:history\\)\\_>"
+    "\\_<\\(each\\)\\_>[ \t]*[A-Za-z_]"
     "\\_<\\(evaluations\\)\\_>[ \t]*[A-Za-z_0-9\"-]"
+    "\\_<\\(eventually\\)\\_>[ \t]*[*A-Za-z_0-9\"]"
     "\\_<\\(feedback\\)\\_>[ \t]*[{]"
     "\\_<\\(goal\\)\\_>[ \t]*[{]"
+    "\\_<\\(has\\)\\_>[ \t]*[\\[]"
+    "\\_<\\(hears\\)\\_>[ \t]*[A-Za-z_]"
     "\\_<\\(internal\\)\\_>[ \t]*\\(?:\\(?:after\\|monitor\\|on\\)\\_>\\|[\\[]\\)"
+    "\\_<\\(leads\\)\\_>[ \t]*\\(?:to\\)\\_>"
+    "\\_<\\(least\\)\\_>[ \t]*[0-9\"]"
     "\\_<\\(maximize\\)\\_>[ \t]*[A-Za-z_0-9\"-]"
     "\\_<\\(minimize\\)\\_>[ \t]*[A-Za-z_0-9\"-]"
+    "\\_<\\(most\\)\\_>[ \t]*[0-9\"]"
+    "\\_<\\(never\\)\\_>[ \t]*[*A-Za-z_0-9\"]"
+    "\\_<\\(no\\)\\_>[ \t]*[A-Za-z_]"
     "\\_<\\(of\\)\\_>[ \t]*[A-Za-z_]"
+    "\\_<\\(only\\)\\_>[ \t]*\\(?:after\\)\\_>"
+    "\\_<\\(other\\)\\_>[ \t]*[A-Za-z_]"
+    "\\_<\\(possible\\)\\_>[ \t]*[*A-Za-z_0-9\"]"
     "\\_<\\(request\\)\\_>[ \t]*[{]"
     "\\_<\\(response\\)\\_>[ \t]*[{]"
     "\\_<\\(result\\)\\_>[ \t]*[{]"
     "\\_<\\(ros\\)\\_>[ \t]*[0-9\"]"
     "\\_<\\(seed\\)\\_>[ \t]*[A-Za-z_0-9\"-]"
+    "\\_<\\(sends\\)\\_>[ \t]*[A-Za-z_]"
     "\\_<\\(size\\)\\_>[ \t]*[0-9\"]"
+    "\\_<\\(some\\)\\_>[ \t]*[A-Za-z_]"
+    "\\_<\\(starts\\)\\_>[ \t]*[A-Za-z_]"
     "\\_<\\(step\\)\\_>[ \t]*[A-Za-z_0-9\"-]"
     "\\_<\\(steps\\)\\_>[ \t]*[A-Za-z_0-9\"-]"
-    "\\_<\\(to\\)\\_>[ \t]*[A-Za-z_0-9\"-]"
+    "\\_<\\(then\\)\\_>[ \t]*[*A-Za-z_0-9\"]"
+    "\\_<\\(times\\)\\_>[ \t]*$"
+    "\\_<\\(to\\)\\_>[ \t]*[*A-Za-z_0-9\"-]"
+    "\\_<\\(until\\)\\_>[ \t]*[*A-Za-z_0-9\"]"
+    "\\_<\\(within\\)\\_>[ \t]*[A-Za-z_0-9\"-]"
     "\\_<\\(world\\)\\_>[ \t]*[0-9\"]"
     "\\_<\\(x\\)\\_>[ \t]*[0-9\"]")
   "Words that are keywords only before certain others.")

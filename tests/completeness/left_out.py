@@ -54,6 +54,14 @@ _REASONS: dict[str, dict[str, str]] = {
             "Function.communication Function.params Function.ports FunctionPort.direction "
             "FunctionPort.topic FunctionPort.type"
         ),
+        "properties are not drawn": (
+            "Chance.bound Chance.probability Count.comparison Count.number Count.role "
+            "Count.state Fact.act Fact.guard Fact.name Fact.robots Junction.claims "
+            "Junction.operator Property.chance Property.claims Property.doc Property.each "
+            "Property.kind Property.name Property.scope Property.subject Property.times "
+            "Property.within Robots.index Robots.number Robots.other Robots.quantifier "
+            "Robots.role Scope.claims Scope.kind System.properties"
+        ),
         "communication settings are not drawn": (
             "CommunicationSettings.technology CommunicationSettings.values Member.communication"
         ),
@@ -92,6 +100,14 @@ _REASONS: dict[str, dict[str, str]] = {
             "System.components System.doc System.environments System.fitness System.members "
             "System.optimizations System.swarms"
         ),
+        "SCXML has no properties": (
+            "Chance.bound Chance.probability Count.comparison Count.number Count.role "
+            "Count.state Fact.act Fact.guard Fact.name Fact.robots Junction.claims "
+            "Junction.operator Property.chance Property.claims Property.doc Property.each "
+            "Property.kind Property.name Property.scope Property.subject Property.times "
+            "Property.within Robots.index Robots.number Robots.other Robots.quantifier "
+            "Robots.role Scope.claims Scope.kind System.properties"
+        ),
         "functions are called by the name of their server": (
             "Function.params Function.ports FunctionPort.direction FunctionPort.doc "
             "FunctionPort.topic FunctionPort.type"
@@ -120,6 +136,7 @@ NOT_LOWERED = {
     "ImportRos.doc": "imports are resolved by the loader",
     "ImportRos.path": "imports are resolved by the loader",
     "Model.imports": "imports are resolved by the loader",
+    "Property.subject": "the resolved subject is lowered",
     "TypeRef.array": "the resolved type is lowered",
     "TypeRef.bound": "the resolved type is lowered",
     "TypeRef.name": "the resolved type is lowered",

@@ -118,6 +118,7 @@ def systems(draw: st.DrawFn) -> System:
         tuple(swarms),
         tuple(fitness),
         tuple(optimizations),
+        (),
         draw(docs) if named else "",
     )
 

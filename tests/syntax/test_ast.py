@@ -18,6 +18,7 @@ OTHERS = {"Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
 INLINE = {
     *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Address"),
     "Assignment",
+    *("Chance", "Claim", "Conjunction", "Each", "Fact", "Pattern", "PropertyScope", "Term", "Who"),
     *("OutcomeTrigger", "DoneTrigger", "EventTrigger", "TimeTrigger", "MonitorTrigger"),
 }
 

@@ -17,8 +17,8 @@ syn match swarmField "\%(\<connect\>.*->\)\@<=\s\+\h\w*\ze\s*\%($\|[;}/]\)"
 syn keyword swarmDeclaration action actuator behavior choice communication connect const controller
 syn keyword swarmDeclaration endless entry enum environment event exit extends final fitness
 syn keyword swarmDeclaration function history initial inout member message operation optimize out
-syn keyword swarmDeclaration parallel param region self sensor service state statemachine struct
-syn keyword swarmDeclaration swarm type var virtual
+syn keyword swarmDeclaration parallel param property region self sensor service state statemachine
+syn keyword swarmDeclaration struct swarm type var virtual
 syn keyword swarmInclude import package
 syn keyword swarmStatement after do done else gives in monitor on send
 syn keyword swarmOutcome aborted preempted succeeded
@@ -27,29 +27,55 @@ syn keyword swarmBoolean false true
 syn keyword swarmType bool byte char int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32
 syn keyword swarmType float64 string wstring time duration
 syn match swarmDeclaration #\<abstraction\>\ze[ \t]*[{]#
+syn match swarmDeclaration #\<again\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<all\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<always\>\ze[ \t]*\%(possible\)\>#
 syn match swarmStatement #\<as\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<at\>\ze[ \t]*\%(all\|least\|most\)\>#
+syn match swarmDeclaration #\<before\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<between\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_]#
-syn match swarmStatement #\<count\>\ze[ \t]*\%(of\)\>#
+syn match swarmDeclaration #\<cancels\>\ze[ \t]*[A-Za-z_]#
+syn match swarmStatement #\<count\>\ze[ \t]*\%(\%(of\)\>\|[(]\)#
 syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#
+syn match swarmDeclaration #\<each\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<evaluations\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<eventually\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<feedback\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<goal\>\ze[ \t]*[{]#
+syn match swarmDeclaration #\<has\>\ze[ \t]*[\[]#
+syn match swarmDeclaration #\<hears\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<internal\>\ze[ \t]*\%(\%(after\|monitor\|on\)\>\|[\[]\)#
+syn match swarmDeclaration #\<leads\>\ze[ \t]*\%(to\)\>#
+syn match swarmDeclaration #\<least\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<maximize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<minimize\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<most\>\ze[ \t]*[0-9"]#
+syn match swarmDeclaration #\<never\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<no\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<only\>\ze[ \t]*\%(after\)\>#
+syn match swarmDeclaration #\<other\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<possible\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<request\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<response\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<result\>\ze[ \t]*[{]#
 syn match swarmInclude #\<ros\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<seed\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<sends\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<size\>\ze[ \t]*[0-9"]#
+syn match swarmDeclaration #\<some\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<starts\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<step\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
-syn match swarmStatement #\<to\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<then\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<times\>\ze[ \t]*$#
+syn match swarmStatement #\<to\>\ze[ \t]*[*A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<within\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<world\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<x\>\ze[ \t]*[0-9"]#
-syn match swarmName #\%(\<\%(actuator\|choice\|communication\|const\|controller\|enum\|environment\|event\|final\|fitness\|history\|member\|operation\|region\|sensor\|state\|statemachine\|struct\|type\|virtual\)\)\@<=\s\+\h\w*#
+syn match swarmName #\%(\<\%(actuator\|choice\|communication\|const\|controller\|enum\|environment\|event\|final\|fitness\|history\|member\|operation\|property\|region\|sensor\|state\|statemachine\|struct\|type\|virtual\)\)\@<=\s\+\h\w*#
 " end
 
 syn match swarmNumber "\<\d\+\%(\.\d\+\)\=\%([eE][+-]\=\d\+\)\=\%(\s*\%(us\|ms\|s\|min\|h\|km\|cm\|mm\|m\)\>\)\="

@@ -12,6 +12,7 @@ from swarmdsl.ir.architecture import Component, Environment, Member, Swarm
 from swarmdsl.ir.derived import DERIVED
 from swarmdsl.ir.interfaces import Action, Event, Field, Function, Interface, Message
 from swarmdsl.ir.optimization import Fitness, Optimization
+from swarmdsl.ir.properties import Property
 from swarmdsl.ir.statemachine import StateMachine
 from swarmdsl.syntax.action_messages import generated_from
 from swarmdsl.syntax.types import Named, Type
@@ -37,6 +38,7 @@ class System:
     swarms: tuple[Swarm, ...] = ()
     fitness: tuple[Fitness, ...] = ()
     optimizations: tuple[Optimization, ...] = ()
+    properties: tuple[Property, ...] = ()
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
     standard: tuple[Interface, ...] = field(default=(), compare=False, metadata=DERIVED)

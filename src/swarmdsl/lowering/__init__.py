@@ -27,6 +27,7 @@ from swarmdsl.lowering.interfaces import (
 )
 from swarmdsl.lowering.machines import lower_machine
 from swarmdsl.lowering.optimization import lower_fitness, lower_optimization
+from swarmdsl.lowering.properties import lower_property
 from swarmdsl.lowering.standard_interfaces import with_standard_interfaces
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import (
@@ -41,6 +42,7 @@ from swarmdsl.syntax.ast import (
     Member,
     MessageType,
     Part,
+    Property,
     ServiceType,
     StateMachine,
     StructType,
@@ -69,6 +71,7 @@ def lower(
     environments: list[ir.Environment] = []
     swarms: list[ir.Swarm] = []
     fitness: list[ir.Fitness] = []
+    properties: list[ir.Property] = []
     for file, declaration in used:
         match declaration:
             case StructType() | EnumType() | MessageType() | ServiceType() | ActionType():
@@ -89,6 +92,8 @@ def lower(
                 environments.append(lower_environment(declaration, context))
             case Fitness():
                 fitness.append(lower_fitness(declaration, context))
+            case Property():
+                properties.append(lower_property(declaration, context))
             case Swarm():
                 swarms.append(lower_swarm(declaration, context))
     parts = (owner for owner in operation_owners(used) if isinstance(owner, Part))
@@ -107,6 +112,7 @@ def lower(
         swarms=tuple(swarms),
         fitness=tuple(fitness),
         optimizations=tuple(lower_optimization(o, context) for _, o in project.optimizations()),
+        properties=tuple(properties),
         doc=first.model.package.doc if first.model.package else "",
         origin=first.model.package.span if first.model.package else None,
     )

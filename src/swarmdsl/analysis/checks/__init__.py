@@ -40,6 +40,7 @@ from swarmdsl.analysis.checks.optimization import (
     check_optimization,
     check_optimizations,
 )
+from swarmdsl.analysis.checks.properties import check_property, check_subjects
 from swarmdsl.analysis.checks.reachability import check_reachability
 from swarmdsl.analysis.checks.robot_values import check_robot_values
 from swarmdsl.analysis.checks.shadowed_transitions import check_shadowed_transitions
@@ -64,6 +65,7 @@ from swarmdsl.syntax.ast import (
     Function,
     Member,
     MessageType,
+    Property,
     ServiceType,
     StateMachine,
     Swarm,
@@ -81,6 +83,7 @@ PROJECT_PASSES: Sequence[Callable[[Project, Context], None]] = (
     check_monitor_names,
     check_events,
     check_addresses,
+    check_subjects,
 )
 """Passes over a whole project, in order."""
 
@@ -119,6 +122,7 @@ PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
     Fitness: (check_fitness,),
     Swarm: (check_swarm, check_robot_values),
     Environment: (check_environment,),
+    Property: (check_property,),
 }
 """Passes over declarations, by kind, in order."""
 

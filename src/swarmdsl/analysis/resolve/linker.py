@@ -14,6 +14,7 @@ from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.machines import link_machine
+from swarmdsl.analysis.resolve.properties import link_property
 from swarmdsl.analysis.resolve.report_unresolved import (
     report_activity,
     report_missing_inside,
@@ -46,6 +47,7 @@ from swarmdsl.syntax.ast import (
     Part,
     Port,
     PortRef,
+    Property,
     Ref,
     RobotValues,
     Role,
@@ -135,6 +137,9 @@ class Linker:
                 _link_optimization(owner, scope, report)
             case Swarm():
                 _link_swarm(owner, scope, report)
+            case Property():
+                link_property(owner, scope, ValueLinker(scope, self._enums, report), report)
+                return
         if nodes_of(owner, Expression):
             ValueLinker(scope, self._enums, report).link(owner, values)
 

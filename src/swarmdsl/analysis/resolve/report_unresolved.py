@@ -32,6 +32,7 @@ from swarmdsl.syntax.ast import (
     Port,
     Ref,
     StateMachine,
+    Swarm,
     TopLevel,
     TypeRef,
     Vertex,
@@ -228,9 +229,11 @@ def _may_be_skipped(name: str, scope: FileScope) -> bool:
 
 
 def _kind_of_any(kinds: Kinds) -> str:
-    """Name of a group of kinds, with an article. Several kinds are types or values."""
+    """Name of a group of kinds, with an article: what a property is about, types or values."""
     if len(kinds) == 1:
         return kind_of(kinds[0])
+    if Swarm in kinds:
+        return "a swarm or state machine"
     return "a value" if Constant in kinds else "a type"
 
 

@@ -6,7 +6,7 @@ Those are named like types: `Mode`, `sar.Mode`, or by an alias.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from swarmdsl.analysis.resolve.report_unresolved import (
     dotted,
@@ -57,10 +57,14 @@ class ValueLinker:
 
     def link(self, owner: TopLevel, values: Values) -> None:
         """Bind the names in the expressions of a declaration with these values."""
+        self.link_only(nodes_of(owner, Expression), owner, values)
+
+    def link_only(self, nodes: Iterable[Expression], owner: TopLevel, values: Values) -> None:
+        """Bind the names in some expressions of a declaration with these values."""
         unknown: list[tuple[NameUse, list[FieldUse], Expression]] = []
         shared = _values_of_all(owner)
         addresses = [each.id for each in nodes_of(owner, Address)]
-        for node in nodes_of(owner, Expression):
+        for node in nodes:
             if shared is None or node in shared:
                 self._check_no_self(node)
             if node.tree is not None:

@@ -11,6 +11,7 @@ Each code has a page in `explain/` (printed by `swarmc explain CODE`) and a case
     10xx  simulation             11xx  tests
     12xx  import                 13xx  diagrams
     14xx  comparison             15xx  new projects, changes of models
+    16xx  properties
 """
 
 # The annotations here are values: typing would compile texts one by one.
@@ -311,4 +312,10 @@ CODES: dict[str, Code] = {
     "cannot-rename": Code("SW1505", "error", "cannot rename {what}: {reason}"),
     "still-named": Code("SW1506", "warning", "the old name `{name}` is still used here"),
     "cannot-add": Code("SW1507", "error", "cannot add {what}: {reason}"),
+    # ---- properties
+    "unclear-property": Code("SW1601", "error", "property `{name}` does not say what it is about"),
+    "unnamed-robot": Code("SW1602", "error", "this does not say {which}"),
+    "impossible-fact": Code("SW1603", "warning", "this can never hold: {reason}"),
+    "misplaced-robots": Code("SW1604", "error", "`{name}` {fault}"),
+    "bad-chance": Code("SW1605", "error", "{text} is not a probability"),
 }

@@ -1,4 +1,4 @@
-"""Print swarms, environments, fitness and optimizations."""
+"""Print swarms, environments, fitness, optimizations and properties."""
 
 from __future__ import annotations
 
@@ -16,11 +16,13 @@ from swarmdsl.ir import (
     Multiplicity,
     Optimization,
     ParamRange,
+    Property,
     RobotValues,
     Role,
     Swarm,
     doc_of,
 )
+from swarmdsl.ir.sentences import Named, head, sentence
 
 _ONE = Multiplicity(1, 1)
 
@@ -89,6 +91,20 @@ def print_optimization(optimization: Optimization) -> list[str]:
         step = f" step {expression(param.step)}" if param.step is not None else ""
         lines += documented(param.doc, [f"{param.role}.{param.param} {_range(param)}{step}"])
     return documented(optimization.doc, block(f"optimize {optimization.swarm}", lines))
+
+
+def print_property(property_: Property) -> list[str]:
+    """Print a property as one sentence."""
+    parts = [*head(property_), " : ", *sentence(property_)]
+    texts = (
+        each
+        if isinstance(each, str)
+        else each.name
+        if isinstance(each, Named)
+        else expression(each)
+        for each in parts
+    )
+    return documented(property_.doc, ["".join(texts)])
 
 
 def _range(values: CountRange | ParamRange) -> str:

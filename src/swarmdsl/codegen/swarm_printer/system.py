@@ -12,6 +12,7 @@ from swarmdsl.codegen.swarm_printer.composition import (
     print_environment,
     print_fitness,
     print_optimization,
+    print_property,
     print_swarm,
 )
 from swarmdsl.codegen.swarm_printer.interfaces import print_event, print_function, print_interface
@@ -89,6 +90,7 @@ def _declarations(system: System, names: Names) -> Iterator[list[str]]:
     yield from (print_fitness(fitness, names) for fitness in system.fitness)
     yield from map(print_swarm, system.swarms)
     yield from map(print_optimization, system.optimizations)
+    yield from map(print_property, system.properties)
 
 
 def _taken(items: deque[T], wanted: Callable[[T], bool]) -> Iterator[T]:

@@ -31,6 +31,7 @@ SYMBOL_KINDS: dict[type[Node], lsp.SymbolKind] = {
     ast.Swarm: lsp.SymbolKind.Package,
     ast.Role: lsp.SymbolKind.Field,
     ast.Fitness: lsp.SymbolKind.Function,
+    ast.Property: lsp.SymbolKind.Boolean,
 }
 COMPLETION_KINDS: dict[type[Node], lsp.CompletionItemKind] = {
     ast.StructType: lsp.CompletionItemKind.Struct,

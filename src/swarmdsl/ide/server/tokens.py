@@ -42,6 +42,7 @@ _KINDS: dict[type[Node], str] = {
     ast.Event: "event",
     ast.Function: "function",
     ast.Fitness: "function",
+    ast.Property: "property",
     ast.Operation: "method",
     ast.Component: "class",
     ast.Member: "class",

@@ -18,6 +18,7 @@ from swarmdsl.syntax.ast.interfaces import (
     StructType,
 )
 from swarmdsl.syntax.ast.nodes import Documented, Node, Word
+from swarmdsl.syntax.ast.properties import Property
 from swarmdsl.syntax.ast.values import Constant, EnumType
 
 
@@ -62,6 +63,7 @@ Declaration = (
     | Swarm
     | Environment
     | Fitness
+    | Property
 )
 
 

@@ -17,11 +17,12 @@ from swarmdsl.syntax.ast import (
     file,
     interfaces,
     nodes,
+    properties,
     values,
 )
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel
 
-_MODULES = (nodes, values, interfaces, behaviour, architecture, composition, file)
+_MODULES = (nodes, values, interfaces, behaviour, architecture, composition, properties, file)
 
 _ABSTRACT = (Node, Documented, TopLevel)
 NODES: dict[str, type[Node]] = {

@@ -11,6 +11,7 @@ from swarmdsl.syntax.ast import (
     Call,
     Documented,
     EnumValue,
+    Fact,
     MessageType,
     Model,
     Multiplicity,
@@ -24,6 +25,7 @@ from swarmdsl.syntax.ast import (
     State,
     Transition,
     TypeRef,
+    Who,
     walk,
 )
 from swarmdsl.syntax.formatter.tokens import Tokens, tokenize
@@ -82,6 +84,12 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                 _mark_list(marks, tokens, node.event.span.start, node.event.name)
             case Address(role=role) if role is not None:
                 marks.tight.add(tokens.code(role.span.end)[0].start)
+            case Who(lower=str(lower)) if lower:
+                _join(marks, tokens, start, f"{lower}..{node.upper}" if node.upper else lower)
+            case Who(index=str(index)) if index:
+                _join(marks, tokens, start, f"{node.role.name}[{index}]")
+            case Fact(counted=counted) if counted is not None:
+                marks.tight.add(tokens.before(counted.span.start).start)
             case State(machine=machine) if machine is not None:
                 _mark_list(marks, tokens, machine.span.start, machine.name)
             case Transition(effects=[effect, *_]) | Branch(effects=[effect, *_]):

@@ -8,10 +8,10 @@ import re
 from swarmdsl.syntax.parser.expressions import ExpressionParser, TooDeepError
 from swarmdsl.syntax.parser.literals import Language, unquoted
 from swarmdsl.base.source import Source, Span
-from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
+from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Argument, Assignment, BehaviorUse, Branch, Chance, Choice, Claim, Communication, CommunicationSettings, Component, Conjunction, Connector, Constant, CountRange, DoneTrigger, Each, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Fact, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Pattern, Port, PortRef, Property, PropertyScope, Region, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, Term, TimeTrigger, Transition, TypeRef, Variable, Who, World
 from swarmdsl.syntax.parser.lexer import Lexer
 
-GRAMMAR = 2987401596
+GRAMMAR = 654880706
 new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
@@ -70,56 +70,76 @@ def REGEX7(text, at):
 
 def REGEX8(text, at):
     global REGEX8
-    REGEX8 = re.compile('(?!(?:aborted|action|actuator|after|and|behavior|choice|communication|connect|const|controller|do|done|else|endless|entry|enum|environment|event|exit|extends|false|final|fitness|function|gives|history|import|in|initial|inout|member|message|monitor|not|on|operation|optimize|or|out|package|parallel|param|preempted|region|self|send|sensor|service|state|statemachine|struct|succeeded|swarm|true|type|var|virtual)\\b)[A-Za-z_][A-Za-z0-9_]*\\b|[A-Za-z_][A-Za-z0-9_]*\\b(?=[ \\t]*(?:->|[:;}\\r\\n]|\\/[\\/*]|$))', re.MULTILINE).match
+    REGEX8 = re.compile('\\d+\\b', re.MULTILINE).match
     return REGEX8(text, at)
 
 
 def REGEX9(text, at):
     global REGEX9
-    REGEX9 = re.compile('\\d+\\b', re.MULTILINE).match
+    REGEX9 = re.compile('\\d+(?:\\.\\d+)?\\b', re.MULTILINE).match
     return REGEX9(text, at)
 
 
 def REGEX10(text, at):
     global REGEX10
-    REGEX10 = re.compile('\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b', re.MULTILINE).match
+    REGEX10 = re.compile('(?!(?:aborted|action|actuator|after|and|behavior|choice|communication|connect|const|controller|do|done|else|endless|entry|enum|environment|event|exit|extends|false|final|fitness|function|gives|history|import|in|initial|inout|member|message|monitor|not|on|operation|optimize|or|out|package|parallel|param|preempted|property|region|self|send|sensor|service|state|statemachine|struct|succeeded|swarm|true|type|var|virtual)\\b)[A-Za-z_][A-Za-z0-9_]*\\b|[A-Za-z_][A-Za-z0-9_]*\\b(?=[ \\t]*(?:->|[:;}\\r\\n]|\\/[\\/*]|$))', re.MULTILINE).match
     return REGEX10(text, at)
 
 
 def REGEX11(text, at):
     global REGEX11
-    REGEX11 = re.compile('\\d+\\b|\\*', re.MULTILINE).match
+    REGEX11 = re.compile('\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b', re.MULTILINE).match
     return REGEX11(text, at)
 
 
 def REGEX12(text, at):
     global REGEX12
-    REGEX12 = re.compile('(?<=[A-Za-z0-9_])(?=\\[)', re.MULTILINE).match
+    REGEX12 = re.compile('\\d+\\b|\\*', re.MULTILINE).match
     return REGEX12(text, at)
 
-SET0 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'optimize', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
-SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
-SET2 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+
+def REGEX13(text, at):
+    global REGEX13
+    REGEX13 = re.compile('==|!=|<=|>=|<|>', re.MULTILINE).match
+    return REGEX13(text, at)
+
+
+def REGEX14(text, at):
+    global REGEX14
+    REGEX14 = re.compile('(?<=[A-Za-z0-9_])(?=\\[)', re.MULTILINE).match
+    return REGEX14(text, at)
+
+SET0 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'optimize', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
+SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
+SET2 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
 SET3 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', '{', '|', '}', '~', '\x7f'])
 SET4 = frozenset([',', ';'])
 SET5 = frozenset(['abstraction', 'swarm'])
 SET6 = frozenset(['action', 'in', 'out', 'param', 'service'])
 SET7 = frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param'])
-SET8 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'choice', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'initial', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'package', 'parallel', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+SET8 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'choice', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'initial', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'package', 'parallel', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
 SET9 = frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'param', 'state', 'var'])
-SET10 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'event', 'exit', 'extends', 'false', 'final', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+SET10 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'event', 'exit', 'extends', 'false', 'final', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
 SET11 = frozenset(['size', 'world'])
 SET12 = frozenset(['in', 'maximize', 'minimize', 'param'])
-SET13 = frozenset(['.', '/'])
-SET14 = frozenset(['in', 'out'])
-SET15 = frozenset(['[', 'after', 'choice', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state'])
-SET16 = frozenset(['[', 'after', 'entry', 'exit', 'internal', 'monitor', 'on', 'region'])
-SET17 = frozenset(['[', 'else'])
-SET18 = frozenset(['after', 'monitor', 'on'])
-SET19 = frozenset(['aborted', 'preempted', 'succeeded'])
-SET20 = frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state'])
-SET21 = frozenset(['!', '#', '$', '%', '&', "'", ')', '*', '+', ',', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'exit', 'extends', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
-RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
+SET13 = frozenset(['after', 'before', 'between'])
+SET14 = frozenset(['.', '/'])
+SET15 = frozenset(['!', '#', '$', '%', '&', "'", ')', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'initial', 'inout', 'member', 'message', 'monitor', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+SET16 = frozenset(['least', 'most'])
+SET17 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+SET18 = frozenset(['in', 'out'])
+SET19 = frozenset(['[', 'after', 'choice', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state'])
+SET20 = frozenset(['[', 'after', 'entry', 'exit', 'internal', 'monitor', 'on', 'region'])
+SET21 = frozenset(['[', 'else'])
+SET22 = frozenset(['hears', 'sends'])
+SET23 = frozenset(['cancels', 'starts'])
+SET24 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+SET25 = frozenset(['all', 'no', 'some'])
+SET26 = frozenset(['after', 'monitor', 'on'])
+SET27 = frozenset(['aborted', 'preempted', 'succeeded'])
+SET28 = frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state'])
+SET29 = frozenset(['!', '#', '$', '%', '&', "'", ')', '*', '+', ',', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'exit', 'extends', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
 TERMINALS = (
     ('\\Z', 'EOF', ''),
     (';', '', ';'),
@@ -154,6 +174,8 @@ TERMINALS = (
     ('statemachine\\b', '', 'statemachine'),
     ('environment\\b', '', 'environment'),
     ('fitness\\b', '', 'fitness'),
+    ('property\\b', '', 'property'),
+    ('of\\b', '', 'of'),
     ('(?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*', '', ''),
     ('(?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*(?:\\.\\*)?', '', ''),
     ('abstraction\\b', '', 'abstraction'),
@@ -161,9 +183,28 @@ TERMINALS = (
     ('actuator\\b', '', 'actuator'),
     ('controller\\b', '', 'controller'),
     ('virtual\\b', '', 'virtual'),
-    ('(?!(?:aborted|action|actuator|after|and|behavior|choice|communication|connect|const|controller|do|done|else|endless|entry|enum|environment|event|exit|extends|false|final|fitness|function|gives|history|import|in|initial|inout|member|message|monitor|not|on|operation|optimize|or|out|package|parallel|param|preempted|region|self|send|sensor|service|state|statemachine|struct|succeeded|swarm|true|type|var|virtual)\\b)[A-Za-z_][A-Za-z0-9_]*\\b', 'IDENT', ''),
+    ('each\\b', '', 'each'),
+    ('after\\b', '', 'after'),
+    ('until\\b', '', 'until'),
+    ('before\\b', '', 'before'),
+    ('between\\b', '', 'between'),
+    ('and\\b', '', 'and'),
+    ('never\\b', '', 'never'),
+    ('eventually\\b', '', 'eventually'),
+    ('within\\b', '', 'within'),
+    ('always\\b', '', 'always'),
+    ('possible\\b', '', 'possible'),
+    ('again\\b', '', 'again'),
+    ('at\\b', '', 'at'),
+    ('all\\b', '', 'all'),
+    ('times\\b', '', 'times'),
+    ('most\\b', '', 'most'),
+    ('leads\\b', '', 'leads'),
+    ('to\\b', '', 'to'),
+    ('only\\b', '', 'only'),
+    ('then\\b', '', 'then'),
+    ('(?!(?:aborted|action|actuator|after|and|behavior|choice|communication|connect|const|controller|do|done|else|endless|entry|enum|environment|event|exit|extends|false|final|fitness|function|gives|history|import|in|initial|inout|member|message|monitor|not|on|operation|optimize|or|out|package|parallel|param|preempted|property|region|self|send|sensor|service|state|statemachine|struct|succeeded|swarm|true|type|var|virtual)\\b)[A-Za-z_][A-Za-z0-9_]*\\b', 'IDENT', ''),
     ('count\\b', '', 'count'),
-    ('of\\b', '', 'of'),
     ('in\\b', '', 'in'),
     ('\\.\\.', '', '..'),
     ('\\.', '', '.'),
@@ -189,12 +230,15 @@ TERMINALS = (
     ('world\\b', '', 'world'),
     ('size\\b', '', 'size'),
     ('x\\b', '', 'x'),
+    ('or\\b', '', 'or'),
+    ('not\\b', '', 'not'),
+    ('\\d+\\b', 'INDEX', ''),
+    ('least\\b', '', 'least'),
+    ('\\d+(?:\\.\\d+)?\\b', 'PROBABILITY', ''),
     ('steps\\b', '', 'steps'),
     ('evaluations\\b', '', 'evaluations'),
     ('seed\\b', '', 'seed'),
     ('[A-Za-z_][A-Za-z0-9_]*\\b', 'WORD', ''),
-    ('and\\b', '', 'and'),
-    ('or\\b', '', 'or'),
     ('==', '', '=='),
     ('!=', '', '!='),
     ('<=', '', '<='),
@@ -213,16 +257,20 @@ TERMINALS = (
     ('deep\\b', '', 'deep'),
     ('history\\b', '', 'history'),
     ('final\\b', '', 'final'),
-    ('\\d+\\b', 'INDEX', ''),
     ('\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b', 'LENGTH', ''),
     ('maximize\\b', '', 'maximize'),
     ('minimize\\b', '', 'minimize'),
-    ('not\\b', '', 'not'),
+    ('has\\b', '', 'has'),
     ('true\\b', '', 'true'),
     ('false\\b', '', 'false'),
     ('-(?!>)', 'MINUS', ''),
     ('else\\b', '', 'else'),
     ('\\d+\\b|\\*', 'BOUND', ''),
+    ('sends\\b', '', 'sends'),
+    ('hears\\b', '', 'hears'),
+    ('starts\\b', '', 'starts'),
+    ('cancels\\b', '', 'cancels'),
+    ('other\\b', '', 'other'),
     ('\\d+(?:\\.\\d+)?(?:[eE][+-]?\\d+)?(?:[ \\t]*(?:us|ms|s|min|h))?\\b(?!\\.\\d)', 'QUANTITY', ''),
     ('[A-Za-z_][A-Za-z0-9_]*\\b(?=[ \\t]*(?:->|[:;}\\r\\n]|\\/[\\/*]|$))', 'PORTWORD', ''),
     ('do\\b', '', 'do'),
@@ -232,13 +280,13 @@ TERMINALS = (
     ('exit\\b', '', 'exit'),
     ('internal\\b', '', 'internal'),
     ('region\\b', '', 'region'),
+    ('some\\b', '', 'some'),
+    ('no\\b', '', 'no'),
     ('self\\b', '', 'self'),
     ('=>', '', '=>'),
-    ('after\\b', '', 'after'),
     ('monitor\\b', '', 'monitor'),
     ('as\\b', '', 'as'),
     ('send\\b', '', 'send'),
-    ('to\\b', '', 'to'),
     ('done\\b', '', 'done'),
     ('succeeded\\b', '', 'succeeded'),
     ('aborted\\b', '', 'aborted'),
@@ -268,1214 +316,1458 @@ PROGRAM = (
     (0, 1),
     (2, 21),
     (2, 26),
-    (3, 83),
+    (3, 86),
     (1, 26),
     (0, 1),
     (2, 26),
     (2, 15),
     (4, 0),
     (0, 2),
-    (3, 94),
+    (3, 97),
     (4, 0),
     (1, 34),
-    (3, 96),
+    (3, 99),
     (2, 38),
     (1, 37),
-    (3, 100),
-    (2, 38),
     (3, 103),
+    (2, 38),
+    (3, 106),
     (4, 0),
     (1, 42),
-    (3, 106),
-    (2, 82),
+    (3, 109),
+    (2, 85),
     (1, 45),
-    (3, 120),
-    (2, 82),
+    (3, 123),
+    (2, 85),
     (1, 48),
-    (3, 138),
-    (2, 82),
+    (3, 141),
+    (2, 85),
     (1, 51),
-    (3, 143),
-    (2, 82),
+    (3, 146),
+    (2, 85),
     (1, 54),
-    (3, 150),
-    (2, 82),
+    (3, 153),
+    (2, 85),
     (1, 57),
-    (3, 173),
-    (2, 82),
+    (3, 176),
+    (2, 85),
     (1, 60),
-    (3, 212),
-    (2, 82),
+    (3, 215),
+    (2, 85),
     (1, 63),
-    (3, 268),
-    (2, 82),
+    (3, 271),
+    (2, 85),
     (1, 66),
-    (3, 280),
-    (2, 82),
+    (3, 283),
+    (2, 85),
     (1, 69),
-    (3, 293),
-    (2, 82),
+    (3, 296),
+    (2, 85),
     (1, 72),
-    (3, 308),
-    (2, 82),
+    (3, 311),
+    (2, 85),
     (1, 75),
-    (3, 323),
-    (2, 82),
+    (3, 326),
+    (2, 85),
     (1, 78),
-    (3, 337),
-    (2, 82),
+    (3, 340),
+    (2, 85),
     (1, 81),
-    (3, 348),
-    (2, 82),
-    (3, 359),
+    (3, 351),
+    (2, 85),
+    (1, 84),
+    (3, 362),
+    (2, 85),
+    (3, 373),
     (4, 0),
     (0, 3),
-    (3, 370),
+    (3, 391),
     (0, 4),
-    (1, 92),
-    (3, 373),
-    (1, 91),
+    (1, 95),
+    (3, 394),
+    (1, 94),
     (0, 1),
-    (2, 91),
-    (2, 86),
+    (2, 94),
+    (2, 89),
     (0, 5),
     (4, 0),
-    (3, 370),
+    (3, 391),
     (4, 0),
     (0, 6),
     (0, 7),
-    (3, 381),
+    (3, 402),
     (4, 0),
     (0, 6),
-    (3, 381),
+    (3, 402),
     (4, 0),
     (0, 6),
-    (3, 383),
+    (3, 404),
     (4, 0),
     (0, 8),
-    (3, 386),
+    (3, 407),
     (0, 4),
+    (1, 121),
+    (3, 409),
+    (1, 120),
     (1, 118),
-    (3, 388),
-    (1, 117),
-    (1, 115),
     (0, 9),
-    (2, 116),
+    (2, 119),
     (0, 1),
-    (2, 117),
-    (2, 109),
+    (2, 120),
+    (2, 112),
     (0, 5),
     (4, 0),
     (0, 10),
-    (3, 386),
-    (1, 126),
+    (3, 407),
+    (1, 129),
     (0, 11),
-    (3, 392),
-    (2, 126),
+    (3, 413),
+    (2, 129),
     (0, 4),
+    (1, 139),
+    (3, 421),
+    (1, 138),
     (1, 136),
-    (3, 400),
-    (1, 135),
-    (1, 133),
     (0, 9),
-    (2, 134),
+    (2, 137),
     (0, 1),
-    (2, 135),
-    (2, 127),
+    (2, 138),
+    (2, 130),
     (0, 5),
     (4, 0),
     (0, 12),
-    (3, 386),
+    (3, 407),
     (0, 13),
-    (3, 392),
+    (3, 413),
     (4, 0),
     (0, 14),
-    (3, 386),
+    (3, 407),
     (0, 11),
-    (3, 392),
+    (3, 413),
     (0, 13),
-    (3, 406),
+    (3, 427),
     (4, 0),
     (0, 15),
-    (3, 408),
+    (3, 429),
     (0, 4),
-    (1, 171),
-    (1, 160),
-    (3, 143),
-    (1, 159),
-    (3, 143),
-    (2, 156),
+    (1, 174),
+    (1, 163),
+    (3, 146),
+    (1, 162),
+    (3, 146),
+    (2, 159),
+    (2, 167),
+    (3, 409),
+    (1, 167),
+    (3, 409),
     (2, 164),
-    (3, 388),
-    (1, 164),
-    (3, 388),
-    (2, 161),
-    (1, 170),
-    (1, 168),
+    (1, 173),
+    (1, 171),
     (0, 9),
-    (2, 169),
+    (2, 172),
     (0, 1),
-    (2, 170),
-    (2, 153),
+    (2, 173),
+    (2, 156),
     (0, 5),
     (4, 0),
     (0, 16),
-    (3, 408),
+    (3, 429),
     (0, 4),
-    (1, 193),
+    (1, 196),
     (0, 17),
     (0, 4),
+    (1, 191),
+    (3, 409),
+    (1, 190),
     (1, 188),
-    (3, 388),
-    (1, 187),
-    (1, 185),
     (0, 9),
-    (2, 186),
+    (2, 189),
     (0, 1),
-    (2, 187),
-    (2, 179),
+    (2, 190),
+    (2, 182),
     (0, 5),
-    (1, 192),
+    (1, 195),
     (0, 1),
-    (2, 192),
-    (2, 193),
-    (1, 210),
+    (2, 195),
+    (2, 196),
+    (1, 213),
     (0, 18),
     (0, 4),
+    (1, 208),
+    (3, 409),
+    (1, 207),
     (1, 205),
-    (3, 388),
-    (1, 204),
-    (1, 202),
     (0, 9),
-    (2, 203),
+    (2, 206),
     (0, 1),
-    (2, 204),
-    (2, 196),
+    (2, 207),
+    (2, 199),
     (0, 5),
-    (1, 209),
+    (1, 212),
     (0, 1),
-    (2, 209),
-    (2, 210),
+    (2, 212),
+    (2, 213),
     (0, 5),
     (4, 0),
     (0, 19),
-    (3, 408),
+    (3, 429),
     (0, 4),
-    (1, 232),
+    (1, 235),
     (0, 20),
     (0, 4),
+    (1, 230),
+    (3, 409),
+    (1, 229),
     (1, 227),
-    (3, 388),
-    (1, 226),
-    (1, 224),
     (0, 9),
-    (2, 225),
+    (2, 228),
     (0, 1),
-    (2, 226),
-    (2, 218),
+    (2, 229),
+    (2, 221),
     (0, 5),
-    (1, 231),
+    (1, 234),
     (0, 1),
-    (2, 231),
-    (2, 232),
-    (1, 249),
+    (2, 234),
+    (2, 235),
+    (1, 252),
     (0, 21),
     (0, 4),
+    (1, 247),
+    (3, 409),
+    (1, 246),
     (1, 244),
-    (3, 388),
-    (1, 243),
-    (1, 241),
     (0, 9),
-    (2, 242),
+    (2, 245),
     (0, 1),
-    (2, 243),
-    (2, 235),
+    (2, 246),
+    (2, 238),
     (0, 5),
-    (1, 248),
+    (1, 251),
     (0, 1),
-    (2, 248),
-    (2, 249),
-    (1, 266),
+    (2, 251),
+    (2, 252),
+    (1, 269),
     (0, 22),
     (0, 4),
+    (1, 264),
+    (3, 409),
+    (1, 263),
     (1, 261),
-    (3, 388),
-    (1, 260),
-    (1, 258),
     (0, 9),
-    (2, 259),
+    (2, 262),
     (0, 1),
-    (2, 260),
-    (2, 252),
+    (2, 263),
+    (2, 255),
     (0, 5),
-    (1, 265),
+    (1, 268),
     (0, 1),
-    (2, 265),
-    (2, 266),
+    (2, 268),
+    (2, 269),
     (0, 5),
     (4, 0),
-    (1, 271),
+    (1, 274),
     (0, 23),
-    (2, 271),
+    (2, 274),
     (0, 24),
-    (3, 386),
+    (3, 407),
     (0, 11),
-    (3, 392),
-    (1, 279),
+    (3, 413),
+    (1, 282),
     (0, 25),
-    (3, 381),
-    (2, 279),
+    (3, 402),
+    (2, 282),
     (4, 0),
     (0, 26),
-    (3, 386),
+    (3, 407),
     (0, 11),
-    (3, 410),
+    (3, 431),
     (0, 4),
-    (1, 291),
-    (3, 415),
-    (1, 290),
+    (1, 294),
+    (3, 436),
+    (1, 293),
     (0, 1),
-    (2, 290),
-    (2, 285),
+    (2, 293),
+    (2, 288),
     (0, 5),
     (4, 0),
-    (3, 423),
-    (3, 386),
-    (1, 299),
+    (3, 444),
+    (3, 407),
+    (1, 302),
     (0, 27),
-    (3, 370),
-    (2, 299),
+    (3, 391),
+    (2, 302),
     (0, 4),
-    (1, 306),
-    (3, 434),
-    (1, 305),
+    (1, 309),
+    (3, 455),
+    (1, 308),
     (0, 1),
-    (2, 305),
-    (2, 300),
+    (2, 308),
+    (2, 303),
     (0, 5),
     (4, 0),
     (0, 28),
-    (3, 386),
-    (1, 314),
+    (3, 407),
+    (1, 317),
     (0, 27),
-    (3, 370),
-    (2, 314),
+    (3, 391),
+    (2, 317),
     (0, 4),
-    (1, 321),
-    (3, 445),
-    (1, 320),
+    (1, 324),
+    (3, 466),
+    (1, 323),
     (0, 1),
-    (2, 320),
-    (2, 315),
+    (2, 323),
+    (2, 318),
     (0, 5),
     (4, 0),
-    (1, 326),
+    (1, 329),
     (0, 29),
-    (2, 326),
-    (0, 30),
-    (3, 386),
-    (0, 4),
-    (1, 335),
-    (3, 462),
-    (1, 334),
-    (0, 1),
-    (2, 334),
     (2, 329),
+    (0, 30),
+    (3, 407),
+    (0, 4),
+    (1, 338),
+    (3, 483),
+    (1, 337),
+    (0, 1),
+    (2, 337),
+    (2, 332),
     (0, 5),
     (4, 0),
     (0, 23),
-    (3, 386),
+    (3, 407),
     (0, 4),
-    (1, 346),
-    (3, 473),
-    (1, 345),
+    (1, 349),
+    (3, 494),
+    (1, 348),
     (0, 1),
-    (2, 345),
-    (2, 340),
+    (2, 348),
+    (2, 343),
     (0, 5),
     (4, 0),
     (0, 31),
-    (3, 386),
+    (3, 407),
     (0, 4),
-    (1, 357),
-    (3, 484),
-    (1, 356),
+    (1, 360),
+    (3, 505),
+    (1, 359),
     (0, 1),
-    (2, 356),
-    (2, 351),
+    (2, 359),
+    (2, 354),
     (0, 5),
     (4, 0),
     (0, 32),
-    (3, 386),
+    (3, 407),
     (0, 4),
-    (1, 368),
-    (3, 489),
-    (1, 367),
+    (1, 371),
+    (3, 510),
+    (1, 370),
     (0, 1),
-    (2, 367),
-    (2, 362),
+    (2, 370),
+    (2, 365),
     (0, 5),
     (4, 0),
-    (3, 497),
     (0, 33),
-    (4, 0),
-    (1, 376),
-    (3, 499),
-    (2, 380),
+    (3, 407),
     (1, 379),
-    (3, 502),
-    (2, 380),
-    (3, 510),
-    (4, 0),
-    (3, 522),
-    (4, 0),
-    (3, 497),
     (0, 34),
-    (4, 0),
-    (3, 497),
-    (4, 0),
-    (3, 524),
+    (3, 391),
+    (2, 379),
     (0, 11),
-    (3, 392),
+    (1, 383),
+    (3, 518),
+    (2, 383),
+    (1, 386),
+    (3, 522),
+    (2, 386),
+    (3, 542),
+    (1, 390),
+    (3, 602),
+    (2, 390),
     (4, 0),
-    (3, 526),
-    (1, 396),
-    (3, 529),
-    (2, 396),
-    (1, 399),
-    (3, 531),
-    (2, 399),
-    (4, 0),
-    (3, 386),
-    (1, 405),
-    (0, 13),
-    (3, 533),
-    (2, 405),
-    (4, 0),
-    (3, 535),
-    (4, 0),
-    (3, 541),
-    (4, 0),
-    (1, 413),
+    (3, 606),
     (0, 35),
-    (2, 414),
-    (0, 23),
     (4, 0),
-    (1, 418),
-    (3, 544),
-    (2, 422),
-    (1, 421),
-    (3, 549),
-    (2, 422),
-    (3, 554),
+    (1, 397),
+    (3, 608),
+    (2, 401),
+    (1, 400),
+    (3, 611),
+    (2, 401),
+    (3, 619),
     (4, 0),
-    (1, 426),
+    (3, 631),
+    (4, 0),
+    (3, 606),
     (0, 36),
-    (2, 433),
-    (1, 429),
-    (0, 37),
-    (2, 433),
-    (1, 432),
-    (0, 38),
-    (2, 433),
-    (0, 39),
     (4, 0),
-    (1, 437),
-    (3, 563),
-    (2, 444),
-    (1, 440),
-    (3, 554),
-    (2, 444),
-    (1, 443),
-    (3, 572),
-    (2, 444),
-    (3, 584),
-    (4, 0),
-    (1, 448),
-    (3, 584),
-    (2, 461),
-    (1, 451),
-    (3, 587),
-    (2, 461),
-    (1, 454),
-    (3, 563),
-    (2, 461),
-    (1, 457),
-    (3, 554),
-    (2, 461),
-    (1, 460),
-    (3, 601),
-    (2, 461),
     (3, 606),
     (4, 0),
-    (1, 465),
-    (3, 554),
-    (2, 472),
-    (1, 468),
-    (3, 623),
-    (2, 472),
-    (1, 471),
-    (3, 632),
-    (2, 472),
+    (3, 633),
+    (0, 11),
+    (3, 413),
+    (4, 0),
     (3, 635),
+    (1, 417),
+    (3, 638),
+    (2, 417),
+    (1, 420),
+    (3, 640),
+    (2, 420),
     (4, 0),
-    (1, 476),
-    (3, 649),
-    (2, 483),
-    (1, 479),
-    (3, 652),
-    (2, 483),
-    (1, 482),
-    (3, 655),
-    (2, 483),
-    (3, 677),
-    (4, 0),
-    (1, 487),
-    (3, 693),
-    (2, 488),
-    (3, 696),
-    (4, 0),
-    (1, 492),
-    (3, 705),
-    (2, 496),
-    (1, 495),
-    (3, 554),
-    (2, 496),
-    (3, 710),
-    (4, 0),
-    (0, 40),
-    (4, 0),
-    (3, 713),
-    (3, 406),
-    (4, 0),
-    (0, 41),
-    (0, 42),
-    (3, 497),
-    (0, 43),
-    (3, 406),
-    (0, 44),
-    (3, 406),
-    (4, 0),
-    (3, 497),
-    (0, 45),
-    (3, 497),
-    (0, 43),
-    (3, 406),
-    (0, 44),
-    (3, 406),
-    (1, 521),
-    (0, 46),
-    (3, 406),
-    (2, 521),
-    (4, 0),
-    (0, 47),
-    (4, 0),
-    (3, 721),
-    (4, 0),
-    (3, 497),
-    (0, 48),
-    (4, 0),
-    (0, 49),
-    (4, 0),
-    (0, 50),
-    (4, 0),
-    (0, 51),
-    (4, 0),
-    (3, 723),
-    (1, 540),
-    (3, 728),
-    (3, 723),
-    (2, 536),
-    (4, 0),
-    (3, 497),
-    (0, 52),
-    (4, 0),
-    (3, 766),
-    (3, 381),
-    (0, 11),
-    (3, 392),
-    (4, 0),
-    (3, 771),
-    (3, 381),
-    (0, 11),
-    (3, 392),
-    (4, 0),
-    (0, 53),
-    (3, 386),
-    (0, 11),
-    (3, 392),
-    (1, 562),
+    (3, 407),
+    (1, 426),
     (0, 13),
-    (3, 406),
-    (2, 562),
+    (3, 642),
+    (2, 426),
     (4, 0),
-    (3, 776),
-    (3, 784),
+    (3, 644),
+    (4, 0),
+    (3, 650),
+    (4, 0),
+    (1, 434),
+    (0, 37),
+    (2, 435),
+    (0, 23),
+    (4, 0),
+    (1, 439),
+    (3, 653),
+    (2, 443),
+    (1, 442),
+    (3, 658),
+    (2, 443),
+    (3, 663),
+    (4, 0),
+    (1, 447),
+    (0, 38),
+    (2, 454),
+    (1, 450),
+    (0, 39),
+    (2, 454),
+    (1, 453),
+    (0, 40),
+    (2, 454),
+    (0, 41),
+    (4, 0),
+    (1, 458),
+    (3, 672),
+    (2, 465),
+    (1, 461),
+    (3, 663),
+    (2, 465),
+    (1, 464),
+    (3, 681),
+    (2, 465),
+    (3, 693),
+    (4, 0),
+    (1, 469),
+    (3, 693),
+    (2, 482),
+    (1, 472),
+    (3, 696),
+    (2, 482),
+    (1, 475),
+    (3, 672),
+    (2, 482),
+    (1, 478),
+    (3, 663),
+    (2, 482),
+    (1, 481),
+    (3, 710),
+    (2, 482),
+    (3, 715),
+    (4, 0),
+    (1, 486),
+    (3, 663),
+    (2, 493),
+    (1, 489),
+    (3, 732),
+    (2, 493),
+    (1, 492),
+    (3, 741),
+    (2, 493),
+    (3, 744),
+    (4, 0),
+    (1, 497),
+    (3, 758),
+    (2, 504),
+    (1, 500),
+    (3, 761),
+    (2, 504),
+    (1, 503),
+    (3, 764),
+    (2, 504),
+    (3, 786),
+    (4, 0),
+    (1, 508),
+    (3, 802),
+    (2, 509),
+    (3, 805),
+    (4, 0),
+    (1, 513),
+    (3, 814),
+    (2, 517),
+    (1, 516),
+    (3, 663),
+    (2, 517),
+    (3, 819),
+    (4, 0),
+    (0, 42),
+    (3, 606),
     (0, 11),
-    (3, 392),
+    (4, 0),
+    (1, 531),
+    (0, 43),
+    (3, 822),
+    (1, 529),
+    (0, 44),
+    (3, 822),
+    (2, 529),
+    (0, 9),
+    (2, 541),
+    (1, 536),
+    (0, 45),
+    (3, 822),
+    (0, 9),
+    (2, 541),
+    (0, 46),
+    (3, 828),
+    (0, 47),
+    (3, 828),
+    (0, 9),
+    (4, 0),
+    (1, 546),
+    (0, 48),
+    (3, 822),
+    (2, 601),
+    (1, 554),
+    (0, 49),
+    (3, 822),
+    (1, 553),
+    (0, 50),
+    (3, 838),
+    (2, 553),
+    (2, 601),
+    (1, 559),
+    (0, 51),
+    (0, 52),
+    (3, 822),
+    (2, 601),
+    (1, 565),
+    (0, 53),
+    (0, 47),
+    (0, 53),
+    (3, 822),
+    (2, 601),
+    (3, 822),
     (1, 571),
-    (0, 25),
-    (3, 381),
-    (2, 571),
+    (0, 54),
+    (0, 55),
+    (0, 56),
+    (2, 601),
+    (1, 577),
+    (0, 54),
+    (0, 57),
+    (3, 840),
+    (0, 56),
+    (2, 601),
+    (1, 586),
+    (0, 58),
+    (0, 59),
+    (3, 822),
+    (1, 585),
+    (0, 50),
+    (3, 838),
+    (2, 585),
+    (2, 601),
+    (1, 591),
+    (0, 60),
+    (0, 43),
+    (3, 822),
+    (2, 601),
+    (1, 599),
+    (0, 61),
+    (3, 822),
+    (1, 598),
+    (0, 61),
+    (3, 822),
+    (2, 594),
+    (2, 601),
+    (0, 50),
+    (3, 838),
     (4, 0),
     (0, 54),
-    (3, 386),
-    (0, 55),
-    (1, 582),
-    (3, 786),
-    (1, 581),
-    (0, 9),
-    (3, 786),
-    (2, 577),
-    (2, 582),
-    (0, 56),
-    (4, 0),
-    (0, 57),
-    (3, 370),
-    (4, 0),
-    (0, 58),
-    (3, 386),
-    (0, 4),
-    (1, 599),
-    (3, 794),
-    (1, 598),
-    (1, 596),
-    (0, 9),
-    (2, 597),
-    (0, 1),
-    (2, 598),
-    (2, 590),
-    (0, 5),
-    (4, 0),
-    (0, 59),
-    (3, 798),
-    (0, 60),
-    (3, 798),
-    (4, 0),
-    (3, 386),
-    (0, 11),
-    (3, 370),
-    (1, 622),
-    (0, 4),
-    (1, 620),
-    (3, 794),
-    (1, 619),
-    (1, 617),
-    (0, 9),
-    (2, 618),
-    (0, 1),
-    (2, 619),
-    (2, 611),
-    (0, 5),
-    (2, 622),
-    (4, 0),
-    (0, 61),
-    (3, 386),
-    (0, 11),
-    (3, 392),
-    (1, 631),
-    (0, 13),
-    (3, 406),
-    (2, 631),
+    (3, 842),
+    (3, 847),
     (4, 0),
     (0, 62),
-    (3, 370),
     (4, 0),
-    (1, 638),
-    (3, 804),
-    (2, 648),
-    (1, 641),
-    (3, 832),
-    (2, 648),
-    (1, 644),
-    (3, 844),
-    (2, 648),
-    (1, 647),
-    (3, 855),
-    (2, 648),
-    (3, 865),
+    (3, 849),
+    (3, 427),
     (4, 0),
-    (0, 31),
-    (3, 370),
-    (4, 0),
-    (0, 32),
-    (3, 370),
-    (4, 0),
-    (3, 386),
-    (0, 11),
-    (3, 370),
-    (1, 663),
     (0, 63),
-    (3, 868),
+    (0, 34),
+    (3, 606),
     (0, 64),
-    (2, 663),
-    (1, 676),
-    (0, 4),
-    (1, 674),
-    (3, 794),
-    (1, 673),
-    (1, 671),
-    (0, 9),
-    (2, 672),
-    (0, 1),
-    (2, 673),
-    (2, 665),
-    (0, 5),
-    (2, 676),
-    (4, 0),
-    (3, 497),
-    (0, 63),
-    (3, 874),
-    (0, 64),
-    (0, 4),
-    (1, 691),
-    (3, 794),
-    (1, 690),
-    (1, 688),
-    (0, 9),
-    (2, 689),
-    (0, 1),
-    (2, 690),
-    (2, 682),
-    (0, 5),
-    (4, 0),
+    (3, 427),
     (0, 65),
-    (3, 381),
+    (3, 427),
     (4, 0),
+    (3, 606),
     (0, 66),
-    (3, 876),
+    (3, 606),
+    (0, 64),
+    (3, 427),
+    (0, 65),
+    (3, 427),
+    (1, 630),
     (0, 67),
-    (3, 876),
-    (1, 704),
-    (0, 67),
-    (3, 876),
-    (2, 704),
+    (3, 427),
+    (2, 630),
     (4, 0),
-    (0, 43),
-    (3, 386),
-    (0, 11),
-    (3, 392),
-    (4, 0),
-    (3, 878),
-    (3, 406),
-    (4, 0),
-    (1, 716),
     (0, 68),
-    (2, 720),
-    (1, 719),
+    (4, 0),
+    (3, 857),
+    (4, 0),
+    (3, 606),
     (0, 69),
-    (2, 720),
+    (4, 0),
     (0, 70),
     (4, 0),
     (0, 71),
     (4, 0),
-    (1, 726),
-    (3, 883),
-    (2, 723),
-    (3, 888),
-    (4, 0),
-    (1, 731),
     (0, 72),
-    (2, 765),
-    (1, 734),
+    (4, 0),
+    (3, 859),
+    (1, 649),
+    (3, 864),
+    (3, 859),
+    (2, 645),
+    (4, 0),
+    (3, 606),
     (0, 73),
-    (2, 765),
-    (1, 737),
-    (0, 74),
-    (2, 765),
-    (1, 740),
-    (0, 75),
-    (2, 765),
-    (1, 743),
-    (0, 76),
-    (2, 765),
-    (1, 746),
-    (0, 77),
-    (2, 765),
-    (1, 749),
-    (0, 78),
-    (2, 765),
-    (1, 752),
-    (0, 79),
-    (2, 765),
-    (1, 755),
-    (0, 80),
-    (2, 765),
-    (1, 758),
-    (3, 910),
-    (2, 765),
-    (1, 761),
-    (0, 81),
-    (2, 765),
-    (1, 764),
-    (0, 82),
-    (2, 765),
-    (0, 83),
     (4, 0),
-    (1, 769),
-    (0, 19),
-    (2, 770),
-    (0, 16),
-    (4, 0),
-    (1, 774),
-    (0, 43),
-    (2, 775),
-    (0, 84),
-    (4, 0),
-    (1, 779),
-    (0, 85),
-    (2, 783),
-    (1, 782),
-    (0, 43),
-    (2, 783),
-    (0, 84),
-    (4, 0),
-    (3, 912),
-    (4, 0),
-    (1, 790),
-    (3, 771),
-    (3, 524),
-    (2, 791),
-    (3, 524),
+    (3, 902),
+    (3, 402),
     (0, 11),
-    (3, 392),
+    (3, 413),
     (4, 0),
-    (3, 524),
+    (3, 907),
+    (3, 402),
+    (0, 11),
+    (3, 413),
+    (4, 0),
+    (0, 74),
+    (3, 407),
+    (0, 11),
+    (3, 413),
+    (1, 671),
     (0, 13),
-    (3, 406),
+    (3, 427),
+    (2, 671),
     (4, 0),
-    (1, 802),
-    (3, 497),
-    (0, 45),
-    (2, 802),
     (3, 912),
+    (3, 920),
+    (0, 11),
+    (3, 413),
+    (1, 680),
+    (0, 25),
+    (3, 402),
+    (2, 680),
+    (4, 0),
+    (0, 75),
+    (3, 407),
+    (0, 76),
+    (1, 691),
+    (3, 922),
+    (1, 690),
+    (0, 9),
+    (3, 922),
+    (2, 686),
+    (2, 691),
+    (0, 77),
+    (4, 0),
+    (0, 78),
+    (3, 391),
+    (4, 0),
+    (0, 79),
+    (3, 407),
+    (0, 4),
+    (1, 708),
+    (3, 930),
+    (1, 707),
+    (1, 705),
+    (0, 9),
+    (2, 706),
+    (0, 1),
+    (2, 707),
+    (2, 699),
+    (0, 5),
+    (4, 0),
+    (0, 80),
+    (3, 934),
+    (0, 81),
+    (3, 934),
+    (4, 0),
+    (3, 407),
+    (0, 11),
+    (3, 391),
+    (1, 731),
+    (0, 4),
+    (1, 729),
+    (3, 930),
+    (1, 728),
+    (1, 726),
+    (0, 9),
+    (2, 727),
+    (0, 1),
+    (2, 728),
+    (2, 720),
+    (0, 5),
+    (2, 731),
+    (4, 0),
+    (0, 82),
+    (3, 407),
+    (0, 11),
+    (3, 413),
+    (1, 740),
+    (0, 13),
+    (3, 427),
+    (2, 740),
+    (4, 0),
+    (0, 83),
+    (3, 391),
+    (4, 0),
+    (1, 747),
+    (3, 940),
+    (2, 757),
+    (1, 750),
+    (3, 968),
+    (2, 757),
+    (1, 753),
+    (3, 980),
+    (2, 757),
+    (1, 756),
+    (3, 991),
+    (2, 757),
+    (3, 1001),
+    (4, 0),
+    (0, 31),
+    (3, 391),
+    (4, 0),
+    (0, 32),
+    (3, 391),
+    (4, 0),
+    (3, 407),
+    (0, 11),
+    (3, 391),
+    (1, 772),
+    (0, 84),
+    (3, 1004),
+    (0, 85),
+    (2, 772),
+    (1, 785),
+    (0, 4),
+    (1, 783),
+    (3, 930),
+    (1, 782),
+    (1, 780),
+    (0, 9),
+    (2, 781),
+    (0, 1),
+    (2, 782),
+    (2, 774),
+    (0, 5),
+    (2, 785),
+    (4, 0),
+    (3, 606),
+    (0, 84),
+    (3, 840),
+    (0, 85),
+    (0, 4),
+    (1, 800),
+    (3, 930),
+    (1, 799),
+    (1, 797),
+    (0, 9),
+    (2, 798),
+    (0, 1),
+    (2, 799),
+    (2, 791),
+    (0, 5),
     (4, 0),
     (0, 86),
-    (3, 386),
-    (1, 821),
-    (0, 13),
-    (3, 370),
-    (1, 820),
-    (0, 55),
-    (1, 818),
-    (3, 917),
-    (1, 817),
-    (0, 9),
-    (3, 917),
-    (2, 813),
-    (2, 818),
-    (0, 56),
-    (2, 820),
-    (2, 821),
-    (1, 831),
-    (0, 4),
-    (1, 829),
-    (3, 921),
-    (1, 828),
-    (0, 1),
-    (2, 828),
-    (2, 823),
-    (0, 5),
-    (2, 831),
+    (3, 402),
     (4, 0),
     (0, 87),
-    (0, 86),
-    (3, 386),
-    (0, 4),
-    (1, 842),
-    (3, 938),
-    (1, 841),
-    (0, 1),
-    (2, 841),
-    (2, 836),
-    (0, 5),
-    (4, 0),
+    (3, 1010),
     (0, 88),
-    (3, 386),
-    (0, 4),
-    (1, 853),
-    (3, 949),
-    (1, 852),
-    (0, 1),
-    (2, 852),
-    (2, 847),
-    (0, 5),
+    (3, 1010),
+    (1, 813),
+    (0, 88),
+    (3, 1010),
+    (2, 813),
     (4, 0),
-    (1, 858),
+    (0, 64),
+    (3, 407),
+    (0, 11),
+    (3, 413),
+    (4, 0),
+    (3, 1012),
+    (3, 427),
+    (4, 0),
+    (3, 1017),
+    (1, 827),
     (0, 89),
-    (2, 858),
+    (3, 1017),
+    (2, 823),
+    (4, 0),
+    (1, 831),
     (0, 90),
-    (3, 386),
-    (1, 864),
-    (0, 60),
-    (3, 370),
-    (2, 864),
+    (2, 831),
+    (1, 836),
+    (0, 76),
+    (3, 822),
+    (0, 77),
+    (2, 837),
+    (3, 1023),
+    (4, 0),
+    (3, 1072),
     (4, 0),
     (0, 91),
-    (3, 386),
     (4, 0),
-    (3, 966),
-    (1, 873),
-    (0, 44),
-    (3, 966),
-    (2, 873),
-    (4, 0),
+    (1, 845),
     (0, 92),
+    (2, 846),
+    (0, 57),
     (4, 0),
     (0, 93),
     (4, 0),
-    (1, 881),
+    (1, 852),
     (0, 94),
-    (2, 882),
+    (2, 856),
+    (1, 855),
     (0, 95),
-    (4, 0),
-    (1, 886),
+    (2, 856),
     (0, 96),
-    (2, 887),
-    (3, 910),
     (4, 0),
-    (1, 891),
-    (3, 968),
-    (2, 909),
-    (1, 894),
-    (3, 522),
-    (2, 909),
-    (1, 897),
     (0, 97),
-    (2, 909),
-    (1, 900),
-    (0, 98),
-    (2, 909),
-    (1, 903),
-    (3, 970),
-    (2, 909),
-    (1, 906),
-    (3, 981),
-    (2, 909),
-    (0, 55),
-    (3, 535),
-    (0, 56),
     (4, 0),
+    (1, 862),
+    (3, 1078),
+    (2, 859),
+    (3, 1083),
+    (4, 0),
+    (1, 867),
+    (0, 47),
+    (2, 901),
+    (1, 870),
+    (0, 89),
+    (2, 901),
+    (1, 873),
+    (0, 98),
+    (2, 901),
+    (1, 876),
     (0, 99),
+    (2, 901),
+    (1, 879),
+    (0, 100),
+    (2, 901),
+    (1, 882),
+    (0, 101),
+    (2, 901),
+    (1, 885),
+    (0, 102),
+    (2, 901),
+    (1, 888),
+    (0, 103),
+    (2, 901),
+    (1, 891),
+    (0, 104),
+    (2, 901),
+    (1, 894),
+    (3, 1105),
+    (2, 901),
+    (1, 897),
+    (0, 105),
+    (2, 901),
+    (1, 900),
+    (0, 106),
+    (2, 901),
+    (0, 107),
+    (4, 0),
+    (1, 905),
+    (0, 19),
+    (2, 906),
+    (0, 16),
+    (4, 0),
+    (1, 910),
+    (0, 64),
+    (2, 911),
+    (0, 108),
     (4, 0),
     (1, 915),
-    (3, 497),
-    (2, 916),
-    (3, 987),
-    (4, 0),
-    (3, 524),
-    (0, 13),
-    (3, 406),
-    (4, 0),
-    (1, 924),
-    (3, 989),
-    (2, 937),
-    (1, 927),
-    (3, 1021),
-    (2, 937),
-    (1, 930),
-    (3, 1029),
-    (2, 937),
-    (1, 933),
-    (3, 1037),
-    (2, 937),
-    (1, 936),
-    (3, 632),
-    (2, 937),
-    (3, 635),
-    (4, 0),
-    (1, 941),
-    (3, 1103),
-    (2, 948),
-    (1, 944),
-    (3, 1021),
-    (2, 948),
-    (1, 947),
-    (3, 1029),
-    (2, 948),
-    (3, 1037),
-    (4, 0),
-    (1, 954),
-    (0, 63),
-    (3, 406),
-    (0, 64),
-    (2, 955),
-    (0, 100),
-    (1, 963),
-    (0, 82),
-    (3, 1114),
-    (1, 962),
-    (0, 9),
-    (3, 1114),
-    (2, 958),
-    (2, 963),
-    (0, 60),
-    (3, 370),
-    (4, 0),
-    (0, 101),
-    (4, 0),
-    (0, 102),
-    (4, 0),
-    (3, 497),
-    (0, 55),
-    (1, 979),
-    (3, 535),
-    (1, 978),
-    (0, 9),
-    (3, 535),
-    (2, 974),
-    (2, 979),
-    (0, 56),
-    (4, 0),
-    (3, 1119),
-    (1, 986),
-    (0, 45),
-    (3, 721),
-    (2, 982),
-    (4, 0),
-    (0, 103),
-    (4, 0),
-    (0, 104),
-    (3, 370),
-    (1, 1006),
-    (0, 55),
-    (1, 997),
-    (0, 105),
-    (3, 386),
-    (2, 1004),
-    (1, 1004),
-    (3, 917),
-    (1, 1003),
-    (0, 9),
-    (3, 917),
-    (2, 999),
-    (2, 1004),
-    (0, 56),
-    (2, 1006),
-    (1, 1020),
-    (0, 106),
-    (1, 1012),
-    (0, 105),
-    (3, 386),
-    (2, 1019),
-    (0, 55),
-    (3, 1127),
-    (1, 1018),
-    (0, 9),
-    (3, 1127),
-    (2, 1014),
-    (0, 56),
-    (2, 1020),
-    (4, 0),
-    (0, 107),
-    (0, 82),
-    (3, 1114),
-    (1, 1028),
-    (0, 9),
-    (3, 1114),
-    (2, 1024),
-    (4, 0),
-    (0, 108),
-    (0, 82),
-    (3, 1114),
-    (1, 1036),
-    (0, 9),
-    (3, 1114),
-    (2, 1032),
-    (4, 0),
-    (1, 1040),
     (0, 109),
-    (2, 1040),
-    (1, 1081),
-    (1, 1049),
-    (0, 25),
-    (3, 1131),
-    (1, 1048),
-    (0, 9),
-    (3, 1131),
-    (2, 1044),
-    (2, 1061),
-    (1, 1056),
-    (3, 1139),
-    (1, 1055),
-    (0, 9),
-    (3, 1139),
-    (2, 1051),
-    (2, 1061),
-    (3, 1142),
-    (1, 1061),
-    (0, 9),
-    (3, 1142),
-    (2, 1057),
-    (1, 1066),
-    (0, 63),
-    (3, 406),
+    (2, 919),
+    (1, 918),
     (0, 64),
-    (2, 1066),
-    (1, 1078),
-    (0, 82),
-    (3, 1114),
-    (1, 1073),
-    (0, 9),
-    (3, 1114),
-    (2, 1069),
-    (1, 1077),
-    (0, 60),
-    (3, 370),
-    (2, 1077),
-    (2, 1080),
-    (0, 60),
-    (3, 370),
-    (2, 1102),
-    (1, 1089),
-    (0, 25),
-    (3, 1151),
-    (1, 1088),
-    (0, 9),
-    (3, 1151),
-    (2, 1084),
-    (2, 1102),
-    (0, 63),
-    (3, 406),
-    (0, 64),
-    (1, 1100),
-    (0, 82),
-    (3, 1114),
-    (1, 1099),
-    (0, 9),
-    (3, 1114),
-    (2, 1095),
-    (2, 1100),
-    (0, 60),
-    (3, 370),
+    (2, 919),
+    (0, 108),
+    (4, 0),
+    (3, 1107),
+    (4, 0),
+    (1, 926),
+    (3, 907),
+    (3, 633),
+    (2, 927),
+    (3, 633),
+    (0, 11),
+    (3, 413),
+    (4, 0),
+    (3, 633),
+    (0, 13),
+    (3, 427),
+    (4, 0),
+    (1, 938),
+    (3, 606),
+    (0, 66),
+    (2, 938),
+    (3, 1107),
     (4, 0),
     (0, 110),
-    (3, 386),
+    (3, 407),
+    (1, 957),
+    (0, 13),
+    (3, 391),
+    (1, 956),
+    (0, 76),
+    (1, 954),
+    (3, 1112),
+    (1, 953),
+    (0, 9),
+    (3, 1112),
+    (2, 949),
+    (2, 954),
+    (0, 77),
+    (2, 956),
+    (2, 957),
+    (1, 967),
     (0, 4),
-    (1, 1112),
-    (3, 1153),
-    (1, 1111),
+    (1, 965),
+    (3, 1116),
+    (1, 964),
     (0, 1),
-    (2, 1111),
-    (2, 1106),
+    (2, 964),
+    (2, 959),
+    (0, 5),
+    (2, 967),
+    (4, 0),
+    (0, 111),
+    (0, 110),
+    (3, 407),
+    (0, 4),
+    (1, 978),
+    (3, 1133),
+    (1, 977),
+    (0, 1),
+    (2, 977),
+    (2, 972),
     (0, 5),
     (4, 0),
-    (1, 1117),
-    (3, 1158),
-    (2, 1118),
-    (3, 1176),
-    (4, 0),
-    (1, 1122),
-    (0, 24),
-    (2, 1126),
-    (1, 1125),
-    (0, 111),
-    (2, 1126),
-    (3, 497),
-    (4, 0),
-    (3, 524),
     (0, 112),
-    (3, 1180),
+    (3, 407),
+    (0, 4),
+    (1, 989),
+    (3, 1144),
+    (1, 988),
+    (0, 1),
+    (2, 988),
+    (2, 983),
+    (0, 5),
     (4, 0),
-    (1, 1134),
-    (3, 1151),
-    (2, 1138),
-    (1, 1137),
-    (3, 1182),
-    (2, 1138),
-    (3, 1192),
-    (4, 0),
+    (1, 994),
     (0, 113),
-    (3, 1194),
-    (4, 0),
+    (2, 994),
     (0, 114),
-    (3, 381),
-    (0, 11),
-    (3, 392),
-    (1, 1150),
+    (3, 407),
+    (1, 1000),
+    (0, 81),
+    (3, 391),
+    (2, 1000),
+    (4, 0),
     (0, 115),
-    (3, 386),
-    (2, 1150),
+    (3, 407),
     (4, 0),
-    (3, 1196),
-    (4, 0),
-    (1, 1156),
-    (3, 632),
-    (2, 1157),
-    (3, 635),
+    (3, 1161),
+    (1, 1009),
+    (0, 65),
+    (3, 1161),
+    (2, 1009),
     (4, 0),
     (0, 116),
-    (3, 370),
-    (1, 1171),
-    (0, 55),
-    (1, 1169),
-    (3, 917),
-    (1, 1168),
-    (0, 9),
-    (3, 917),
-    (2, 1164),
-    (2, 1169),
-    (0, 56),
-    (2, 1171),
-    (1, 1175),
+    (4, 0),
+    (1, 1015),
     (0, 117),
-    (3, 1204),
-    (2, 1175),
-    (4, 0),
-    (3, 1180),
-    (0, 13),
-    (3, 406),
-    (4, 0),
-    (3, 723),
-    (4, 0),
-    (1, 1186),
-    (3, 497),
-    (0, 45),
-    (2, 1186),
+    (2, 1016),
     (0, 118),
-    (1, 1191),
-    (0, 45),
-    (3, 497),
-    (2, 1191),
     (4, 0),
-    (3, 370),
+    (3, 828),
+    (1, 1022),
+    (0, 47),
+    (3, 828),
+    (2, 1018),
     (4, 0),
-    (3, 1212),
-    (4, 0),
-    (1, 1199),
-    (0, 119),
-    (2, 1203),
-    (1, 1202),
-    (0, 120),
-    (2, 1203),
-    (0, 121),
-    (4, 0),
-    (1, 1210),
-    (3, 1218),
+    (1, 1033),
     (0, 63),
-    (3, 406),
+    (0, 76),
+    (3, 606),
     (0, 64),
-    (2, 1211),
-    (3, 406),
+    (3, 391),
+    (0, 77),
+    (3, 1163),
+    (3, 840),
+    (2, 1071),
+    (1, 1037),
+    (0, 64),
+    (3, 391),
+    (2, 1071),
+    (1, 1043),
+    (0, 119),
+    (0, 84),
+    (3, 427),
+    (0, 85),
+    (2, 1071),
+    (1, 1047),
+    (3, 1180),
+    (3, 391),
+    (2, 1071),
+    (1, 1051),
+    (3, 1185),
+    (3, 391),
+    (2, 1071),
+    (1, 1070),
+    (3, 1190),
+    (1, 1057),
+    (0, 64),
+    (3, 391),
+    (2, 1069),
+    (1, 1063),
+    (0, 119),
+    (0, 84),
+    (3, 427),
+    (0, 85),
+    (2, 1069),
+    (1, 1067),
+    (3, 1180),
+    (3, 391),
+    (2, 1069),
+    (3, 1185),
+    (3, 391),
+    (2, 1071),
+    (3, 391),
     (4, 0),
-    (3, 723),
-    (1, 1217),
+    (3, 859),
+    (1, 1077),
+    (3, 1212),
+    (3, 859),
+    (2, 1073),
+    (4, 0),
+    (1, 1081),
+    (0, 90),
+    (2, 1082),
+    (3, 1105),
+    (4, 0),
+    (1, 1086),
     (3, 1220),
-    (3, 723),
-    (2, 1213),
+    (2, 1104),
+    (1, 1089),
+    (3, 631),
+    (2, 1104),
+    (1, 1092),
+    (0, 120),
+    (2, 1104),
+    (1, 1095),
+    (0, 121),
+    (2, 1104),
+    (1, 1098),
+    (3, 1222),
+    (2, 1104),
+    (1, 1101),
+    (3, 1233),
+    (2, 1104),
+    (0, 76),
+    (3, 644),
+    (0, 77),
     (4, 0),
-    (3, 1228),
-    (4, 0),
-    (1, 1223),
-    (0, 80),
-    (2, 1227),
-    (1, 1226),
-    (3, 910),
-    (2, 1227),
-    (0, 81),
-    (4, 0),
-    (3, 497),
     (0, 122),
+    (4, 0),
+    (1, 1110),
+    (3, 606),
+    (2, 1111),
+    (3, 1239),
+    (4, 0),
+    (3, 633),
+    (0, 13),
+    (3, 427),
+    (4, 0),
+    (1, 1119),
+    (3, 1241),
+    (2, 1132),
+    (1, 1122),
+    (3, 1273),
+    (2, 1132),
+    (1, 1125),
+    (3, 1281),
+    (2, 1132),
+    (1, 1128),
+    (3, 1289),
+    (2, 1132),
+    (1, 1131),
+    (3, 741),
+    (2, 1132),
+    (3, 744),
+    (4, 0),
+    (1, 1136),
+    (3, 1355),
+    (2, 1143),
+    (1, 1139),
+    (3, 1273),
+    (2, 1143),
+    (1, 1142),
+    (3, 1281),
+    (2, 1143),
+    (3, 1289),
+    (4, 0),
+    (1, 1149),
+    (0, 84),
+    (3, 427),
+    (0, 85),
+    (2, 1150),
+    (0, 123),
+    (1, 1158),
+    (0, 106),
+    (3, 1366),
+    (1, 1157),
+    (0, 9),
+    (3, 1366),
+    (2, 1153),
+    (2, 1158),
+    (0, 81),
+    (3, 391),
+    (4, 0),
+    (0, 124),
+    (4, 0),
+    (1, 1166),
+    (0, 98),
+    (2, 1179),
+    (1, 1169),
+    (0, 99),
+    (2, 1179),
+    (1, 1172),
+    (0, 100),
+    (2, 1179),
+    (1, 1175),
+    (0, 101),
+    (2, 1179),
+    (1, 1178),
+    (0, 102),
+    (2, 1179),
+    (0, 103),
+    (4, 0),
+    (1, 1183),
+    (0, 125),
+    (2, 1184),
+    (0, 126),
+    (4, 0),
+    (1, 1188),
+    (0, 127),
+    (2, 1189),
+    (0, 128),
+    (4, 0),
+    (1, 1197),
+    (3, 1371),
+    (1, 1195),
+    (0, 129),
+    (2, 1195),
+    (3, 606),
+    (2, 1211),
+    (1, 1205),
+    (3, 1161),
+    (1, 1203),
+    (0, 65),
+    (3, 1161),
+    (2, 1203),
+    (3, 606),
+    (2, 1211),
+    (3, 606),
+    (1, 1211),
+    (0, 84),
+    (3, 840),
+    (0, 85),
+    (2, 1211),
+    (4, 0),
+    (1, 1215),
+    (0, 104),
+    (2, 1219),
+    (1, 1218),
+    (3, 1105),
+    (2, 1219),
+    (0, 105),
+    (4, 0),
+    (0, 130),
+    (4, 0),
+    (3, 606),
+    (0, 76),
+    (1, 1231),
+    (3, 644),
+    (1, 1230),
+    (0, 9),
+    (3, 644),
+    (2, 1226),
+    (2, 1231),
+    (0, 77),
+    (4, 0),
+    (3, 1379),
+    (1, 1238),
+    (0, 66),
+    (3, 857),
+    (2, 1234),
+    (4, 0),
+    (0, 131),
+    (4, 0),
+    (0, 132),
+    (3, 391),
+    (1, 1258),
+    (0, 76),
+    (1, 1249),
+    (0, 133),
+    (3, 407),
+    (2, 1256),
+    (1, 1256),
+    (3, 1112),
+    (1, 1255),
+    (0, 9),
+    (3, 1112),
+    (2, 1251),
+    (2, 1256),
+    (0, 77),
+    (2, 1258),
+    (1, 1272),
+    (0, 134),
+    (1, 1264),
+    (0, 133),
+    (3, 407),
+    (2, 1271),
+    (0, 76),
+    (3, 1387),
+    (1, 1270),
+    (0, 9),
+    (3, 1387),
+    (2, 1266),
+    (0, 77),
+    (2, 1272),
+    (4, 0),
+    (0, 135),
+    (0, 106),
+    (3, 1366),
+    (1, 1280),
+    (0, 9),
+    (3, 1366),
+    (2, 1276),
+    (4, 0),
+    (0, 136),
+    (0, 106),
+    (3, 1366),
+    (1, 1288),
+    (0, 9),
+    (3, 1366),
+    (2, 1284),
+    (4, 0),
+    (1, 1292),
+    (0, 137),
+    (2, 1292),
+    (1, 1333),
+    (1, 1301),
+    (0, 25),
+    (3, 1391),
+    (1, 1300),
+    (0, 9),
+    (3, 1391),
+    (2, 1296),
+    (2, 1313),
+    (1, 1308),
+    (3, 1399),
+    (1, 1307),
+    (0, 9),
+    (3, 1399),
+    (2, 1303),
+    (2, 1313),
+    (3, 1402),
+    (1, 1313),
+    (0, 9),
+    (3, 1402),
+    (2, 1309),
+    (1, 1318),
+    (0, 84),
+    (3, 427),
+    (0, 85),
+    (2, 1318),
+    (1, 1330),
+    (0, 106),
+    (3, 1366),
+    (1, 1325),
+    (0, 9),
+    (3, 1366),
+    (2, 1321),
+    (1, 1329),
+    (0, 81),
+    (3, 391),
+    (2, 1329),
+    (2, 1332),
+    (0, 81),
+    (3, 391),
+    (2, 1354),
+    (1, 1341),
+    (0, 25),
+    (3, 1411),
+    (1, 1340),
+    (0, 9),
+    (3, 1411),
+    (2, 1336),
+    (2, 1354),
+    (0, 84),
+    (3, 427),
+    (0, 85),
+    (1, 1352),
+    (0, 106),
+    (3, 1366),
+    (1, 1351),
+    (0, 9),
+    (3, 1366),
+    (2, 1347),
+    (2, 1352),
+    (0, 81),
+    (3, 391),
+    (4, 0),
+    (0, 138),
+    (3, 407),
+    (0, 4),
+    (1, 1364),
+    (3, 1413),
+    (1, 1363),
+    (0, 1),
+    (2, 1363),
+    (2, 1358),
+    (0, 5),
+    (4, 0),
+    (1, 1369),
+    (3, 1418),
+    (2, 1370),
+    (3, 1436),
+    (4, 0),
+    (1, 1374),
+    (0, 55),
+    (2, 1378),
+    (1, 1377),
+    (0, 139),
+    (2, 1378),
+    (0, 140),
+    (4, 0),
+    (1, 1382),
+    (0, 24),
+    (2, 1386),
+    (1, 1385),
+    (0, 141),
+    (2, 1386),
+    (3, 606),
+    (4, 0),
+    (3, 633),
+    (0, 142),
+    (3, 1440),
+    (4, 0),
+    (1, 1394),
+    (3, 1411),
+    (2, 1398),
+    (1, 1397),
+    (3, 1442),
+    (2, 1398),
+    (3, 1452),
+    (4, 0),
+    (0, 43),
+    (3, 838),
+    (4, 0),
+    (0, 143),
+    (3, 402),
+    (0, 11),
+    (3, 413),
+    (1, 1410),
+    (0, 144),
+    (3, 407),
+    (2, 1410),
+    (4, 0),
+    (3, 1454),
+    (4, 0),
+    (1, 1416),
+    (3, 741),
+    (2, 1417),
+    (3, 744),
+    (4, 0),
+    (0, 145),
+    (3, 391),
+    (1, 1431),
+    (0, 76),
+    (1, 1429),
+    (3, 1112),
+    (1, 1428),
+    (0, 9),
+    (3, 1112),
+    (2, 1424),
+    (2, 1429),
+    (0, 77),
+    (2, 1431),
+    (1, 1435),
+    (0, 59),
+    (3, 1462),
+    (2, 1435),
+    (4, 0),
+    (3, 1440),
+    (0, 13),
+    (3, 427),
+    (4, 0),
+    (3, 859),
+    (4, 0),
+    (1, 1446),
+    (3, 606),
+    (0, 66),
+    (2, 1446),
+    (0, 146),
+    (1, 1451),
+    (0, 66),
+    (3, 606),
+    (2, 1451),
+    (4, 0),
+    (3, 391),
+    (4, 0),
+    (1, 1457),
+    (0, 147),
+    (2, 1461),
+    (1, 1460),
+    (0, 148),
+    (2, 1461),
+    (0, 149),
+    (4, 0),
+    (1, 1468),
+    (3, 1470),
+    (0, 84),
+    (3, 427),
+    (0, 85),
+    (2, 1469),
+    (3, 427),
+    (4, 0),
+    (3, 1472),
+    (4, 0),
+    (3, 606),
+    (0, 150),
     (4, 0),
 )
 
@@ -2426,6 +2718,85 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.by_class = None
         return made
 
+    def r_Property():
+        nonlocal at, token
+        start = ends[at + 1] - 8
+        if find('\n', ends[at], start) < 0: inline[at] = ';'
+        name_ = None
+        subject_ = None
+        each_ = None
+        scope_ = None
+        body_ = None
+        chance_ = None
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
+        name_ = value
+        if token == 'of':
+            before2 = at
+            before3 = subject_
+            while True:
+                at += 1; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; subject_ = before3; break
+                taken5 = token; at += 1; token = tokens[at]
+                text4 = taken5
+                if token == '.':
+                    match6 = REGEX0(text, ends[at + 1] - len(token))
+                    if match6[0]:
+                        text4 += match6[0]
+                        end = match6.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before2; token = tokens[at]; subject_ = before3; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text4
+                value.kind = 'PropertySubject'
+                value.span = new_span(Span, (source, first, first + len(text4)))
+                value.target = None
+                subject_ = value
+                break
+        if not (token == ':'): return None
+        at += 1; token = tokens[at]
+        if token == 'each':
+            before7 = at
+            while True:
+                value = r_Each()
+                if value is None: at = before7; token = tokens[at]; break
+                each_ = value
+                break
+        if token in SET13:
+            before8 = at
+            while True:
+                value = r_PropertyScope()
+                if value is None: at = before8; token = tokens[at]; break
+                scope_ = value
+                break
+        value = r_Pattern()
+        if value is None: return None
+        body_ = value
+        if token == 'at':
+            before9 = at
+            while True:
+                value = r_Chance()
+                if value is None: at = before9; token = tokens[at]; break
+                chance_ = value
+                break
+        made = new_node(Property)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.name = name_
+        made.subject = subject_
+        made.each = each_
+        made.scope = scope_
+        made.body = body_
+        made.chance = chance_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
+        made.about = None
+        return made
+
     def r_Field():
         nonlocal at, token
         start = ends[at + 1] - len(token)
@@ -2458,7 +2829,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if not (token >= 'A' and token not in SET2): return None
         taken2 = token; at += 1; token = tokens[at]
         text1 = taken2
-        if token in SET13:
+        if token in SET14:
             match3 = REGEX4(text, ends[at + 1] - len(token))
             if match3[0]:
                 text1 += match3[0]
@@ -2526,6 +2897,308 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.name = name_
         made.value = value_
         made.doc = docs.pop(start) if start in docs else ''
+        return made
+
+    def r_Each():
+        nonlocal at, token
+        start = ends[at + 1] - 4
+        role_ = None
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_node(Ref)
+        value.name = taken1
+        value.kind = 'Role'
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
+        value.target = None
+        role_ = value
+        if not (token == ':'): return None
+        at += 1; token = tokens[at]
+        made = new_node(Each)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.role = role_
+        return made
+
+    def r_PropertyScope():
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
+        kind_ = ''
+        start_ = None
+        end_ = None
+        first_ = None
+        last_ = None
+        if token == 'after':
+            at += 1; token = tokens[at]
+            kind_ = 'after'
+            value = r_Claim()
+            if value is None: return None
+            start_ = value
+            if token == 'until':
+                before1 = at
+                before2 = end_
+                while True:
+                    at += 1; token = tokens[at]
+                    value = r_Claim()
+                    if value is None: at = before1; token = tokens[at]; end_ = before2; break
+                    end_ = value
+                    break
+            if not (token == ','): return None
+            at += 1; token = tokens[at]
+        elif token == 'before':
+            at += 1; token = tokens[at]
+            kind_ = 'before'
+            value = r_Claim()
+            if value is None: return None
+            end_ = value
+            if not (token == ','): return None
+            at += 1; token = tokens[at]
+        elif token == 'between':
+            at += 1; token = tokens[at]
+            kind_ = 'between'
+            value = r_Term()
+            if value is None: return None
+            first_ = value
+            if not (token == 'and'): return None
+            at += 1; token = tokens[at]
+            value = r_Term()
+            if value is None: return None
+            last_ = value
+            if not (token == ','): return None
+            at += 1; token = tokens[at]
+        else: return None
+        made = new_node(PropertyScope)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.kind = kind_
+        made.start = start_
+        made.end = end_
+        made.first = first_
+        made.last = last_
+        return made
+
+    def r_Pattern():
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
+        kind_ = ''
+        claim_ = None
+        within_ = None
+        times_ = None
+        other_ = None
+        later_ = []
+        chosen1 = False
+        if not chosen1 and token == 'never':
+            before2 = at
+            before3 = kind_
+            before4 = claim_
+            while True:
+                at += 1; token = tokens[at]
+                kind_ = 'never'
+                value = r_Claim()
+                if value is None: at = before2; token = tokens[at]; kind_ = before3; claim_ = before4; break
+                claim_ = value
+                chosen1 = True
+                break
+        if not chosen1 and token == 'eventually':
+            before5 = at
+            before6 = kind_
+            before7 = claim_
+            before8 = within_
+            while True:
+                at += 1; token = tokens[at]
+                kind_ = 'eventually'
+                value = r_Claim()
+                if value is None: at = before5; token = tokens[at]; kind_ = before6; claim_ = before7; within_ = before8; break
+                claim_ = value
+                if token == 'within':
+                    before9 = at
+                    before10 = within_
+                    while True:
+                        at += 1; token = tokens[at]
+                        found = delay(at)
+                        if found is None: at = before9; token = tokens[at]; within_ = before10; break
+                        value, at = found; token = tokens[at]
+                        within_ = value
+                        break
+                chosen1 = True
+                break
+        if not chosen1 and token == 'always':
+            before11 = at
+            before12 = kind_
+            before13 = claim_
+            while True:
+                at += 1; token = tokens[at]
+                kind_ = 'always'
+                if not (token == 'possible'): at = before11; token = tokens[at]; kind_ = before12; claim_ = before13; break
+                at += 1; token = tokens[at]
+                value = r_Claim()
+                if value is None: at = before11; token = tokens[at]; kind_ = before12; claim_ = before13; break
+                claim_ = value
+                chosen1 = True
+                break
+        if not chosen1 and token == 'again':
+            before14 = at
+            before15 = kind_
+            before16 = claim_
+            while True:
+                at += 1; token = tokens[at]
+                kind_ = 'again'
+                if not (token == 'and'): at = before14; token = tokens[at]; kind_ = before15; claim_ = before16; break
+                at += 1; token = tokens[at]
+                if not (token == 'again'): at = before14; token = tokens[at]; kind_ = before15; claim_ = before16; break
+                at += 1; token = tokens[at]
+                value = r_Claim()
+                if value is None: at = before14; token = tokens[at]; kind_ = before15; claim_ = before16; break
+                claim_ = value
+                chosen1 = True
+                break
+        if not chosen1 and token not in SET15:
+            before17 = at
+            before18 = claim_
+            before19 = kind_
+            before20 = times_
+            before21 = other_
+            before22 = within_
+            before23 = len(later_)
+            while True:
+                value = r_Claim()
+                if value is None: at = before17; token = tokens[at]; claim_ = before18; kind_ = before19; times_ = before20; other_ = before21; within_ = before22; del later_[before23:]; break
+                claim_ = value
+                chosen24 = False
+                if not chosen24 and token == 'at':
+                    before25 = at
+                    before26 = kind_
+                    while True:
+                        at += 1; token = tokens[at]
+                        kind_ = 'at'
+                        if not (token == 'all'): at = before25; token = tokens[at]; kind_ = before26; break
+                        at += 1; token = tokens[at]
+                        if not (token == 'times'): at = before25; token = tokens[at]; kind_ = before26; break
+                        at += 1; token = tokens[at]
+                        chosen24 = True
+                        break
+                if not chosen24 and token == 'at':
+                    before27 = at
+                    before28 = kind_
+                    before29 = times_
+                    while True:
+                        at += 1; token = tokens[at]
+                        kind_ = 'at'
+                        if not (token == 'most'): at = before27; token = tokens[at]; kind_ = before28; times_ = before29; break
+                        at += 1; token = tokens[at]
+                        match30 = REGEX8(text, ends[at + 1] - len(token))
+                        if match30 is None: at = before27; token = tokens[at]; kind_ = before28; times_ = before29; break
+                        end = match30.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before27; token = tokens[at]; kind_ = before28; times_ = before29; break
+                        token = tokens[at]
+                        times_ = match30[0]
+                        if not (token == 'times'): at = before27; token = tokens[at]; kind_ = before28; times_ = before29; break
+                        at += 1; token = tokens[at]
+                        chosen24 = True
+                        break
+                if not chosen24 and token == 'leads':
+                    before31 = at
+                    before32 = kind_
+                    before33 = other_
+                    before34 = within_
+                    while True:
+                        at += 1; token = tokens[at]
+                        kind_ = 'leads'
+                        if not (token == 'to'): at = before31; token = tokens[at]; kind_ = before32; other_ = before33; within_ = before34; break
+                        at += 1; token = tokens[at]
+                        value = r_Claim()
+                        if value is None: at = before31; token = tokens[at]; kind_ = before32; other_ = before33; within_ = before34; break
+                        other_ = value
+                        if token == 'within':
+                            before35 = at
+                            before36 = within_
+                            while True:
+                                at += 1; token = tokens[at]
+                                found = delay(at)
+                                if found is None: at = before35; token = tokens[at]; within_ = before36; break
+                                value, at = found; token = tokens[at]
+                                within_ = value
+                                break
+                        chosen24 = True
+                        break
+                if not chosen24 and token == 'only':
+                    before37 = at
+                    before38 = kind_
+                    before39 = other_
+                    while True:
+                        at += 1; token = tokens[at]
+                        kind_ = 'only'
+                        if not (token == 'after'): at = before37; token = tokens[at]; kind_ = before38; other_ = before39; break
+                        at += 1; token = tokens[at]
+                        value = r_Claim()
+                        if value is None: at = before37; token = tokens[at]; kind_ = before38; other_ = before39; break
+                        other_ = value
+                        chosen24 = True
+                        break
+                if not chosen24 and token == 'then':
+                    before40 = at
+                    before41 = kind_
+                    before42 = len(later_)
+                    while True:
+                        at += 1; token = tokens[at]
+                        kind_ = 'then'
+                        value = r_Claim()
+                        if value is None: at = before40; token = tokens[at]; kind_ = before41; del later_[before42:]; break
+                        later_.append(value)
+                        while token == 'then':
+                            before43 = at
+                            at += 1; token = tokens[at]
+                            value = r_Claim()
+                            if value is None: at = before43; token = tokens[at]; break
+                            later_.append(value)
+                        chosen24 = True
+                        break
+                if not chosen24 and token == 'within':
+                    before44 = at
+                    before45 = kind_
+                    before46 = within_
+                    while True:
+                        at += 1; token = tokens[at]
+                        kind_ = 'within'
+                        found = delay(at)
+                        if found is None: at = before44; token = tokens[at]; kind_ = before45; within_ = before46; break
+                        value, at = found; token = tokens[at]
+                        within_ = value
+                        chosen24 = True
+                        break
+                if not chosen24: at = before17; token = tokens[at]; claim_ = before18; kind_ = before19; times_ = before20; other_ = before21; within_ = before22; del later_[before23:]; break
+                chosen1 = True
+                break
+        if not chosen1: return None
+        made = new_node(Pattern)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.kind = kind_
+        made.claim = claim_
+        made.times = times_
+        made.other = other_
+        made.later = later_
+        made.within = within_
+        return made
+
+    def r_Chance():
+        nonlocal at, token
+        start = ends[at + 1] - 2
+        bound_ = None
+        probability_ = None
+        at += 1; token = tokens[at]
+        if not (token in SET16): return None
+        taken1 = token; at += 1; token = tokens[at]
+        bound_ = taken1
+        match2 = REGEX9(text, ends[at + 1] - len(token))
+        if match2 is None: return None
+        end = match2.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        probability_ = match2[0]
+        made = new_node(Chance)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.bound = bound_
+        made.probability = probability_
         return made
 
     def r_Setting():
@@ -2755,7 +3428,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         taken1 = token; at += 1; token = tokens[at]
         direction_ = taken1
         first = ends[at + 1] - len(token)
-        match2 = REGEX8(text, ends[at + 1] - len(token))
+        match2 = REGEX10(text, ends[at + 1] - len(token))
         if match2 is None: return None
         end = match2.end()
         while ends[at] < end: at += 1
@@ -3181,7 +3854,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         role_ = value
         if not (token == '['): return None
         at += 1; token = tokens[at]
-        match2 = REGEX9(text, ends[at + 1] - len(token))
+        match2 = REGEX8(text, ends[at + 1] - len(token))
         if match2 is None: return None
         end = match2.end()
         while ends[at] < end: at += 1
@@ -3240,7 +3913,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         depth_ = None
         height_ = None
         at += 1; token = tokens[at]
-        match1 = REGEX10(text, ends[at + 1] - len(token))
+        match1 = REGEX11(text, ends[at + 1] - len(token))
         if match1 is None: return None
         end = match1.end()
         while ends[at] < end: at += 1
@@ -3249,7 +3922,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         width_ = match1[0]
         if not (token == 'x'): return None
         at += 1; token = tokens[at]
-        match2 = REGEX10(text, ends[at + 1] - len(token))
+        match2 = REGEX11(text, ends[at + 1] - len(token))
         if match2 is None: return None
         end = match2.end()
         while ends[at] < end: at += 1
@@ -3261,7 +3934,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             before4 = height_
             while True:
                 at += 1; token = tokens[at]
-                match5 = REGEX10(text, ends[at + 1] - len(token))
+                match5 = REGEX11(text, ends[at + 1] - len(token))
                 if match5 is None: at = before3; token = tokens[at]; height_ = before4; break
                 end = match5.end()
                 while ends[at] < end: at += 1
@@ -3320,6 +3993,58 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
+    def r_Claim():
+        nonlocal at, token, depth
+        depth += 1
+        if depth > limit: raise TooDeepError
+        start = ends[at + 1] - len(token)
+        any_ = []
+        value = r_Conjunction()
+        if value is None: depth -= 1; return None
+        any_.append(value)
+        while token == 'or':
+            before1 = at
+            at += 1; token = tokens[at]
+            value = r_Conjunction()
+            if value is None: at = before1; token = tokens[at]; break
+            any_.append(value)
+        depth -= 1
+        made = new_node(Claim)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.any = any_
+        return made
+
+    def r_Term():
+        nonlocal at, token, depth
+        depth += 1
+        if depth > limit: raise TooDeepError
+        start = ends[at + 1] - len(token)
+        negated_ = False
+        claim_ = None
+        fact_ = None
+        if token == 'not':
+            at += 1; token = tokens[at]
+            negated_ = True
+        if token == '(':
+            at += 1; token = tokens[at]
+            value = r_Claim()
+            if value is None: depth -= 1; return None
+            claim_ = value
+            if not (token == ')'): depth -= 1; return None
+            at += 1; token = tokens[at]
+        elif token not in SET17:
+            value = r_Fact()
+            if value is None: depth -= 1; return None
+            fact_ = value
+        else: depth -= 1; return None
+        depth -= 1
+        made = new_node(Term)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.negated = negated_
+        made.claim = claim_
+        made.fact = fact_
+        return made
+
     def r_Parameter():
         nonlocal at, token
         start = ends[at + 1] - len(token)
@@ -3327,7 +4052,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         type_ = None
         chosen1 = False
-        if not chosen1 and token in SET14:
+        if not chosen1 and token in SET18:
             before2 = at
             before3 = direction_
             before4 = name_
@@ -3408,7 +4133,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 at += 1; token = tokens[at]
                 break
         first = ends[at + 1] - len(token)
-        match4 = REGEX8(text, ends[at + 1] - len(token))
+        match4 = REGEX10(text, ends[at + 1] - len(token))
         if match4 is None: return None
         end = match4.end()
         while ends[at] < end: at += 1
@@ -3493,7 +4218,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             before13 = len(items_)
             while True:
                 at += 1; token = tokens[at]
-                while token in SET15:
+                while token in SET19:
                     before14 = at
                     before15 = len(items_)
                     rule = StateItem_RULES.get(token)
@@ -3534,7 +4259,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = value
         if not (token == '{'): depth -= 1; return None
         at += 1; token = tokens[at]
-        while token in SET16:
+        while token in SET20:
             before2 = at
             before3 = len(items_)
             rule = ParallelItem_RULES.get(token)
@@ -3568,7 +4293,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = value
         if not (token == '{'): return None
         at += 1; token = tokens[at]
-        while token in SET17:
+        while token in SET21:
             before2 = at
             before3 = len(branches_)
             value = r_Branch()
@@ -3658,7 +4383,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - len(token)
         lower_ = None
         upper_ = None
-        match1 = REGEX11(text, ends[at + 1] - len(token))
+        match1 = REGEX12(text, ends[at + 1] - len(token))
         if match1 is None: return None
         end = match1.end()
         while ends[at] < end: at += 1
@@ -3671,7 +4396,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             while True:
                 if not (token == '.' and tokens[at + 1] == '.' and ends[at + 2] == ends[at + 1] + 1): at = before2; token = tokens[at]; upper_ = before3; break
                 at += 2; token = tokens[at]
-                match4 = REGEX11(text, ends[at + 1] - len(token))
+                match4 = REGEX12(text, ends[at + 1] - len(token))
                 if match4 is None: at = before2; token = tokens[at]; upper_ = before3; break
                 end = match4.end()
                 while ends[at] < end: at += 1
@@ -3683,6 +4408,313 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.span = new_span(Span, (source, start, ends[at]))
         made.lower = lower_
         made.upper = upper_
+        return made
+
+    def r_Conjunction():
+        nonlocal at, token, depth
+        depth += 1
+        if depth > limit: raise TooDeepError
+        start = ends[at + 1] - len(token)
+        all_ = []
+        value = r_Term()
+        if value is None: depth -= 1; return None
+        all_.append(value)
+        while token == 'and':
+            before1 = at
+            at += 1; token = tokens[at]
+            value = r_Term()
+            if value is None: at = before1; token = tokens[at]; break
+            all_.append(value)
+        depth -= 1
+        made = new_node(Conjunction)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.all = all_
+        return made
+
+    def r_Fact():
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
+        counted_ = None
+        state_ = None
+        comparison_ = None
+        number_ = None
+        guard_ = None
+        act_ = None
+        event_ = None
+        function_ = None
+        who_ = None
+        chosen1 = False
+        if not chosen1 and token == 'count':
+            before2 = at
+            before3 = counted_
+            before4 = state_
+            before5 = comparison_
+            before6 = number_
+            while True:
+                at += 1; token = tokens[at]
+                if not (token == '('): at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                at += 1; token = tokens[at]
+                if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                taken7 = token; at += 1; token = tokens[at]
+                value = new_node(Ref)
+                value.name = taken7
+                value.kind = 'Role'
+                value.span = new_span(Span, (source, ends[at] - len(taken7), ends[at]))
+                value.target = None
+                counted_ = value
+                if not (token == 'in'): at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                at += 1; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                taken9 = token; at += 1; token = tokens[at]
+                text8 = taken9
+                if token == '.':
+                    match10 = REGEX0(text, ends[at + 1] - len(token))
+                    if match10[0]:
+                        text8 += match10[0]
+                        end = match10.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text8
+                value.kind = 'Vertex'
+                value.span = new_span(Span, (source, first, first + len(text8)))
+                value.target = None
+                state_ = value
+                if not (token == ')'): at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                at += 1; token = tokens[at]
+                match11 = REGEX13(text, ends[at + 1] - len(token))
+                if match11 is None: at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                end = match11.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                token = tokens[at]
+                comparison_ = match11[0]
+                match12 = REGEX8(text, ends[at + 1] - len(token))
+                if match12 is None: at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                end = match12.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before2; token = tokens[at]; counted_ = before3; state_ = before4; comparison_ = before5; number_ = before6; break
+                token = tokens[at]
+                number_ = match12[0]
+                chosen1 = True
+                break
+        if not chosen1 and token == 'in':
+            before13 = at
+            before14 = state_
+            while True:
+                at += 1; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before13; token = tokens[at]; state_ = before14; break
+                taken16 = token; at += 1; token = tokens[at]
+                text15 = taken16
+                if token == '.':
+                    match17 = REGEX0(text, ends[at + 1] - len(token))
+                    if match17[0]:
+                        text15 += match17[0]
+                        end = match17.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before13; token = tokens[at]; state_ = before14; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text15
+                value.kind = 'Vertex'
+                value.span = new_span(Span, (source, first, first + len(text15)))
+                value.target = None
+                state_ = value
+                chosen1 = True
+                break
+        if not chosen1 and token == 'has':
+            before18 = at
+            before19 = guard_
+            while True:
+                at += 1; token = tokens[at]
+                if not (token == '['): at = before18; token = tokens[at]; guard_ = before19; break
+                at += 1; token = tokens[at]
+                found = expression(at)
+                if found is None: at = before18; token = tokens[at]; guard_ = before19; break
+                value, at = found; token = tokens[at]
+                guard_ = value
+                if not (token == ']'): at = before18; token = tokens[at]; guard_ = before19; break
+                at += 1; token = tokens[at]
+                chosen1 = True
+                break
+        if not chosen1 and token in SET22:
+            before20 = at
+            before21 = act_
+            before22 = event_
+            while True:
+                taken23 = token; at += 1; token = tokens[at]
+                act_ = taken23
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before20; token = tokens[at]; act_ = before21; event_ = before22; break
+                taken25 = token; at += 1; token = tokens[at]
+                text24 = taken25
+                if token == '.':
+                    match26 = REGEX0(text, ends[at + 1] - len(token))
+                    if match26[0]:
+                        text24 += match26[0]
+                        end = match26.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before20; token = tokens[at]; act_ = before21; event_ = before22; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text24
+                value.kind = 'Event'
+                value.span = new_span(Span, (source, first, first + len(text24)))
+                value.target = None
+                event_ = value
+                chosen1 = True
+                break
+        if not chosen1 and token in SET23:
+            before27 = at
+            before28 = act_
+            before29 = function_
+            while True:
+                taken30 = token; at += 1; token = tokens[at]
+                act_ = taken30
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before27; token = tokens[at]; act_ = before28; function_ = before29; break
+                taken32 = token; at += 1; token = tokens[at]
+                text31 = taken32
+                if token == '.':
+                    match33 = REGEX0(text, ends[at + 1] - len(token))
+                    if match33[0]:
+                        text31 += match33[0]
+                        end = match33.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before27; token = tokens[at]; act_ = before28; function_ = before29; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text31
+                value.kind = 'Function'
+                value.span = new_span(Span, (source, first, first + len(text31)))
+                value.target = None
+                function_ = value
+                chosen1 = True
+                break
+        if not chosen1 and token not in SET24:
+            before34 = at
+            before35 = who_
+            before36 = state_
+            before37 = guard_
+            before38 = act_
+            before39 = event_
+            before40 = function_
+            while True:
+                value = r_Who()
+                if value is None: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                who_ = value
+                if token == 'in':
+                    at += 1; token = tokens[at]
+                    first = ends[at + 1] - len(token)
+                    if not (token >= 'A' and token not in SET2): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    taken42 = token; at += 1; token = tokens[at]
+                    text41 = taken42
+                    if token == '.':
+                        match43 = REGEX0(text, ends[at + 1] - len(token))
+                        if match43[0]:
+                            text41 += match43[0]
+                            end = match43.end()
+                            while ends[at] < end: at += 1
+                            if ends[at] > end: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                            token = tokens[at]
+                    value = new_node(Ref)
+                    value.name = text41
+                    value.kind = 'Vertex'
+                    value.span = new_span(Span, (source, first, first + len(text41)))
+                    value.target = None
+                    state_ = value
+                elif token == 'has':
+                    at += 1; token = tokens[at]
+                    if not (token == '['): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    at += 1; token = tokens[at]
+                    found = expression(at)
+                    if found is None: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    value, at = found; token = tokens[at]
+                    guard_ = value
+                    if not (token == ']'): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    at += 1; token = tokens[at]
+                elif token in SET22:
+                    taken44 = token; at += 1; token = tokens[at]
+                    act_ = taken44
+                    first = ends[at + 1] - len(token)
+                    if not (token >= 'A' and token not in SET2): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    taken46 = token; at += 1; token = tokens[at]
+                    text45 = taken46
+                    if token == '.':
+                        match47 = REGEX0(text, ends[at + 1] - len(token))
+                        if match47[0]:
+                            text45 += match47[0]
+                            end = match47.end()
+                            while ends[at] < end: at += 1
+                            if ends[at] > end: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                            token = tokens[at]
+                    value = new_node(Ref)
+                    value.name = text45
+                    value.kind = 'Event'
+                    value.span = new_span(Span, (source, first, first + len(text45)))
+                    value.target = None
+                    event_ = value
+                elif token in SET23:
+                    taken48 = token; at += 1; token = tokens[at]
+                    act_ = taken48
+                    first = ends[at + 1] - len(token)
+                    if not (token >= 'A' and token not in SET2): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    taken50 = token; at += 1; token = tokens[at]
+                    text49 = taken50
+                    if token == '.':
+                        match51 = REGEX0(text, ends[at + 1] - len(token))
+                        if match51[0]:
+                            text49 += match51[0]
+                            end = match51.end()
+                            while ends[at] < end: at += 1
+                            if ends[at] > end: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                            token = tokens[at]
+                    value = new_node(Ref)
+                    value.name = text49
+                    value.kind = 'Function'
+                    value.span = new_span(Span, (source, first, first + len(text49)))
+                    value.target = None
+                    function_ = value
+                else: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                chosen1 = True
+                break
+        if not chosen1 and token >= 'A' and token not in SET2:
+            before52 = at
+            while True:
+                first = ends[at + 1] - len(token)
+                taken54 = token; at += 1; token = tokens[at]
+                text53 = taken54
+                if token == '.':
+                    match55 = REGEX0(text, ends[at + 1] - len(token))
+                    if match55[0]:
+                        text53 += match55[0]
+                        end = match55.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before52; token = tokens[at]; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text53
+                value.kind = 'Event'
+                value.span = new_span(Span, (source, first, first + len(text53)))
+                value.target = None
+                event_ = value
+                chosen1 = True
+                break
+        if not chosen1: return None
+        made = new_node(Fact)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.counted = counted_
+        made.state = state_
+        made.comparison = comparison_
+        made.number = number_
+        made.who = who_
+        made.guard = guard_
+        made.act = act_
+        made.event = event_
+        made.function = function_
         return made
 
     def r_Argument():
@@ -3771,6 +4803,114 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.effects = effects_
         made.target = target_
         made.doc = docs.pop(start) if start in docs else ''
+        return made
+
+    def r_Who():
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
+        quantifier_ = None
+        other_ = False
+        role_ = None
+        lower_ = None
+        upper_ = None
+        index_ = None
+        chosen1 = False
+        if not chosen1 and token in SET25:
+            before2 = at
+            before3 = quantifier_
+            before4 = other_
+            before5 = role_
+            while True:
+                taken6 = token; at += 1; token = tokens[at]
+                quantifier_ = taken6
+                if token == 'other':
+                    at += 1; token = tokens[at]
+                    other_ = True
+                if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; quantifier_ = before3; other_ = before4; role_ = before5; break
+                taken7 = token; at += 1; token = tokens[at]
+                value = new_node(Ref)
+                value.name = taken7
+                value.kind = 'Role'
+                value.span = new_span(Span, (source, ends[at] - len(taken7), ends[at]))
+                value.target = None
+                role_ = value
+                chosen1 = True
+                break
+        if not chosen1 and (token == '*' or token < 'A' and token not in SET3):
+            before8 = at
+            before9 = lower_
+            before10 = upper_
+            before11 = role_
+            while True:
+                match12 = REGEX12(text, ends[at + 1] - len(token))
+                if match12 is None: at = before8; token = tokens[at]; lower_ = before9; upper_ = before10; role_ = before11; break
+                end = match12.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before8; token = tokens[at]; lower_ = before9; upper_ = before10; role_ = before11; break
+                token = tokens[at]
+                lower_ = match12[0]
+                if token == '.':
+                    before13 = at
+                    before14 = upper_
+                    while True:
+                        if not (token == '.' and tokens[at + 1] == '.' and ends[at + 2] == ends[at + 1] + 1): at = before13; token = tokens[at]; upper_ = before14; break
+                        at += 2; token = tokens[at]
+                        match15 = REGEX12(text, ends[at + 1] - len(token))
+                        if match15 is None: at = before13; token = tokens[at]; upper_ = before14; break
+                        end = match15.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before13; token = tokens[at]; upper_ = before14; break
+                        token = tokens[at]
+                        upper_ = match15[0]
+                        break
+                if not (token >= 'A' and token not in SET2): at = before8; token = tokens[at]; lower_ = before9; upper_ = before10; role_ = before11; break
+                taken16 = token; at += 1; token = tokens[at]
+                value = new_node(Ref)
+                value.name = taken16
+                value.kind = 'Role'
+                value.span = new_span(Span, (source, ends[at] - len(taken16), ends[at]))
+                value.target = None
+                role_ = value
+                chosen1 = True
+                break
+        if not chosen1 and token >= 'A' and token not in SET2:
+            before17 = at
+            before18 = role_
+            before19 = index_
+            while True:
+                taken20 = token; at += 1; token = tokens[at]
+                value = new_node(Ref)
+                value.name = taken20
+                value.kind = 'Role'
+                value.span = new_span(Span, (source, ends[at] - len(taken20), ends[at]))
+                value.target = None
+                role_ = value
+                if token == '[':
+                    before21 = at
+                    before22 = index_
+                    while True:
+                        at += 1; token = tokens[at]
+                        match23 = REGEX8(text, ends[at + 1] - len(token))
+                        if match23 is None: at = before21; token = tokens[at]; index_ = before22; break
+                        end = match23.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before21; token = tokens[at]; index_ = before22; break
+                        token = tokens[at]
+                        index_ = match23[0]
+                        if not (token == ']'): at = before21; token = tokens[at]; index_ = before22; break
+                        at += 1; token = tokens[at]
+                        break
+                chosen1 = True
+                break
+        if not chosen1: return None
+        made = new_node(Who)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.quantifier = quantifier_
+        made.other = other_
+        made.lower = lower_
+        made.upper = upper_
+        made.role = role_
+        made.index = index_
         return made
 
     def r_Activity():
@@ -3945,7 +5085,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             at += 1; token = tokens[at]
             internal_ = True
         chosen1 = False
-        if not chosen1 and token in SET18:
+        if not chosen1 and token in SET26:
             before2 = at
             before3 = len(triggers_)
             before4 = guard_
@@ -4067,14 +5207,14 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             before22 = len(triggers_)
             while True:
                 at += 1; token = tokens[at]
-                if not (token in SET19): at = before21; token = tokens[at]; del triggers_[before22:]; break
+                if not (token in SET27): at = before21; token = tokens[at]; del triggers_[before22:]; break
                 value = r_OutcomeTrigger()
                 if value is None: at = before21; token = tokens[at]; del triggers_[before22:]; break
                 triggers_.append(value)
                 while token == ',':
                     before23 = at
                     at += 1; token = tokens[at]
-                    if not (token in SET19): at = before23; token = tokens[at]; break
+                    if not (token in SET27): at = before23; token = tokens[at]; break
                     value = r_OutcomeTrigger()
                     if value is None: at = before23; token = tokens[at]; break
                     triggers_.append(value)
@@ -4159,7 +5299,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = value
         if not (token == '{'): depth -= 1; return None
         at += 1; token = tokens[at]
-        while token in SET20:
+        while token in SET28:
             before2 = at
             before3 = len(items_)
             rule = RegionItem_RULES.get(token)
@@ -4432,7 +5572,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 first = ends[at + 1] - len(token)
                 taken6 = token; at += 1; token = tokens[at]
                 text5 = taken6
-                match7 = REGEX12(text, ends[at + 1] - len(token))
+                match7 = REGEX14(text, ends[at + 1] - len(token))
                 if match7 is None: at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
                 end = match7.end()
                 while ends[at] < end: at += 1
@@ -4452,7 +5592,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 at += 1; token = tokens[at]
                 chosen1 = True
                 break
-        if not chosen1 and token not in SET21:
+        if not chosen1 and token not in SET29:
             before8 = at
             while True:
                 found = expression(at)
@@ -4521,7 +5661,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return r_EventTrigger()
 
     Import_RULES = {'import': try_ImportRos_ImportFile_ImportLibrary}
-    Declaration_RULES = {'action': r_ActionType, 'actuator': r_Component, 'const': r_Constant, 'controller': r_Component, 'endless': r_StateMachine, 'enum': r_EnumType, 'environment': r_Environment, 'event': r_Event, 'fitness': r_Fitness, 'function': r_Function, 'member': r_Member, 'message': r_MessageType, 'sensor': r_Component, 'service': r_ServiceType, 'statemachine': r_StateMachine, 'struct': r_StructType, 'swarm': try_Event_Swarm, 'type': r_AliasType, 'virtual': r_Component}
+    Declaration_RULES = {'action': r_ActionType, 'actuator': r_Component, 'const': r_Constant, 'controller': r_Component, 'endless': r_StateMachine, 'enum': r_EnumType, 'environment': r_Environment, 'event': r_Event, 'fitness': r_Fitness, 'function': r_Function, 'member': r_Member, 'message': r_MessageType, 'property': r_Property, 'sensor': r_Component, 'service': r_ServiceType, 'statemachine': r_StateMachine, 'struct': r_StructType, 'swarm': try_Event_Swarm, 'type': r_AliasType, 'virtual': r_Component}
     OptimizationItem_RULES = {'count': try_CountRange_ParamRange, 'evaluations': try_Setting_ParamRange, 'seed': try_Setting_ParamRange, 'steps': try_Setting_ParamRange}
     FunctionItem_RULES = {'action': r_Communication, 'in': r_FunctionPort, 'out': r_FunctionPort, 'param': r_Param, 'service': r_Communication}
     ComponentItem_RULES = {'behavior': r_BehaviorUse, 'in': r_Port, 'inout': r_Port, 'operation': r_Operation, 'out': r_Port, 'param': r_Param}
@@ -4548,7 +5688,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return model, len(expressions.faults)
     finally:
         # They refer to each other: so they are gone at once, without the garbage collector.
-        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Field = r_TypeRef = r_EnumValue = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Argument = r_Branch = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_OutcomeTrigger = r_Send = r_Assignment = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
+        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Property = r_Field = r_TypeRef = r_EnumValue = r_Each = r_PropertyScope = r_Pattern = r_Chance = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Claim = r_Term = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Conjunction = r_Fact = r_Argument = r_Branch = r_Who = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_OutcomeTrigger = r_Send = r_Assignment = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
 
 LANGUAGE = Language(LEXER, RESERVED)
 # An item may stand after them on one line; the last one is the start of the file.

@@ -3,37 +3,63 @@
 from __future__ import annotations
 
 # Words that cannot be names.
-RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
+RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
 # Words that are keywords only where the grammar expects them, with a pattern of what follows them.
 CONTEXTUAL = {
     'abstraction': '[{]',
+    'again': '[*A-Za-z_0-9"]',
+    'all': '[A-Za-z_]',
+    'always': '(?:possible)\\b',
     'as': '[A-Za-z_]',
+    'at': '(?:all|least|most)\\b',
+    'before': '[*A-Za-z_0-9"]',
+    'between': '[*A-Za-z_0-9"]',
     'by': '[A-Za-z_]',
-    'count': '(?:of)\\b',
+    'cancels': '[A-Za-z_]',
+    'count': '(?:(?:of)\\b|[(])',
     'deep': '(?:history)\\b',
+    'each': '[A-Za-z_]',
     'evaluations': '[A-Za-z_0-9"-]',
+    'eventually': '[*A-Za-z_0-9"]',
     'feedback': '[{]',
     'goal': '[{]',
+    'has': '[\\[]',
+    'hears': '[A-Za-z_]',
     'internal': '(?:(?:after|monitor|on)\\b|[\\[])',
+    'leads': '(?:to)\\b',
+    'least': '[0-9"]',
     'maximize': '[A-Za-z_0-9"-]',
     'minimize': '[A-Za-z_0-9"-]',
+    'most': '[0-9"]',
+    'never': '[*A-Za-z_0-9"]',
+    'no': '[A-Za-z_]',
     'of': '[A-Za-z_]',
+    'only': '(?:after)\\b',
+    'other': '[A-Za-z_]',
+    'possible': '[*A-Za-z_0-9"]',
     'request': '[{]',
     'response': '[{]',
     'result': '[{]',
     'ros': '[0-9"]',
     'seed': '[A-Za-z_0-9"-]',
+    'sends': '[A-Za-z_]',
     'size': '[0-9"]',
+    'some': '[A-Za-z_]',
+    'starts': '[A-Za-z_]',
     'step': '[A-Za-z_0-9"-]',
     'steps': '[A-Za-z_0-9"-]',
-    'to': '[A-Za-z_0-9"-]',
+    'then': '[*A-Za-z_0-9"]',
+    'times': '$',
+    'to': '[*A-Za-z_0-9"-]',
+    'until': '[*A-Za-z_0-9"]',
+    'within': '[A-Za-z_0-9"-]',
     'world': '[0-9"]',
     'x': '[0-9"]',
 }
 # The first keywords of the alternatives of a rule.
 FIRST = {
     'ComponentItem': frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param']),
-    'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
+    'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
     'Effect': frozenset(['event', 'false', 'not', 'self', 'send', 'true']),
     'EnvironmentItem': frozenset(['size', 'world']),
     'FitnessItem': frozenset(['in', 'maximize', 'minimize', 'param']),
@@ -45,6 +71,7 @@ FIRST = {
     'OptimizationItem': frozenset(['count', 'evaluations', 'seed', 'steps']),
     'Package': frozenset(['package']),
     'ParallelItem': frozenset(['after', 'entry', 'exit', 'internal', 'monitor', 'on', 'region']),
+    'PropertySubject': frozenset(['endless', 'statemachine', 'swarm']),
     'RegionItem': frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state']),
     'StateItem': frozenset(['after', 'choice', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state']),
     'SwarmItem': frozenset(['environment', 'fitness']),
@@ -52,7 +79,7 @@ FIRST = {
     'Vertex': frozenset(['choice', 'deep', 'final', 'history', 'parallel', 'state']),
 }
 # Keywords of sections of a file: of its header, its declarations, its optimizations.
-TOP_LEVEL = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'import', 'member', 'message', 'optimize', 'package', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
+TOP_LEVEL = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'import', 'member', 'message', 'optimize', 'package', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 # Keywords of items in blocks that begin a statement anywhere on a line.
 STATEMENTS = frozenset(['after', 'behavior', 'choice', 'communication', 'connect', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'operation', 'parallel', 'param', 'region', 'state', 'var'])
 # Keywords before the keyword of a statement, by the keywords that can follow them.
@@ -65,12 +92,13 @@ MODIFIERS = {
 }
 # Keywords of optional clauses, by the first keywords of the statements that have them.
 CLAUSES = {
+    'after': frozenset(['property']),
     'extends': frozenset(['actuator', 'controller', 'member', 'sensor', 'virtual']),
     'gives': frozenset(['do']),
     'on': frozenset(['event', 'in', 'inout', 'out', 'swarm']),
 }
 # Keywords that the name of a new element follows.
-NAMING = frozenset(['actuator', 'choice', 'communication', 'const', 'controller', 'enum', 'environment', 'event', 'final', 'fitness', 'function', 'history', 'member', 'operation', 'region', 'sensor', 'state', 'statemachine', 'struct', 'type', 'virtual'])
+NAMING = frozenset(['actuator', 'choice', 'communication', 'const', 'controller', 'enum', 'environment', 'event', 'final', 'fitness', 'function', 'history', 'member', 'operation', 'property', 'region', 'sensor', 'state', 'statemachine', 'struct', 'type', 'virtual'])
 # Keywords by what they are for, where that is more special than a declaration.
 GROUPS = {
     'include': frozenset(['import', 'package', 'ros']),
@@ -82,4 +110,4 @@ GROUPS = {
 # Keywords of declarations that can follow `:`, as categories.
 CATEGORIES = frozenset(['swarm'])
 # Keywords that a name can follow.
-BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'and', 'as', 'behavior', 'by', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'enum', 'environment', 'evaluations', 'event', 'extends', 'final', 'fitness', 'function', 'history', 'import', 'in', 'initial', 'inout', 'maximize', 'member', 'message', 'minimize', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'param', 'region', 'seed', 'send', 'sensor', 'service', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'to', 'type', 'var', 'virtual'])
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'as', 'before', 'behavior', 'between', 'by', 'cancels', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'history', 'import', 'in', 'initial', 'inout', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'within'])

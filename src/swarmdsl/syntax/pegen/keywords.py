@@ -160,8 +160,9 @@ class Keywords:
         """Pattern of the tokens that can follow a keyword, for editors to tell it from a name."""
         after = self.after[word]
         words = frozenset(filter(str.isalpha, after.tokens))
-        # A word before `(` is mostly the name of an argument or a call.
-        symbols = "".join(sorted(after.tokens - words - set("[-(")))
+        # A word before `(` is mostly the name of an argument or a call, where values can follow.
+        values = after.but is not None or "" in after.tokens
+        symbols = "".join(sorted(after.tokens - words - set("[-(" if values else "[-")))
         if after.but is not None:
             symbols, words = f"{symbols}A-Za-z_", frozenset()
         if "" in after.tokens:
@@ -172,6 +173,8 @@ class Keywords:
         found = [dialect.group(sorted(words)) + dialect.word_end] if words else []
         if symbols:
             found.append(f"[{symbols}]")
+        if not found:
+            return "$"  # it ends a statement
         return found[0] if len(found) == 1 else dialect.group(found)
 
     def _words(self, expression: Expression) -> frozenset[str]:

@@ -19,12 +19,14 @@ from swarmdsl.ir import (
     Optimization,
     Part,
     Port,
+    Property,
     RobotValues,
     Role,
     Service,
     Swarm,
     System,
 )
+from swarmdsl.ir.sentences import Named, sentence
 from swarmdsl.tools.compare.behaviour import machine_element, param_elements
 from swarmdsl.tools.compare.elements import (
     Element,
@@ -53,6 +55,7 @@ def model_element(system: System) -> Element:
         *_others(system),
         *(_swarm(each) for each in system.swarms),
         *(_optimization(each) for each in system.optimizations),
+        *(_property(each, system) for each in system.properties),
     )
     root = Element("model", (system.name,), (), children, origin=system.origin)
     return with_doc(root, system.doc)
@@ -279,6 +282,19 @@ def _swarm(swarm: Swarm) -> Element:
     robots = (_robot(role, robot) for role in swarm.roles for robot in role.robots)
     element = Element("swarm", (swarm.name,), values, (*roles, *robots), ref, swarm.origin)
     return with_doc(element, swarm.doc, swarm.docs)
+
+
+def _property(each: Property, system: System) -> Element:
+    kind = "statemachine" if each.subject in system.machines_by_name else "swarm"
+    says: list[str | Ref] = []
+    for part in sentence(each):
+        if isinstance(part, Named):
+            says.append(Ref(part.kind, part.name))
+        else:
+            says += [part] if isinstance(part, str) else expression_value(part)
+    values = properties(about=_named(each.subject, kind), says=tuple(says))
+    ref = Ref("property", each.name)
+    return with_doc(Element("property", (each.name,), values, (), ref, each.origin), each.doc)
 
 
 def _optimization(search: Optimization) -> Element:

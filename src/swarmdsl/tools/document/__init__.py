@@ -44,6 +44,7 @@ _SECTIONS: tuple[tuple[str, str, tuple[str, ...], _EntryFunction], ...] = (
     ("section-types", "Types", ("type",), interfaces.alias),
     ("section-environments", "Environments", ("environment",), architecture.environment),
     ("section-fitness", "Fitness", ("fitness",), architecture.fitness),
+    ("section-properties", "Properties", ("property",), architecture.property_),
     ("section-optimizations", "Optimizations", ("optimization",), architecture.optimization),
 )
 _TABLES: dict[str, Callable[[EntryBuilder], Table]] = {

@@ -1,4 +1,4 @@
-"""Entries of swarms, members, components, environments, fitness and optimizations."""
+"""Entries of swarms, members, components, environments, fitness, properties and optimizations."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ from swarmdsl.syntax.ast import (
     ParamRange,
     Part,
     Port,
+    Property,
     RobotValues,
     Role,
     Setting,
@@ -161,6 +162,13 @@ def fitness(element: Element, builder: EntryBuilder) -> Entry:
         builder.params(element, (item for item in node.items if isinstance(item, Param))),
     )
     return builder.entry(element, [*facts, ("used by", builder.used_by(element))], blocks)
+
+
+def property_(element: Element, builder: EntryBuilder) -> Entry:
+    """Entry of a property: its sentence, and what it is about."""
+    node = element.node
+    assert isinstance(node, Property)
+    return builder.entry(element, [("about", _target(builder, node.about))])
 
 
 def optimization(element: Element, builder: EntryBuilder) -> Entry:

@@ -25,6 +25,7 @@ from swarmdsl.syntax.ast import (
     Member,
     MessageType,
     Node,
+    Property,
     Region,
     ServiceType,
     State,
@@ -45,6 +46,7 @@ _ORDER: Sequence[tuple[type, ...]] = (
     (StateMachine,),
     (Swarm,),
     (Environment, Fitness),
+    (Property,),
 )
 CONTAINERS = (StateMachine, State, Region)
 Container = StateMachine | State | Region

@@ -1,0 +1,201 @@
+"""Checks of properties: what they are about, their robots, and facts that never hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import partial
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.resolve.multiplicity import greatest
+from swarmdsl.analysis.resolve.properties import machines_of_fact, role_of_fact, subjects_of
+from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import (
+    Activity,
+    EventTrigger,
+    Fact,
+    Node,
+    Property,
+    Send,
+    State,
+    StateMachine,
+    Swarm,
+    Who,
+    nodes_of,
+    whole,
+)
+from swarmdsl.syntax.types import BOOL, DURATION
+
+
+def check_subjects(project: Project, context: Context) -> None:
+    """Check that a property that names no swarm or machine is about the only one."""
+    for file, owner in project.declarations():
+        if not isinstance(owner, Property) or owner.subject is not None or file.library:
+            continue
+        found = subjects_of(project)
+        if len(found) == 1 or any(each.parsed.skipped_names for each in project.files):
+            continue
+        names = [f"of {each.name}" for each in found]
+        help_ = f"write {listed(names)} after its name" if names else "declare a `swarm`"
+        context.report.report("unclear-property", owner.name.span, name=owner.name, help=help_)
+
+
+def check_property(owner: Property, context: Context) -> None:
+    """Check a property: its duration, its probability, and its facts."""
+    body = owner.body
+    if body.within is not None:
+        context.check_constant(body.within, DURATION)
+        value = context.typing.folding.value(body.within.tree) if body.within.tree else None
+        if isinstance(value, (int, float)) and value < 0:
+            context.report.report("negative-delay", body.within.span)
+    chance = owner.chance
+    if chance is not None and float(chance.probability) > 1:
+        context.report.report(
+            "bad-chance",
+            chance.span,
+            text=chance.probability,
+            help="write a number from 0 to 1, such as `0.95`",
+        )
+    if isinstance(owner.about, StateMachine):
+        _check_no_robots(owner, owner.about, context)
+    elif owner.about is not None:
+        for fact in nodes_of(owner, Fact):
+            _check_robots(fact, owner, context)
+    for fact in nodes_of(owner, Fact):
+        if fact.guard is not None:
+            context.expect(fact.guard, BOOL, context.typing)
+        if owner.about is not None and not context.incomplete:
+            _check_possible(fact, owner, context)
+
+
+def _check_no_robots(owner: Property, machine: StateMachine, context: Context) -> None:
+    """Report roles in a property of a machine."""
+    places = [fact.counted.span for fact in nodes_of(owner, Fact) if fact.counted is not None]
+    places += [who.role.span for who in nodes_of(owner, Who)]
+    places += [owner.each.role.span] if owner.each is not None else []
+    for place in places:
+        context.report.report(
+            "misplaced-robots",
+            place,
+            name=place.text,
+            fault=f"is not part of state machine `{machine.name}`",
+            related=(Label(machine.name.span, "the property is about this state machine"),),
+            help="leave it out, or write `of` with the name of a swarm",
+        )
+
+
+def _check_robots(fact: Fact, owner: Property, context: Context) -> None:
+    """Check that a fact in a property of a swarm says which robots it is about."""
+    if fact.who is None:
+        if owner.each is None and fact.counted is None and (fact.act or fact.event is None):
+            context.report.report(
+                "unnamed-robot",
+                fact.span,
+                which="which robot it is about",
+                help="begin the property with `each ROLE :`, or write `all ROLE`, `some ROLE` or "
+                "`no ROLE` here",
+            )
+        return
+    who, role = fact.who, fact.who.role.target
+    if role is None:
+        return
+    misplaced = partial(context.report.report, "misplaced-robots", who.span, name=who.span.text)
+    if who.other and (owner.each is None or owner.each.role.target is not role):
+        misplaced(
+            fault="has no robot to be another one of",
+            help=f"begin the property with `each {role.name} :`",
+        )
+    most = greatest(role)
+    if who.index:
+        if most is not None and whole(who.index) >= most:
+            misplaced(
+                fault=f"is no robot of role `{role.name}`",
+                related=(Label(role.span, "it has robots from 0 on"),),
+                help=f"the last one is `{role.name}[{most - 1}]`" if most else None,
+            )
+    elif not who.quantifier and not who.lower and most != 1:
+        context.report.report(
+            "unnamed-robot",
+            who.span,
+            which=f"which robot of role `{role.name}` it is about",
+            related=(Label(role.span, "it can have several"),),
+            help=f"write `all {role.name}`, `some {role.name}`, `no {role.name}` or "
+            f"`{role.name}[0]`",
+        )
+
+
+def _check_possible(fact: Fact, owner: Property, context: Context) -> None:
+    """Report a fact that can never hold."""
+    reason = _limit(fact) or _never_done(fact, owner)
+    if reason is not None:
+        context.report.report(
+            "impossible-fact",
+            fact.span,
+            reason=reason,
+            help="change it, or the model so that it can happen",
+        )
+
+
+def _limit(fact: Fact) -> str | None:
+    """Describe why a role never has so many robots; None if it can."""
+    role = fact.counted.target if fact.counted is not None else None
+    if role is not None:
+        needed = whole(fact.number) + (fact.comparison == ">")
+        if fact.comparison not in (">", ">=", "=="):
+            return "a number is never below 0" if (fact.comparison, needed) == ("<", 0) else None
+    elif fact.who is not None and fact.who.lower and fact.who.lower != "*":
+        role, needed = fact.who.role.target, whole(fact.who.lower)
+    most = greatest(role) if role is not None else None
+    if role is None or most is None or needed <= most:
+        return None
+    return f"role `{role.name}` has at most {most} robot{'s' if most != 1 else ''}"
+
+
+def _never_done(fact: Fact, owner: Property) -> str | None:
+    """Describe why machines never do this; None if one can."""
+    if fact.event is None and fact.function is None:
+        return None
+    if fact.act:
+        machines = machines_of_fact(fact, owner)
+        role = role_of_fact(fact, owner)
+        who = f"role `{role.name}`" if role is not None else f"`{getattr(owner.about, 'name', '')}`"
+    else:
+        machines, who = _machines_of(owner), f"`{getattr(owner.about, 'name', '')}`"
+    if not machines:
+        return None
+    found: set[Node | None] = set()
+    for machine in _with_reused(machines):
+        if fact.function is not None:
+            found |= {each.function.target for each in nodes_of(machine, Activity)}
+        elif fact.act == "sends":
+            found |= {each.event.target for each in nodes_of(machine, Send)}
+        else:
+            found |= {each.event.target for each in nodes_of(machine, EventTrigger)}
+    ref = fact.event if fact.event is not None else fact.function
+    assert ref is not None
+    if ref.target is None or None in found or ref.target in found:
+        return None
+    verb = {"": "waits for", "hears": "waits for", "sends": "sends"}.get(fact.act, "calls")
+    return f"{who} never {verb} `{ref.name}`"
+
+
+def _machines_of(owner: Property) -> list[StateMachine]:
+    if isinstance(owner.about, StateMachine):
+        return [owner.about]
+    from swarmdsl.analysis.resolve.addresses import machines_in
+
+    return [*machines_in(owner.about)] if isinstance(owner.about, Swarm) else []
+
+
+def _with_reused(machines: Iterable[StateMachine]) -> list[StateMachine]:
+    """Return machines and those that their states reuse."""
+    found: dict[StateMachine, None] = {}
+    work = list(machines)
+    while work:
+        machine = work.pop()
+        if machine not in found:
+            found[machine] = None
+            states = nodes_of(machine, State)
+            uses = (state.machine.target for state in states if state.machine is not None)
+            work += [each for each in uses if each is not None]
+    return list(found)

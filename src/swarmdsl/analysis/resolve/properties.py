@@ -1,0 +1,204 @@
+"""Resolve names in properties: the subject, roles, states, and values of robots.
+
+A state has its name or a path, as in tests: `Search.Sweep` is a state `Sweep` anywhere inside a
+state `Search`, in a reused machine too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.report_unresolved import report_missing_inside, resolve_or_report
+from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.states import content, states_by_name
+from swarmdsl.analysis.resolve.values import ValueLinker
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import (
+    BehaviorUse,
+    Choice,
+    Component,
+    Container,
+    Each,
+    Expression,
+    Fact,
+    History,
+    Member,
+    Param,
+    Part,
+    Property,
+    PropertySubject,
+    Ref,
+    Role,
+    StateMachine,
+    Swarm,
+    Variable,
+    Vertex,
+    Who,
+    nodes_of,
+)
+
+Path = tuple[str, ...]
+_SUBJECTS: tuple[type[Swarm | StateMachine], ...] = (Swarm, StateMachine)
+
+
+def subjects_of(project: Project) -> list[PropertySubject]:
+    """Return what a property that names no subject can be about: swarms, else machines."""
+    own = [node for file, node in project.declarations() if not file.library]
+    swarms = [node for node in own if isinstance(node, Swarm)]
+    return [*swarms] or [node for node in own if isinstance(node, StateMachine)]
+
+
+def link_property(
+    owner: Property, scope: FileScope, values: ValueLinker, report: Diagnostics
+) -> None:
+    """Resolve the names in a property except those of events and functions."""
+    owner.about = _subject(owner, scope, report)
+    roles = roles_of(owner.about)
+    if isinstance(owner.about, Swarm):
+        refs = [node.role for node in nodes_of(owner, Each)]
+        refs += [node.role for node in nodes_of(owner, Who)]
+        refs += [node.counted for node in nodes_of(owner, Fact) if node.counted is not None]
+        for ref in refs:
+            ref.target = roles.get(ref.name)
+            if ref.target is None:
+                kind = f"role in swarm `{owner.about.name}`"
+                report_missing_inside(kind, ref.name, ref.span, roles, scope, report)
+    guards = set()
+    for fact in nodes_of(owner, Fact):
+        machines = machines_of_fact(fact, owner)
+        if fact.state is not None and machines:
+            _link_state(fact.state, machines, scope, report)
+        if fact.guard is not None:
+            guards.add(fact.guard)
+            values.link_only([fact.guard], owner, values_of_fact(fact, owner))
+    values.link_only([e for e in nodes_of(owner, Expression) if e not in guards], owner, {})
+
+
+def _subject(owner: Property, scope: FileScope, report: Diagnostics) -> PropertySubject | None:
+    ref = owner.subject
+    if ref is None:
+        found = subjects_of(scope.project)
+        return found[0] if len(found) == 1 else None
+    ref.target = resolve_or_report(scope, ref.name, ref.span, _SUBJECTS, report)
+    return ref.target
+
+
+def roles_of(subject: PropertySubject | None) -> dict[str, Role]:
+    """Return the roles of a swarm by name; a machine has none."""
+    items = subject.items if isinstance(subject, Swarm) else ()
+    return {str(item.name): item for item in items if isinstance(item, Role)}
+
+
+def role_of_fact(fact: Fact, owner: Property) -> Role | None:
+    """Return the role that a fact is about: its own, or that of `each`."""
+    if fact.counted is not None:
+        return fact.counted.target
+    if fact.who is not None:
+        return fact.who.role.target
+    return owner.each.role.target if owner.each is not None else None
+
+
+def machines_of_fact(fact: Fact, owner: Property) -> list[StateMachine]:
+    """Return the machines that the robots of a fact and their parts run."""
+    if isinstance(owner.about, StateMachine):
+        return [owner.about] if fact.counted is None and fact.who is None else []
+    role = role_of_fact(fact, owner)
+    member = role.member.target if role is not None else None
+    if member is None:
+        return []
+    components = [part.component.target for part in all_items(member, Part)]
+    runners: list[Member | Component] = [member, *(each for each in components if each is not None)]
+    uses = [use.machine.target for each in runners for use in all_items(each, BehaviorUse)]
+    return list(dict.fromkeys(machine for machine in uses if machine is not None))
+
+
+def values_of_fact(fact: Fact, owner: Property) -> dict[str, Variable | Param]:
+    """Return the variables and params of the robots of a fact, without those of parts."""
+    role = role_of_fact(fact, owner)
+    member = role.member.target if role is not None else None
+    machines = [owner.about] if isinstance(owner.about, StateMachine) else []
+    found: dict[str, Variable | Param] = {}
+    if member is not None:
+        machines = [
+            use.machine.target
+            for use in all_items(member, BehaviorUse)
+            if use.machine.target is not None
+        ]
+        found = {str(param.name): param for param in all_items(member, Param)}
+    for machine in machines:
+        for item in machine.items:
+            if isinstance(item, (Variable, Param)):
+                found.setdefault(str(item.name), item)
+    return found
+
+
+# ---- states
+
+
+def state_paths(machine: StateMachine) -> Iterator[tuple[Path, Vertex]]:
+    """Yield the states in which a machine can be, with their paths, outer ones first."""
+    work: list[tuple[Path, Vertex | Container, frozenset[StateMachine]]] = [
+        ((), machine, frozenset((machine,)))
+    ]
+    while work:
+        path, outer, around = work.pop(0)
+        inner: Vertex | Container | None = content(outer)
+        if isinstance(inner, StateMachine) and inner is not machine:
+            if inner in around:
+                continue  # a check reports machines that contain themselves
+            around |= {inner}
+        for each in states_by_name(inner if inner is not None else outer).values():
+            for state in each:
+                if not isinstance(state, (Choice, History)):
+                    found = (*path, str(state.name))
+                    yield found, state
+                    work.append((found, state, around))
+
+
+def matches(path: Path, written: Sequence[str]) -> bool:
+    """Return True if a path ends with the last written name and has the others before it."""
+    if path[-1] != written[-1]:
+        return False
+    names = iter(path[:-1])
+    return all(name in names for name in written[:-1])
+
+
+def find_states(
+    machines: Iterable[StateMachine], name: str
+) -> Mapping[Path, tuple[StateMachine, Vertex]]:
+    """Return the states that a name or a path means: one, unless it is ambiguous or unknown."""
+    written = tuple(name.split("."))
+    found = {}
+    for machine in machines:
+        for path, state in state_paths(machine):
+            if matches(path, written):
+                if path == written:
+                    return {path: (machine, state)}
+                found[path] = (machine, state)
+    return found
+
+
+def _link_state(
+    ref: Ref[Vertex], machines: Sequence[StateMachine], scope: FileScope, report: Diagnostics
+) -> None:
+    found = find_states(machines, ref.name)
+    if not found:
+        last = ref.name.rpartition(".")[2]
+        paths = [path for machine in machines for path, _ in state_paths(machine)]
+        names = dict.fromkeys(".".join(path) for path in paths)
+        if last not in scope.skipped_names:
+            kind = "state of " + listed([f"`{machine.name}`" for machine in machines])
+            near = [*dict.fromkeys(path[-1] for path in paths), *names]
+            report_missing_inside(kind, ref.name, ref.span, near, scope, report)
+    elif len(found) > 1:
+        report.report(
+            "ambiguous-name",
+            ref.span,
+            name=ref.name,
+            related=tuple(Label(state.name.span, "declared here") for _, state in found.values()),
+            help=f"write {listed(['.'.join(path) for path in found])}",
+        )
+    else:
+        ((_, ref.target),) = found.values()

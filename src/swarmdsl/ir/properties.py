@@ -1,0 +1,101 @@
+"""Properties: what must be true of each run of a swarm or a state machine."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
+from swarmdsl.ir.architecture import Multiplicity
+from swarmdsl.ir.expressions import Expression
+
+Act = Literal["in", "has", "sends", "hears", "starts", "cancels", "arrives"]
+Kind = Literal[
+    "never", "always", "eventually", "possible", "again", "leads", "only", "times", "then"
+]
+"""Pattern: `never P`, `P at all times`, `eventually P`, `always possible P`, `again and again P`,
+`P leads to Q`, `P only after Q`, `P at most N times`, `P then Q`; `P within T` is eventually."""
+
+
+@dataclass(frozen=True, slots=True)
+class Robots:
+    """Robots of a role: all, some, no, another one, a number of them, or one by its index."""
+
+    role: str
+    quantifier: Literal["all", "some", "no", "number", "index"]
+    number: Multiplicity | None = None
+    index: int | None = None
+    other: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """What robots are or do: the name is that of a state, an event or a function.
+
+    Without `robots`, the fact is about the robot of `each` or the only machine; an event that
+    `arrives` comes from outside.
+    """
+
+    act: Act
+    name: str = ""
+    robots: Robots | None = None
+    guard: Expression | None = None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Count:
+    """Comparison of the number of robots of a role in a state."""
+
+    role: str
+    state: str
+    comparison: Literal["==", "!=", "<=", ">=", "<", ">"]
+    number: int
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Junction:
+    """Claims joined by `and` or `or`, or one claim that is negated by `not`."""
+
+    operator: Literal["and", "or", "not"]
+    claims: tuple[Claim, ...]
+
+
+Claim = Fact | Count | Junction
+
+
+@dataclass(frozen=True, slots=True)
+class Scope:
+    """Part of a run: after or before a claim, or between two, or after one until another."""
+
+    kind: Literal["after", "before", "between", "until"]
+    claims: tuple[Claim, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Chance:
+    """Probability with which a property must hold."""
+
+    bound: Literal["least", "most"]
+    probability: float
+
+
+@dataclass(frozen=True, slots=True)
+class Property:
+    """Sentence about each run of a swarm or a machine, or about each robot of a role.
+
+    `times` is the limit of kind `times`.
+    """
+
+    name: str
+    subject: str
+    kind: Kind
+    claims: tuple[Claim, ...]
+    each: str | None = None
+    scope: Scope | None = None
+    within: Expression | None = None
+    times: int | None = None
+    chance: Chance | None = None
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
