@@ -14,7 +14,7 @@ from swarmdsl.codegen import engine_folder
 # First words of docstrings that are not in the imperative, which the linters reject.
 _NOUNS = ("A", "An", "The", "What", "Which")
 # Each module needs only modules before it.
-_MODULES = ("table", "activity", "world", "step", "configuration", "instance")
+_MODULES = ("table", "activity", "world", "arrays", "step", "configuration", "instance")
 _GONE = "\0"
 _TOKEN = re.compile(r'"""[\s\S]*?"""|#[^\n]*|f?"(?:[^"\\\n]|\\.)*"')
 

@@ -7,13 +7,17 @@ not describe, are read with `get`.
 from __future__ import annotations
 
 import keyword
+from collections.abc import Callable
 from functools import cache
 
 from swarmdsl.codegen import (
+    PYTHON_ARRAY_FUNCTIONS,
     PYTHON_DIVISION,
     PYTHON_FUNCTIONS,
     Dialect,
+    python_item,
     python_literal,
+    python_query,
     replace,
     translate,
     uses_math,
@@ -23,17 +27,19 @@ from swarmdsl.ir import (
     FLOATS,
     STRING,
     Array,
-    Binary,
     Call,
+    Construction,
     EnvelopeField,
     Expression,
     FieldAccess,
+    ItemRef,
     Literal,
     Named,
     Primitive,
+    Query,
     Type,
-    Unary,
     bound_of,
+    mapped,
     subexpressions,
 )
 
@@ -52,8 +58,12 @@ def python_expression(expression: Expression, imports: Imports, data: str = DATA
     for part in subexpressions(made):
         if uses_math(part):
             imports.module("math")
-        if isinstance(part, Call) and part.function == _GET:
-            imports.own("values", _GET)
+        if isinstance(part, Call) and part.function in (_GET, _PLAIN):
+            imports.own("values", part.function)
+        if isinstance(part, Call) and part.function in PYTHON_ARRAY_FUNCTIONS:
+            imports.own("engine", PYTHON_ARRAY_FUNCTIONS[part.function])
+        if isinstance(part, Construction):
+            imports.own("values", "filled")
     return translate(made, _dialect(data))
 
 
@@ -63,15 +73,33 @@ def stored(expression: Expression, wanted: Type, imports: Imports, data: str = D
     Messages are copied, durations become integers in nanoseconds, and integers are checked against
     the range of the type.
     """
+    if isinstance(expression, Call) and isinstance(expression.type, Array):
+        if expression.function in ("append", "replace"):
+            return _changed(expression, expression.type.element, imports, data)
+        if expression.function in ("remove", "empty"):
+            return python_expression(expression, imports, data)
     text = python_expression(expression, imports, data)
     if (bound := bound_of(expression, wanted)) is not None:
         return f"{imports.own('engine', 'bounded')}({text}, {bound!r})"
     if expression.type == DURATION:
         return text if isinstance(expression, Literal) else f"round({text})"
-    if isinstance(expression.type, Primitive) or isinstance(expression, Literal):
+    if isinstance(expression.type, Primitive) or isinstance(expression, (Literal, Construction)):
         return text
     imports.name("copy", "deepcopy")
     return f"deepcopy({text})"
+
+
+def _changed(call: Call, element: Type, imports: Imports, data: str) -> str:
+    """Return an array with another item, which is a copy of a value."""
+    at = 1 if call.function == "append" else 2
+    values = [
+        stored(part, element, imports, data)
+        if number == at
+        else python_expression(part, imports, data)
+        for number, part in enumerate(call.arguments)
+    ]
+    function = imports.own("engine", PYTHON_ARRAY_FUNCTIONS[call.function])
+    return f"{function}({', '.join(values)})"
 
 
 def attribute(base: str, field: str) -> str:
@@ -107,23 +135,29 @@ def _for_python(expression: Expression, imports: Imports) -> Expression:
             return _for_python(header, imports)
         case FieldAccess(base=base, field=field, type=type_):
             inner, field = _for_python(base, imports), field_name(field)
-            plain = isinstance(type_, Named | Array) or (
-                isinstance(type_, Primitive) and type_.name not in _HELD_OTHERWISE
-            )
-            if plain and not keyword.iskeyword(field):
+            is_plain = type_ is not None and not _is_held_otherwise(type_)
+            if is_plain and not keyword.iskeyword(field):
                 return replace(expression, base=inner, field=field)
             return Call(_GET, (inner, Literal(field, STRING)), type_)
-        case Unary(operand=operand):
-            return replace(expression, operand=_for_python(operand, imports))
-        case Binary(left=left, right=right):
+        case Call(function="item") | ItemRef() if _is_held_otherwise(expression.type):
+            # The array may be that of a message.
+            held = mapped(expression, lambda part: _for_python(part, imports))
+            return Call(_PLAIN, (held,), expression.type)
+        case Query(key=None, item=name, type=type_) if _is_held_otherwise(type_):
+            compared = replace(expression, key=ItemRef(name, DURATION))
+            return Call(_PLAIN, (_for_python(compared, imports),), type_)
+        case Construction(type=type_, values=values):
             return replace(
-                expression, left=_for_python(left, imports), right=_for_python(right, imports)
+                expression,
+                type=Named("", imports.interface(type_, "msg")),
+                values=tuple((field_name(name), _for_python(v, imports)) for name, v in values),
             )
-        case Call(arguments=arguments):
-            return replace(
-                expression, arguments=tuple(_for_python(each, imports) for each in arguments)
-            )
-    return expression
+    return mapped(expression, lambda part: _for_python(part, imports))
+
+
+def _is_held_otherwise(type_: Type | None) -> bool:
+    """Return True for a type whose values in messages are not those of the model."""
+    return isinstance(type_, Primitive) and type_.name in _HELD_OTHERWISE
 
 
 def _literal(literal: Literal) -> str:
@@ -147,8 +181,21 @@ def _dialect(data: str) -> Dialect:
         identity=f"{data}.self.{{}}".format,
         operators={},
         functions=PYTHON_FUNCTIONS,
+        item=python_item,
+        query=python_query,
+        construction=_construction,
         division=PYTHON_DIVISION,
     )
 
 
+def _construction(made: Construction, text: Callable[[Expression], str]) -> str:
+    """Return a new message; a keyword of Python cannot be the name of an argument."""
+    values = (
+        f"**{{{name!r}: {text(value)}}}" if keyword.iskeyword(name) else f"{name}={text(value)}"
+        for name, value in made.values
+    )
+    return f"filled({', '.join((f'{made.type.name}()', *values))})"
+
+
 _GET = "get"
+_PLAIN = "plain"

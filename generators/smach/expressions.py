@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import keyword
+from collections.abc import Callable
 
 from swarmdsl.codegen import (
+    PYTHON_ARRAY_FUNCTIONS,
     PYTHON_DIVISION,
     PYTHON_FUNCTIONS,
     Dialect,
+    python_item,
     python_literal,
+    python_query,
     replace,
     translate,
     uses_math,
@@ -19,6 +23,7 @@ from swarmdsl.ir import (
     Array,
     Binary,
     Call,
+    Construction,
     EnvelopeField,
     Expression,
     FieldAccess,
@@ -26,7 +31,7 @@ from swarmdsl.ir import (
     Named,
     Primitive,
     Type,
-    Unary,
+    mapped,
     subexpressions,
 )
 
@@ -44,6 +49,9 @@ def python_expression(expression: Expression, imports: Imports) -> str:
             imports.module("rospy")
         if isinstance(part, EnvelopeField) and part.field == "sent":
             imports.module("rospy")
+        if isinstance(part, Call) and part.function in PYTHON_ARRAY_FUNCTIONS:
+            engine = f"{imports.types.package}.engine"
+            imports.name(engine, PYTHON_ARRAY_FUNCTIONS[part.function])
         if uses_math(part):
             imports.module("math")
     return translate(_for_python(expression, imports), _DIALECT)
@@ -87,8 +95,6 @@ def _for_python(expression: Expression, imports: Imports) -> Expression:
             return replace(expression, header=_for_python(header, imports))
         case FieldAccess(base=base, field=field):
             return replace(expression, base=_for_python(base, imports), field=field_name(field))
-        case Unary(operand=operand):
-            return replace(expression, operand=_for_python(operand, imports))
         case Binary(operator="*", left=left, right=right, type=type_) if (
             type_ == DURATION and getattr(right, "type", None) == DURATION
         ):
@@ -96,15 +102,13 @@ def _for_python(expression: Expression, imports: Imports) -> Expression:
             return replace(
                 expression, left=_for_python(right, imports), right=_for_python(left, imports)
             )
-        case Binary(left=left, right=right):
+        case Construction(type=type_, values=values):
             return replace(
-                expression, left=_for_python(left, imports), right=_for_python(right, imports)
+                expression,
+                type=Named("", imports.interface(type_, "msg")),
+                values=tuple((field_name(name), _for_python(v, imports)) for name, v in values),
             )
-        case Call(arguments=arguments):
-            return replace(
-                expression, arguments=tuple(_for_python(each, imports) for each in arguments)
-            )
-    return expression
+    return mapped(expression, lambda part: _for_python(part, imports))
 
 
 def _literal(literal: Literal) -> str:
@@ -123,6 +127,11 @@ def _envelope(fact: EnvelopeField) -> str:
     return value if fact.field == "sender" else f"({value} - rospy.Time())"
 
 
+def _construction(made: Construction, text: Callable[[Expression], str]) -> str:
+    values = ", ".join(f"{name}={text(value)}" for name, value in made.values)
+    return f"{made.type.name}({values})"
+
+
 def _key(name: str) -> str:
     return f"{USERDATA}.{name}"
 
@@ -136,5 +145,8 @@ _DIALECT = Dialect(
     identity=f"{USERDATA}.self.{{}}".format,
     operators={},
     functions=PYTHON_FUNCTIONS,
+    item=python_item,
+    query=python_query,
+    construction=_construction,
     division=PYTHON_DIVISION,
 )

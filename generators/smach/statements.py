@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from swarmdsl.codegen import PYTHON_ARRAY_FUNCTIONS
 from swarmdsl.codegen.python import Call, Source, layout
 from swarmdsl.codegen.shared import field_type, python_address
-from swarmdsl.ir import Assignment, Effect, Expression, Named, Send, Type, bound_of
+from swarmdsl.ir import Array, Assignment, Effect, Expression, Named, Send, Type, bound_of
+from swarmdsl.ir import Call as IrCall
 
 from .expressions import USERDATA, field_name, python_expression
 from .module import Module
@@ -29,6 +31,14 @@ def effect_lines(effects: Iterable[Effect], depth: int, module: Module) -> list[
 
 def kept(value: Expression, wanted: Type | None, module: Module) -> str:
     """Return an expression for a value of a type; integers are checked against its range."""
+    if isinstance(value, IrCall) and value.function in ("append", "replace"):
+        element = value.type.element if isinstance(value.type, Array) else None
+        at = 1 if value.function == "append" else 2
+        parts = [
+            kept(part, element, module) if number == at else python_expression(part, module.imports)
+            for number, part in enumerate(value.arguments)
+        ]
+        return f"{module.own('engine', PYTHON_ARRAY_FUNCTIONS[value.function])}({', '.join(parts)})"
     return within(python_expression(value, module.imports), bound_of(value, wanted), module)
 
 

@@ -18,19 +18,25 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import (
     NODES,
     Call,
+    Construction,
     Documented,
+    Element,
     EnumValue,
     Expression,
     ExpressionTree,
     Field,
     FieldUse,
+    FieldValue,
+    IndexUse,
     Model,
     NameUse,
     Node,
     OperatorUse,
     Parameter,
     PartValue,
+    Query,
     Ref,
+    TypeRef,
     Value,
     Word,
     walk,
@@ -197,6 +203,19 @@ def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
             return OperatorUse(span, words[0], tuple(operands))
         case "field":
             return FieldUse(span, operands[0], words[0])
+        case "index":
+            return IndexUse(span, *operands)
+        case "element":
+            return Element(span, words[0], operands[0])
+        case "query":
+            parts = dict(zip(words[1:], operands[1:], strict=True))
+            return Query(span, words[0], operands[0], parts.get("where"), parts.get("by"))
+        case "value":
+            return FieldValue(span, words[0], operands[0])
+        case "construction":
+            return Construction(
+                span, TypeRef(words[0].span, str(words[0]), "", ""), tuple(operands)
+            )
         case "call":
             return Call(span, words[0], tuple(operands))
         case "name":

@@ -10,15 +10,18 @@ from swarmdsl.syntax.ast import NODES, Documented
 from swarmdsl.syntax.pegen.metamodel import metamodel
 
 # Words with a place, and the two rules for expressions, become `Word` and `Expression`.
-WORDS = {"Name", "FieldName", "PortName", "InterfaceName", "PackageName", "RobotRole", "Text"}
+WORDS = {"Name", "FieldName", "PortName", "InterfaceName", "PackageName", "Text"}
 EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
-OTHERS = {"Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
+OTHERS = {
+    *("Expression", "Value", "NameUse", "FieldUse", "IndexUse", "Call", "OperatorUse"),
+    *("Query", "Element", "Construction", "FieldValue"),
+}
 # What stands inside a line. All else begins one, and has documentation.
 INLINE = {
     *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Address"),
-    "Assignment",
     *("Chance", "Claim", "Conjunction", "Each", "Fact", "Pattern", "PropertyScope", "Term", "Who"),
+    *("Assignment", "Append", "Remove", "Clear"),
     *("OutcomeTrigger", "DoneTrigger", "EventTrigger", "TimeTrigger", "MonitorTrigger"),
 }
 

@@ -30,12 +30,14 @@ syn match swarmDeclaration #\<abstraction\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<again\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<all\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<always\>\ze[ \t]*\%(possible\)\>#
+syn match swarmDeclaration #\<append\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<as\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<at\>\ze[ \t]*\%(all\|least\|most\)\>#
 syn match swarmDeclaration #\<before\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<between\>\ze[ \t]*[*A-Za-z_0-9"]#
-syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_]#
+syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<cancels\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<clear\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<count\>\ze[ \t]*\%(\%(of\)\>\|[(]\)#
 syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#
 syn match swarmDeclaration #\<each\>\ze[ \t]*[A-Za-z_]#
@@ -57,6 +59,7 @@ syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<only\>\ze[ \t]*\%(after\)\>#
 syn match swarmDeclaration #\<other\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<possible\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<remove\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<request\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<response\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<result\>\ze[ \t]*[{]#
@@ -72,6 +75,7 @@ syn match swarmDeclaration #\<then\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<times\>\ze[ \t]*$#
 syn match swarmStatement #\<to\>\ze[ \t]*[*A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<where\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<within\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<world\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<x\>\ze[ \t]*[0-9"]#

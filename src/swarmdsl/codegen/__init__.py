@@ -83,11 +83,14 @@ if TYPE_CHECKING:
         fits,
     )
     from swarmdsl.ir.expression_printer import (
+        PYTHON_ARRAY_FUNCTIONS,
         PYTHON_DIVISION,
         PYTHON_FUNCTIONS,
         Dialect,
         ecmascript_literal,
+        python_item,
         python_literal,
+        python_query,
         translate,
         uses_math,
     )
@@ -117,8 +120,8 @@ else:
             "swarmdsl.codegen.templates": "Templates",
             "swarmdsl.codegen.user_code_marks": "fits",
             "swarmdsl.ir.expression_printer": (
-                "PYTHON_DIVISION PYTHON_FUNCTIONS Dialect ecmascript_literal python_literal "
-                "translate uses_math"
+                "PYTHON_ARRAY_FUNCTIONS PYTHON_DIVISION PYTHON_FUNCTIONS Dialect "
+                "ecmascript_literal python_item python_literal python_query translate uses_math"
             ),
         },
     )
@@ -126,6 +129,7 @@ else:
 __all__ = [
     "ALL_FEATURES",
     "API_VERSION",
+    "PYTHON_ARRAY_FUNCTIONS",
     "PYTHON_DIVISION",
     "PYTHON_FUNCTIONS",
     "Diagnostics",
@@ -165,7 +169,9 @@ __all__ = [
     "member_pictures",
     "option",
     "pictures",
+    "python_item",
     "python_literal",
+    "python_query",
     "replace",
     "snake_case",
     "stays_inside",

@@ -14,11 +14,13 @@ from swarmdsl.ir import (
     Assignment,
     Binary,
     Call,
+    Construction,
     Effect,
     EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
+    Query,
     SelfField,
     Send,
     State,
@@ -181,3 +183,10 @@ def _uses_in_expression(expression: Expression) -> Iterator[Use]:
         case Call(arguments=arguments):
             for argument in arguments:
                 yield from _uses_in_expression(argument)
+        case Query(array=array, condition=condition, key=key):
+            for part in (array, condition, key):
+                if part is not None:
+                    yield from _uses_in_expression(part)
+        case Construction(values=values):
+            for _, value in values:
+                yield from _uses_in_expression(value)

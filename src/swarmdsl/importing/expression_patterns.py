@@ -11,7 +11,8 @@ from lark import Tree
 from swarmdsl.base.numerals import integer
 from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.execution.scxml.grammar import parse
-from swarmdsl.ir import EnvelopeField, Literal, Primitive, Type
+from swarmdsl.importing.array_patterns import array_function, query_of
+from swarmdsl.ir import Array, EnvelopeField, Literal, Primitive, Type
 from swarmdsl.ir.expression_printer import translate
 from swarmdsl.syntax.types import (
     BOOL,
@@ -68,6 +69,11 @@ class TypeInference:
     def of(self, tree: Any) -> Type | None:
         """Type of an operand; None if it depends on the expected type."""
         children = tree.children
+        found = query_of(tree)
+        if found is not None:
+            array = self.of(found.array)
+            element = array.element if isinstance(array, Array) else None
+            return {"count": INT, "any": BOOL, "all": BOOL}.get(found.function, element)
         match tree.data:
             case "number":
                 return FLOAT if isinstance(number_value(str(children[0])), float) else INT
@@ -98,6 +104,11 @@ class TypeInference:
                 return self.of_operation(operator, self.of(left), self.of(right))
             case "call":
                 callee, *arguments = children
+                changed = array_function(tree)
+                if changed is not None:
+                    array = self.of(arguments[0])
+                    element = array.element if isinstance(array, Array) else None
+                    return element if changed == "item" else array
                 word = function_of(callee, arguments)
                 if word in ("/", "%"):
                     return self.of_operation(word, *map(self.of, arguments))

@@ -5,13 +5,21 @@ Types determine the meaning: a number is a duration in milliseconds where a dura
 
 from __future__ import annotations
 
+from collections import ChainMap
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, cast
 
 from lark import Tree
 
 from swarmdsl.base.numerals import fits_64_bits
 from swarmdsl.execution.scxml.grammar import Unreadable, parse, unquoted
+from swarmdsl.importing.array_patterns import (
+    QueryPattern,
+    array_function,
+    assigned_fields,
+    contained,
+    query_of,
+)
 from swarmdsl.importing.expression_patterns import (
     COMPARISONS,
     FUNCTIONS_OF_MATH,
@@ -30,17 +38,22 @@ from swarmdsl.importing.expression_patterns import (
     remainder,
     without_zero,
 )
+from swarmdsl.importing.names import is_plain
 from swarmdsl.ir import (
     Array,
     Binary,
     Call,
+    Construction,
     EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
+    ItemRef,
     Literal,
+    Named,
     ParamRef,
     Primitive,
+    Query,
     SelfField,
     Type,
     Unary,
@@ -133,14 +146,27 @@ def constant(text: str, expected: Type | None, identity: str = "") -> Expression
 class _ExpressionReader:
     """Converts one expression."""
 
-    def __init__(self, known: Expressions, event: Type | None) -> None:
+    def __init__(
+        self, known: Expressions, event: Type | None, items: Mapping[str, ItemRef] | None = None
+    ) -> None:
         self.known = known
         self.event = event
-        self.types = TypeInference(known.types, known.field, event, known.identity, known.envelopes)
+        self.items = items or {}
+        # Names in queries hide those of the document, which become known one by one.
+        named: Mapping[str, Type] = ChainMap(
+            {name: item.type for name, item in self.items.items()},
+            cast("dict[str, Type]", known.types),
+        )
+        self.types = TypeInference(named, known.field, event, known.identity, known.envelopes)
 
     def expression(self, tree: Any, expected: Type | None) -> Expression:
         children = tree.children
+        query = query_of(tree)
+        if query is not None:
+            return self._query(query)
         match tree.data:
+            case "list" if not children and isinstance(expected, Array):
+                return Call("empty", (), expected)
             case "number":
                 text = str(children[0])
                 if not fits_64_bits(number_value(text)):
@@ -175,6 +201,8 @@ class _ExpressionReader:
     def _name(self, name: str, expected: Type | None) -> Expression:
         if name in ("true", "false"):
             return Literal(name == "true", BOOL)
+        if name in self.items:
+            return self.items[name]
         if name in _RESERVED:
             raise UnsupportedError(f"`{name}` is not a value")
         return self.known.refer(name, expected or BOOL)
@@ -193,7 +221,7 @@ class _ExpressionReader:
             return SelfField(name, SELF_FIELDS[name])
         if base.data == "name" and str(base.children[0]) in (*_RESERVED, "Math"):
             raise UnsupportedError(f"`{base.children[0]}.{name}` is not a value")
-        unknown = base.data == "name" and str(base.children[0]) not in self.known.types
+        unknown = base.data == "name" and str(base.children[0]) not in self.types.data
         if unknown and name != "length":
             raise UnsupportedError(f"`{base.children[0]}` is not declared")
         owner = self.expression(base, STRING if name == "length" else None)
@@ -220,6 +248,10 @@ class _ExpressionReader:
 
     def _operation(self, tree: Any, expected: Type | None) -> Expression:
         left, sign, right = tree.children
+        held = contained(tree)
+        if held is not None:
+            array = self._array(held[0])
+            return Call("contains", (array, self.expression(held[1], _element(array))), BOOL)
         rest = remainder(tree)
         if rest is not None:
             return self._arithmetic("%", *rest, expected)
@@ -266,6 +298,12 @@ class _ExpressionReader:
 
     def _call(self, tree: Any, expected: Type | None) -> Expression:
         callee, *arguments = tree.children
+        changed = array_function(tree)
+        if changed is not None:
+            return self._array_function(changed, arguments)
+        fields = assigned_fields(tree)
+        if fields is not None and isinstance(expected, Named):
+            return self._construction(fields, expected)
         word = function_of(callee, arguments)
         if word in ("/", "%"):
             return self._arithmetic(word, arguments[0], arguments[1], expected)
@@ -283,6 +321,56 @@ class _ExpressionReader:
         if inner is not None:
             return self.expression(inner, expected)
         raise UnsupportedError("only some functions of `Math` are supported")
+
+    def _array(self, tree: Any) -> Expression:
+        """Convert an array, whose type must be known."""
+        array = self.expression(tree, None)
+        if not isinstance(array.type, Array):
+            raise UnsupportedError("the type of an array is unknown")
+        return array
+
+    def _array_function(self, word: str, arguments: list[Any]) -> Expression:
+        """Convert an item of an array, or an array with a change."""
+        array = self._array(arguments[0])
+        element = _element(array)
+        expected = {
+            "item": (INT,),
+            "remove": (INT,),
+            "append": (element, INT),
+            "replace": (INT, element),
+        }[word]
+        given = zip(arguments[1:], expected, strict=True)
+        values = (array, *(self.expression(tree, type_) for tree, type_ in given))
+        return Call(word, values, element if word == "item" else array.type)
+
+    def _query(self, query: QueryPattern) -> Expression:
+        array = self._array(query.array)
+        element = _element(array)
+        name = query.item if is_plain(query.item) else f"{query.item}_"
+        item = ItemRef(name, element)
+
+        def part(tree: Any, named: str, expected: Type | None) -> Expression | None:
+            if tree is None:
+                return None
+            items = {**self.items, named: item}
+            return _ExpressionReader(self.known, self.event, items).expression(tree, expected)
+
+        return Query(
+            query.function,
+            name,
+            array,
+            part(query.condition, query.item, BOOL),
+            part(query.key, query.key_item, None),
+            {"count": INT, "any": BOOL, "all": BOOL}.get(query.function, element),
+        )
+
+    def _construction(self, fields: list[Any], type_: Named) -> Expression:
+        values = []
+        for pair in fields:
+            name = unquoted(pair.children[0])
+            value = self.expression(pair.children[1], self.known.field(type_, name))
+            values.append((name, value))
+        return Construction(type_, tuple(values))
 
     def _function(self, word: str, tree: Any, expected: Type | None) -> Expression:
         """Convert a call of a built-in function."""
@@ -309,6 +397,11 @@ class _ExpressionReader:
             half = Binary("+", values[0], Literal(0.5, FLOAT), FLOAT)
             return Call("floor", (half,), INT)
         return Call(word, tuple(values), RESULTS[word])
+
+
+def _element(array: Expression) -> Type:
+    assert isinstance(array.type, Array)
+    return array.type.element
 
 
 def _is_root(tree: Any) -> bool:

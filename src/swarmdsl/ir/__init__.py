@@ -29,15 +29,19 @@ if TYPE_CHECKING:
     from swarmdsl.ir.expressions import (
         Binary,
         Call,
+        Construction,
         EnvelopeField,
         EventData,
         Expression,
         FieldAccess,
+        ItemRef,
         Literal,
         ParamRef,
+        Query,
         SelfField,
         Unary,
         VariableRef,
+        mapped,
         reads,
         subexpressions,
     )
@@ -125,8 +129,8 @@ else:
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
             "swarmdsl.ir.expressions": (
-                "Binary Call EnvelopeField EventData Expression FieldAccess Literal ParamRef "
-                "SelfField Unary VariableRef reads subexpressions"
+                "Binary Call Construction EnvelopeField EventData Expression FieldAccess ItemRef "
+                "Literal ParamRef Query SelfField Unary VariableRef mapped reads subexpressions"
             ),
             "swarmdsl.ir.integer_ranges": "bound_of bound_of_any",
             "swarmdsl.ir.interfaces": (
@@ -173,6 +177,7 @@ __all__ = [
     "Component",
     "Connector",
     "Constant",
+    "Construction",
     "Count",
     "CountRange",
     "Direction",
@@ -192,6 +197,7 @@ __all__ = [
     "Function",
     "FunctionPort",
     "Interface",
+    "ItemRef",
     "Junction",
     "Literal",
     "Member",
@@ -210,6 +216,7 @@ __all__ = [
     "PortRef",
     "Primitive",
     "Property",
+    "Query",
     "ResultMapping",
     "RobotValues",
     "Robots",
@@ -233,6 +240,7 @@ __all__ = [
     "bound_of",
     "bound_of_any",
     "doc_of",
+    "mapped",
     "reads",
     "subexpressions",
 ]

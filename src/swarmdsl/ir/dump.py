@@ -10,7 +10,7 @@ from typing import Any, get_args
 
 from swarmdsl.base.records import replace
 from swarmdsl.ir.architecture import Multiplicity, PortRef
-from swarmdsl.ir.expression_printer import Dialect, envelope_name, translate
+from swarmdsl.ir.expression_printer import MODEL_FUNCTIONS, Dialect, envelope_name, translate
 from swarmdsl.ir.expressions import Expression, Literal
 from swarmdsl.ir.system import System
 from swarmdsl.syntax.types import DURATION, Array, Named, Primitive
@@ -105,4 +105,6 @@ def _name(name: str) -> str:
 
 
 # Expressions as in the model.
-_DIALECT = Dialect(_literal, _name, _name, "event", envelope_name, "self.{}".format, {}, {})
+_DIALECT = Dialect(
+    _literal, _name, _name, "event", envelope_name, "self.{}".format, {}, MODEL_FUNCTIONS
+)

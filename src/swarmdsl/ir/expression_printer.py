@@ -7,19 +7,24 @@ meet, so that the output never depends on fine points of the target's grammar.
 
 from __future__ import annotations
 
+import builtins
 import json
+import keyword
 from collections.abc import Callable, Mapping, Sequence
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.ir import (
     Binary,
     Call,
+    Construction,
     EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
+    ItemRef,
     Literal,
     ParamRef,
+    Query,
     SelfField,
     Unary,
     VariableRef,
@@ -38,6 +43,31 @@ _PRECEDENCE = {
 _PRIMARY = 8
 
 
+Printer = Callable[[Expression], str]
+
+
+def model_query(query: Query, text: Printer) -> str:
+    """Return a query as in the model."""
+    clauses = "".join(
+        f" {word} {text(part)}"
+        for word, part in (("where", query.condition), ("by", query.key))
+        if part is not None
+    )
+    return f"{query.function}({query.item} in {text(query.array)}{clauses})"
+
+
+def model_construction(made: Construction, text: Printer) -> str:
+    """Return a new message as in the model."""
+    values = ", ".join(f"{name} = {text(value)}" for name, value in made.values)
+    return f"{made.type.name}({values})"
+
+
+MODEL_FUNCTIONS: Mapping[str, Callable[[Sequence[str]], str]] = {
+    "item": lambda values: "{}[{}]".format(*values),
+}
+"""Built-in functions that the model does not write as calls."""
+
+
 @dataclass(frozen=True)
 class Dialect:
     """Notation of expressions in one target.
@@ -46,9 +76,10 @@ class Dialect:
     `param` print a leaf; `event` is the message of the triggering event, `envelope` prints a
     fact about that event, `identity` a field of `self`; `functions` renames the built-in
     functions, to `.name` if the target has a property instead, or prints a call from its
-    arguments. `modulo` prints `%`, whose result has the sign of the divisor in the language;
-    `quotient` prints `/`, the division of real numbers; `division` prints `div`, the division
-    of integers, if the target has an operator for it.
+    arguments. `item` prints the name of an item in a query, `query` and `construction` print these
+    with a printer of their parts. `modulo` prints `%`, whose result has the sign of the divisor in
+    the language; `quotient` prints `/`, the division of real numbers; `division` prints `div`, the
+    division of integers, if the target has an operator for it.
     """
 
     literal: Callable[[Literal], str]
@@ -59,6 +90,9 @@ class Dialect:
     identity: Callable[[str], str]
     operators: Mapping[str, str]
     functions: Mapping[str, str | Callable[[Sequence[str]], str]]
+    item: Callable[[str], str] = str
+    query: Callable[[Query, Printer], str] = model_query
+    construction: Callable[[Construction, Printer], str] = model_construction
     modulo: Callable[[str, str], str] = "{} % {}".format
     quotient: Callable[[str, str], str] = "{} / {}".format
     division: Callable[[str, str], str] | None = None
@@ -92,6 +126,12 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             return dialect.identity(field), _PRIMARY
         case FieldAccess(base=base, field=field):
             return f"{_operand(base, _PRIMARY, dialect)}.{field}", _PRIMARY
+        case ItemRef(name=name):
+            return dialect.item(name), _PRIMARY
+        case Query():
+            return dialect.query(expression, lambda part: translate(part, dialect)), _PRIMARY
+        case Construction():
+            return dialect.construction(expression, lambda part: translate(part, dialect)), _PRIMARY
         case Call(function="div", arguments=(left, right)) if dialect.division is not None:
             level = _PRECEDENCE["/"]
             first, second = _operand(left, level, dialect), _operand(right, level + 1, dialect)
@@ -142,11 +182,27 @@ def differences(coordinates: Sequence[str]) -> str:
     return ", ".join(f"{first} - {second}" for first, second in pairs)
 
 
-PYTHON_FUNCTIONS: Mapping[str, str | Callable[[Sequence[str]], str]] = {
+_OF_MATH: Mapping[str, str | Callable[[Sequence[str]], str]] = {
     **{name: f"math.{name}" for name in ("sqrt", "floor", "ceil", "hypot", "sin", "cos")},
     "atan2": lambda values: "math.atan2({} + 0.0, {} + 0.0)".format(*values),
-    "clamp": lambda values: "min(max({}, {}), {})".format(*values),
     "distance": lambda values: f"math.hypot({differences(values)})",
+}
+"""Built-in functions that are in Python's module `math`, or are made of its functions."""
+
+PYTHON_ARRAY_FUNCTIONS: Mapping[str, str] = {
+    "item": "item",
+    "append": "appended",
+    "remove": "removed",
+    "replace": "replaced",
+}
+"""Functions of the engine for arrays, by their names in the IR."""
+
+PYTHON_FUNCTIONS: Mapping[str, str | Callable[[Sequence[str]], str]] = {
+    **_OF_MATH,
+    **PYTHON_ARRAY_FUNCTIONS,
+    "clamp": lambda values: "min(max({}, {}), {})".format(*values),
+    "contains": lambda values: "({1} in {0})".format(*values),
+    "empty": lambda values: "[]",
 }
 """Built-in functions that Python spells otherwise."""
 
@@ -157,7 +213,35 @@ def uses_math(expression: Expression) -> bool:
     """Return True for a built-in function that is in Python's module `math`."""
     if not isinstance(expression, Call):
         return False
-    return expression.function in PYTHON_FUNCTIONS and expression.function != "clamp"
+    return expression.function in _OF_MATH
+
+
+# What generated functions call something else.
+_PYTHON_NAMES = {
+    *PYTHON_ARRAY_FUNCTIONS.values(),
+    *("bounded", "copy", "data", "deepcopy", "envelope", "event", "filled", "get", "machine"),
+    *("math", "plain", "put", "rospy", "userdata"),
+}
+
+
+def python_item(name: str) -> str:
+    """Return the name of an item of a query in Python, which must not hide another name."""
+    hides = keyword.iskeyword(name) or hasattr(builtins, name) or name in _PYTHON_NAMES
+    return f"{name}_" if hides or name.isupper() else name
+
+
+def python_query(query: Query, text: Printer) -> str:
+    """Return a query in Python."""
+    name, array = python_item(query.item), text(query.array)
+    condition = text(query.condition) if query.condition is not None else ""
+    if query.function == "count":
+        return f"sum(1 for {name} in {array} if {condition})"
+    if query.function in ("any", "all"):
+        return f"{query.function}({condition} for {name} in {array})"
+    items = f"({name} for {name} in {array} if {condition})" if condition else array
+    if query.key is None:
+        return f"{query.function}({items})"
+    return f"{query.function}({items}, key=lambda {name}: {text(query.key)})"
 
 
 def python_literal(literal: Literal) -> str:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.records import field as dataclass_field
 from swarmdsl.base.source import Span
-from swarmdsl.syntax.types import DURATION, Type
+from swarmdsl.syntax.types import DURATION, Named, Type
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,12 +114,50 @@ class Binary:
 class Call:
     """Built-in function of `operations.py`.
 
-    The arguments of `distance` are the coordinates of one point, then those of the other.
+    The arguments of `distance` are the coordinates of one point, then those of the other. `item`
+    is `a[i]`. An effect on an array assigns the changed array: `append` has the array, the value
+    and the greatest length as arguments, `remove` the array and a number, `replace` the array, a
+    number and the value, and `empty` none.
     """
 
     function: str
     arguments: tuple[Expression, ...]
     type: Type | None
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class ItemRef:
+    """Item that a query looks at."""
+
+    name: str
+    type: Type
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """`function(item in array where condition by key)`.
+
+    `count`, `any` and `all` have a condition and no key. `min` and `max` are the first item with
+    the least or greatest key, the items themselves without one.
+    """
+
+    function: str
+    item: str
+    array: Expression
+    condition: Expression | None
+    key: Expression | None
+    type: Type | None
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Construction:
+    """New message with values in some fields; the others have their defaults."""
+
+    type: Named
+    values: tuple[tuple[str, Expression], ...]
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
@@ -134,6 +172,9 @@ Expression = (
     | Unary
     | Binary
     | Call
+    | ItemRef
+    | Query
+    | Construction
 )
 
 
@@ -153,6 +194,39 @@ def subexpressions(expression: Expression) -> Iterator[Expression]:
         case Call(arguments=arguments):
             for argument in arguments:
                 yield from subexpressions(argument)
+        case Query(array=array, condition=condition, key=key):
+            for part in (array, condition, key):
+                if part is not None:
+                    yield from subexpressions(part)
+        case Construction(values=values):
+            for _, value in values:
+                yield from subexpressions(value)
+
+
+def mapped(expression: Expression, change: Callable[[Expression], Expression]) -> Expression:
+    """Return an expression with each of its direct parts changed."""
+    match expression:
+        case EnvelopeField(header=header) if header is not None:
+            return replace(expression, header=change(header))
+        case FieldAccess(base=base):
+            return replace(expression, base=change(base))
+        case Unary(operand=operand):
+            return replace(expression, operand=change(operand))
+        case Binary(left=left, right=right):
+            return replace(expression, left=change(left), right=change(right))
+        case Call(arguments=arguments):
+            return replace(expression, arguments=tuple(map(change, arguments)))
+        case Query(array=array, condition=condition, key=key):
+            return replace(
+                expression,
+                array=change(array),
+                condition=change(condition) if condition is not None else None,
+                key=change(key) if key is not None else None,
+            )
+        case Construction(values=values):
+            changed = tuple((name, change(value)) for name, value in values)
+            return replace(expression, values=changed)
+    return expression
 
 
 def reads(expression: Expression) -> set[str]:

@@ -30,6 +30,7 @@ OPERATIONS: Mapping[str, Callable[..., bool | int | float | str]] = {
     "abs": abs,
     "sqrt": math.sqrt,
     "len": len,
+    "contains": operator.contains,
     "div": operator.floordiv,
     "int": int,
     "float": float,

@@ -3,20 +3,29 @@
 from __future__ import annotations
 
 from swarmdsl import ir
+from swarmdsl.analysis.types import QUERIES
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
 from swarmdsl.lowering.context import Context
 from swarmdsl.syntax.ast import (
+    Append,
+    Assignment,
     Call,
     Constant,
+    Construction,
+    Element,
     EnumType,
     Expression,
     ExpressionTree,
     FieldUse,
     FitnessInput,
+    IndexUse,
     NameUse,
     OperatorUse,
     Param,
+    Query,
+    Remove,
+    Store,
     Value,
     Variable,
 )
@@ -41,12 +50,16 @@ def lower_optional(expression: Expression | None, context: Context) -> ir.Expres
 def lower_expression(expression: Expression, context: Context) -> ir.Expression:
     """Lower an expression that was parsed and checked."""
     assert expression.tree is not None
-    return _lower(expression.tree, context)
+    return lower_tree(expression.tree, context)
 
 
 def lower_path(expression: Expression, context: Context) -> tuple[str, tuple[str, ...]]:
     """Return the assigned variable and the fields below it."""
-    tree = expression.tree
+    assert expression.tree is not None
+    return _path(expression.tree, context)
+
+
+def _path(tree: ExpressionTree, context: Context) -> tuple[str, tuple[str, ...]]:
     path: list[str] = []
     while isinstance(tree, FieldUse):
         path.insert(0, str(tree.name))
@@ -56,7 +69,7 @@ def lower_path(expression: Expression, context: Context) -> tuple[str, tuple[str
     return context.variables.get(tree.target, tree.name), tuple(path)
 
 
-def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
+def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
     """Lower an expression; params may have values here, so types are computed anew."""
     match tree:
         case Value():
@@ -79,19 +92,74 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
             header = _header(message, str(name), tree.span, context)
             return ir.EnvelopeField(str(name), ENVELOPE_FIELDS[name], header, tree.span)
         case FieldUse(base=base, name=name):
-            return _field(_lower(base, context), str(name), tree.span, context)
+            return _field(lower_tree(base, context), str(name), tree.span, context)
         case Call(function="distance", arguments=points):
-            return _distance(tree, [_lower(point, context) for point in points], context)
+            return _distance(tree, [lower_tree(point, context) for point in points], context)
         case Call(function=function, arguments=arguments):
-            values = tuple(_lower(argument, context) for argument in arguments)
+            values = tuple(lower_tree(argument, context) for argument in arguments)
             return ir.Call(str(function), values, _result(tree, values, context), tree.span)
+        case IndexUse(base=base, index=index):
+            array = lower_tree(base, context)
+            type_ = _item_type(array)
+            return ir.Call("item", (array, lower_tree(index, context)), type_, tree.span)
+        case Query():
+            return _query(tree, context)
+        case Construction(type=of, values=given):
+            made = context.type_of(of)
+            assert isinstance(made, ir.Named)
+            fields = tuple((str(each.name), lower_tree(each.value, context)) for each in given)
+            return ir.Construction(made, fields, tree.span)
         case OperatorUse(operator=operator, operands=operands):
-            values = tuple(_lower(operand, context) for operand in operands)
+            values = tuple(lower_tree(operand, context) for operand in operands)
             type_ = _result(tree, values, context)
             if len(values) == 1:
                 return _unary(str(operator), values[0], type_, tree.span)
             return ir.Binary(str(operator), values[0], values[1], type_, tree.span)
     raise AssertionError(tree)
+
+
+def _item_type(array: ir.Expression) -> ir.Type | None:
+    return array.type.element if isinstance(array.type, ir.Array) else None
+
+
+def _query(query: Query, context: Context) -> ir.Query:
+    array = lower_tree(query.element.array, context)
+    found = QUERIES[str(query.function)].result
+    return ir.Query(
+        str(query.function),
+        str(query.element.name),
+        array,
+        lower_tree(query.condition, context) if query.condition is not None else None,
+        lower_tree(query.key, context) if query.key is not None else None,
+        found if found is not None else _item_type(array),
+        query.span,
+    )
+
+
+def lower_store(effect: Store, context: Context) -> ir.Assignment:
+    """Lower an effect that changes a variable; one on an array assigns the changed array."""
+    tree = effect.target.tree
+    assert tree is not None
+    stored = tree.base if isinstance(tree, IndexUse) else tree
+    variable, path = _path(stored, context)
+    array = lower_tree(stored, context)
+    value: ir.Expression
+    match effect, tree:
+        case Assignment(value=given), IndexUse(index=index):
+            parts = (array, lower_tree(index, context), lower_expression(given, context))
+            value = ir.Call("replace", parts, array.type, effect.span)
+        case Assignment(value=given), _:
+            value = lower_expression(given, context)
+        case Append(value=given), _:
+            assert isinstance(array.type, ir.Array)
+            assert array.type.size is not None
+            parts = (array, lower_expression(given, context), ir.Literal(array.type.size, INT))
+            value = ir.Call("append", parts, array.type, effect.span)
+        case Remove(), IndexUse(index=index):
+            value = ir.Call("remove", (array, lower_tree(index, context)), array.type, effect.span)
+        case _:
+            value = ir.Call("empty", (), array.type, effect.span)
+    return ir.Assignment(variable, path, value, effect.span)
 
 
 def _distance(tree: Call, points: list[ir.Expression], context: Context) -> ir.Call:
@@ -153,6 +221,8 @@ def _name(use: NameUse, context: Context) -> ir.Expression:
             return ir.VariableRef(context.variables.get(variable, use.name), type_, use.span)
         case FitnessInput():
             return ir.VariableRef(use.name, type_, use.span)
+        case Element():
+            return ir.ItemRef(use.name, type_, use.span)
     assert use.name == "event"
     return ir.EventData(type_, use.span)
 

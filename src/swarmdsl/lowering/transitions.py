@@ -8,12 +8,17 @@ from swarmdsl import ir
 from swarmdsl.analysis.event_topics import is_of_swarm, received_topic
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.lowering.context import Context
-from swarmdsl.lowering.expressions import lower_expression, lower_optional, lower_path
+from swarmdsl.lowering.expressions import (
+    lower_expression,
+    lower_optional,
+    lower_path,
+    lower_store,
+    lower_tree,
+)
 from swarmdsl.syntax.ast import (
     Activity,
     Address,
     Argument,
-    Assignment,
     Branch,
     DoneTrigger,
     Effect,
@@ -148,10 +153,6 @@ def _trigger(trigger: Trigger, owner: State | Parallel, frame: Frame) -> ir.Trig
 
 def _effect(effect: Effect, context: Context) -> ir.Effect:
     match effect:
-        case Assignment():
-            variable, path = lower_path(effect.target, context)
-            value = lower_expression(effect.value, context)
-            return ir.Assignment(variable, path, value, effect.span)
         case Send():
             return ir.Send(
                 context.name(effect.event),
@@ -159,13 +160,14 @@ def _effect(effect: Effect, context: Context) -> ir.Effect:
                 _address(effect.to, context) if effect.to is not None else None,
                 effect.span,
             )
+    return lower_store(effect, context)
 
 
 def _address(address: Address, context: Context) -> ir.Address:
-    if address.named_role is not None:
-        role, _ = address.named_role
-        return ir.Address(role, lower_optional(address.index, context), origin=address.span)
-    assert address.id is not None
+    role = address.role_use
+    if role is not None:
+        index = lower_tree(address.index, context) if address.index is not None else None
+        return ir.Address(role.name, index, origin=address.span)
     return ir.Address(id=lower_expression(address.id, context), origin=address.span)
 
 

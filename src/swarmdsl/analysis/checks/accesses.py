@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import get_args
 
+from swarmdsl.analysis.types import stored_name
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
     Activity,
+    Append,
     Assignment,
     Effect,
     Entry,
     Exit,
     Expression,
     NameUse,
-    Node,
     OutcomeTrigger,
     Parallel,
     ResultMapping,
     Send,
     State,
     StateMachine,
+    Store,
     TimeTrigger,
     Transition,
     Trigger,
@@ -51,9 +54,10 @@ class Write:
 Access = Read | Write
 
 
-def storing_nodes(machine: StateMachine) -> list[Assignment | ResultMapping]:
+def storing_nodes(machine: StateMachine) -> list[Store | ResultMapping]:
     """Return the nodes that store a value in a variable."""
-    return [*nodes_of(machine, Assignment), *nodes_of(machine, ResultMapping)]
+    kinds: tuple[type[Store | ResultMapping], ...] = (*get_args(Store), ResultMapping)
+    return [node for kind in kinds for node in nodes_of(machine, kind)]
 
 
 def accesses_on_activation(vertex: Vertex) -> list[Access]:
@@ -81,7 +85,7 @@ def result_accesses(trigger: Trigger | None, state: State | Parallel) -> list[Ac
         for item in state.items
         if isinstance(item, Activity)
         for result in item.results
-        for variable in _variables(result.target.tree)
+        for variable in _variables(stored_name(result.target.tree))
     ]
 
 
@@ -106,10 +110,18 @@ def effect_accesses(effects: list[Effect]) -> list[Access]:
             case Send(arguments=arguments, to=to):
                 found += [read for argument in arguments for read in reads(argument.value)]
                 if to is not None:
-                    found += [*reads(to.index), *reads(to.id)]
-            case Assignment(target=target, value=value):
-                stored = _variables(target.tree)
-                found += [read for read in reads(value) if read.variable not in stored]
+                    found += reads(to.id)
+            case _:
+                value = effect.value if isinstance(effect, Assignment | Append) else None
+                name = stored_name(effect.target.tree)
+                stored = _variables(name)
+                # The name of the array itself is in the target, and the number of an item.
+                found += [
+                    read
+                    for part in (value, effect.target)
+                    for read in reads(part)
+                    if read.variable not in stored
+                ]
                 found += [Write(variable) for variable in stored]
     return found
 
@@ -123,9 +135,6 @@ def reads(value: Expression | None, *, test: bool = False) -> Iterator[Read]:
             yield Read(use.target, use.span, test)
 
 
-def _variables(target: Node | None) -> list[Variable]:
-    """Variables that the target of an assignment names."""
-    uses = walk(target) if target is not None else ()
-    return [
-        use.target for use in uses if isinstance(use, NameUse) and isinstance(use.target, Variable)
-    ]
+def _variables(name: NameUse | None) -> list[Variable]:
+    """Return the variable of a name that a store changes, if it is one."""
+    return [name.target] if name is not None and isinstance(name.target, Variable) else []

@@ -37,8 +37,7 @@ def check_addresses(project: Project, context: Context) -> None:
                 if found.role is None:
                     missing.setdefault(found.address, []).append(found)
                 else:
-                    index = found.address.index
-                    tree = index.tree if index is not None else None
+                    tree = found.address.index
                     number = context.typing.folding.value(tree) if tree is not None else None
                     _check_index(found, found.role, number, context)
                     _check_handled(sends[found.address], found, found.role, context)
@@ -67,7 +66,7 @@ def _constant_ids(
 ) -> Iterator[tuple[NamedRole, int | None]]:
     """Yield the ids that are known at compile time, `"uav"` and `"uav[2]"`, in each swarm."""
     for address in nodes_of(machine, Address):
-        tree = address.id.tree if address.id is not None else None
+        tree = address.id.tree
         if tree is None or address.named_role is not None:
             continue
         value = context.typing.folding.value(tree)

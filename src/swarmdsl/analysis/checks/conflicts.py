@@ -13,14 +13,15 @@ from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
-    Assignment,
     Event,
     FieldUse,
+    IndexUse,
     MonitorTrigger,
     NameUse,
     Parallel,
     Region,
     StateMachine,
+    Store,
     Transition,
     nodes_of,
 )
@@ -58,7 +59,7 @@ def _check_assignments(
     SCXML runs effects in document order (3.13), so the last one counts. Equal assignments
     (`n = n + 1`) do not depend on the order.
     """
-    earlier: dict[Hashable, list[tuple[Transition, Assignment]]] = {}
+    earlier: dict[Hashable, list[tuple[Transition, Store]]] = {}
     for region in regions(parallel):
         found = [
             store
@@ -93,12 +94,12 @@ def _stays(transition: Transition, region: Region, hierarchy: StateHierarchy) ->
     return target is not None and region in hierarchy.ancestors(target)
 
 
-def _stores(transition: Transition) -> Iterator[tuple[_Source, Transition, Assignment]]:
+def _stores(transition: Transition) -> Iterator[tuple[_Source, Transition, Store]]:
     """Yield the assignments of a transition for each of its events."""
     events = {_event_key(event): event for event in map(event_of, transition.triggers) if event}
     for event in events.values():
         for effect in transition.effects:
-            if isinstance(effect, Assignment) and _path(effect):
+            if isinstance(effect, Store) and _path(effect):
                 yield event, transition, effect
 
 
@@ -106,17 +107,19 @@ def _event_key(event: _Source) -> Hashable:
     return received_topic(event), event.type.type
 
 
-def _differ(first: Assignment, second: Assignment) -> bool:
+def _differ(first: Store, second: Store) -> bool:
     """Return True if two assignments store different values in the same field."""
     one, other = _path(first), _path(second)
     length = min(len(one), len(other))
     return one[:length] == other[:length] and _words(first.span) != _words(second.span)
 
 
-def _path(effect: Assignment) -> tuple[Hashable, ...]:
+def _path(effect: Store) -> tuple[Hashable, ...]:
     """Variable and fields of the target of an assignment; empty if unresolved."""
     fields: list[str] = []
     tree = effect.target.tree
+    if isinstance(tree, IndexUse):
+        tree = tree.base  # the number of an item may be any
     while isinstance(tree, FieldUse):
         fields.insert(0, str(tree.name))
         tree = tree.base

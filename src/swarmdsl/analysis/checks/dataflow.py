@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from swarmdsl.analysis.checks.accesses import storing_nodes
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.types import stored_name
 from swarmdsl.syntax.ast import (
-    FieldUse,
     NameUse,
     StateMachine,
     Variable,
@@ -38,8 +38,6 @@ def check_variables(machine: StateMachine, context: Context) -> None:
 def _stores(machine: StateMachine) -> Iterator[NameUse]:
     """Yield the names of variables that are written, not read."""
     for node in storing_nodes(machine):
-        tree = node.target.tree
-        while isinstance(tree, FieldUse):
-            tree = tree.base
-        if isinstance(tree, NameUse):
-            yield tree
+        name = stored_name(node.target.tree)
+        if name is not None:
+            yield name

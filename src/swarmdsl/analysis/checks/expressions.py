@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.activities import check_arguments
+from swarmdsl.analysis.checks.arrays import (
+    check_array_effect,
+    check_element_names,
+    report_not_assignable,
+)
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.enums import check_first_value
 from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
 from swarmdsl.analysis.checks.interfaces import check_graph_name
-from swarmdsl.analysis.types import Typing, assignable
+from swarmdsl.analysis.types import COUNT, Typing, assignable, item_of
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Address,
+    Append,
     Assignment,
     Branch,
+    Clear,
     Effect,
     Entry,
     Event,
@@ -24,6 +31,7 @@ from swarmdsl.syntax.ast import (
     MonitorTrigger,
     OperatorUse,
     Param,
+    Remove,
     Send,
     StateMachine,
     TimeTrigger,
@@ -31,9 +39,7 @@ from swarmdsl.syntax.ast import (
     Variable,
     nodes_of,
 )
-from swarmdsl.syntax.types import BOOL, DURATION, STRING, Named, Primitive
-
-_INDEX = Primitive("uint32")
+from swarmdsl.syntax.types import BOOL, DURATION, STRING, Named
 
 
 def check_expressions(machine: StateMachine, context: Context) -> None:
@@ -41,6 +47,7 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
 
     Sets the conditions of the guards in the context.
     """
+    check_element_names(machine, context)
     for param in nodes_of(machine, Param):
         context.check_default(param, param.default)
     for variable in nodes_of(machine, Variable):
@@ -106,6 +113,8 @@ def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> N
         match effect:
             case Assignment():
                 _check_assignment(effect, typing, context)
+            case Append() | Remove() | Clear():
+                check_array_effect(effect, typing)
             case Send():
                 context.check_repeated((argument.name for argument in effect.arguments), "field")
                 event = effect.event.target
@@ -125,22 +134,17 @@ def _check_address(address: Address, event: Event | None, typing: Typing) -> Non
             related=(Label(event.name.span, "an event of the robot itself"),),
             help=f"declare `swarm event {event.name}` to send it to other robots",
         )
-    if address.index is not None:
-        typing.expect(address.index.tree, _INDEX)
-    if address.id is not None and address.named_role is None:
+    if address.role_use is None:
         typing.expect(address.id.tree, STRING)
+    elif address.index is not None:
+        typing.expect(address.index, COUNT)
 
 
 def _check_assignment(effect: Assignment, typing: Typing, context: Context) -> None:
     target = effect.target.tree
     if target is None:
         return
-    if not assignable(target):
-        context.report.report(
-            "not-assignable",
-            effect.target.span,
-            text=effect.target.span.text,
-            help="only variables (`var name : Type`) and their fields can be assigned to",
-        )
+    if not assignable(target) and item_of(target) is None:
+        report_not_assignable(effect.target, typing)
         return
     typing.expect(effect.value.tree, typing.infer(target))

@@ -27,12 +27,16 @@ from swarmdsl.analysis.types.constant_folding import Folded, Folding
 from swarmdsl.syntax.ast import (
     Branch,
     Call,
+    Construction,
+    Element,
     EnumType,
     ExpressionTree,
     FieldUse,
+    IndexUse,
     NameUse,
     Node,
     OperatorUse,
+    Query,
     Transition,
     Value,
     walk,
@@ -95,6 +99,8 @@ def _may_fail(part: Node, folding: Folding) -> bool:
             return not folding.value(divisor)
         case Call(function="sqrt" | "int" | "round" | "floor" | "ceil" | "sin" | "cos") as tree:
             return folding.value(tree) is None
+        case IndexUse() | Query(function="min" | "max"):
+            return True
     return False
 
 
@@ -141,7 +147,7 @@ def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
 
     An enum in a message is 0 at first, even if none of its values is.
     """
-    if isinstance(tree, Call) and tree.function == "len":
+    if isinstance(tree, (Call, Query)) and tree.function in ("len", "count"):
         return compared(">=", 0, whole=True)
     if isinstance(tree, Call) and tree.function in _BOUNDS:
         low, high = _BOUNDS[str(tree.function)]
@@ -196,6 +202,8 @@ def _term(tree: ExpressionTree, folding: Folding) -> Hashable:
     match tree:
         case Value(value=value, unit=unit):
             return (type(value), value, unit)
+        case NameUse(name=name, target=Element()):
+            return name  # the same in another query
         case NameUse(name=name, target=target):
             return target or name
         case FieldUse(base=base, name=name):
@@ -204,4 +212,12 @@ def _term(tree: ExpressionTree, folding: Folding) -> Hashable:
             return (str(word), *(_term(operand, folding) for operand in operands))
         case OperatorUse(operator=word, operands=operands):
             return (str(word), *(_term(operand, folding) for operand in operands))
+        case IndexUse(base=base, index=index):
+            return ("[]", _term(base, folding), _term(index, folding))
+        case Query(function=word, element=element, condition=condition, key=key):
+            parts = (element.array, condition, key)
+            terms = (None if part is None else _term(part, folding) for part in parts)
+            return (str(word), str(element.name), *terms)
+        case Construction(type=type_, values=values):
+            return (type_.type, *((str(e.name), _term(e.value, folding)) for e in values))
     raise AssertionError(tree)

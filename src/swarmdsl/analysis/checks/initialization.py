@@ -9,17 +9,18 @@ from swarmdsl.analysis.checks.accesses import Read, storing_nodes
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.control_flow import ControlFlowGraph, Node
 from swarmdsl.analysis.resolve.states import all_resolved
+from swarmdsl.analysis.types import stored_name
 from swarmdsl.analysis.types.enum_values import numbers
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
     Address,
+    Append,
     EnumType,
     NameUse,
     StateMachine,
     Variable,
     nodes_of,
-    walk,
 )
 from swarmdsl.syntax.types import DURATION, Named, Primitive, Type
 
@@ -49,7 +50,7 @@ def check_initialization(machine: StateMachine, context: Context) -> None:
 
 def _has_unknown(machine: StateMachine) -> bool:
     """Return True if a name that may be a variable was not resolved."""
-    roles = [each.id.tree for each in nodes_of(machine, Address) if each.id is not None]
+    roles = [each.role_use for each in nodes_of(machine, Address)]
     return any(
         use.target is None and not use.is_predefined and use not in roles
         for use in nodes_of(machine, NameUse)
@@ -58,18 +59,16 @@ def _has_unknown(machine: StateMachine) -> bool:
 
 def _unset(machine: StateMachine, context: Context) -> list[Variable]:
     """Return the variables without an initial value that are written somewhere."""
-    written = {
-        use.target
-        for node in storing_nodes(machine)
-        for use in walk(node.target)
-        if isinstance(use, NameUse)
-    }
+    stores = [(node, stored_name(node.target.tree)) for node in storing_nodes(machine)]
+    written = {name.target for _, name in stores if name is not None}
+    # An array that grows starts without items on purpose.
+    grown = {name.target for node, name in stores if isinstance(node, Append) and name is not None}
     return [
         item
         for item in machine.items
         if isinstance(item, Variable)
         and item.initial is None
-        and item in written
+        and item in written - grown
         and _has_zero(item.type.type, context)
     ]
 

@@ -12,7 +12,16 @@ from swarmdsl.analysis.resolve.linker import machines_of
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.project.loader import Project
-from swarmdsl.syntax.ast import Address, NameUse, Part, Role, StateMachine, Swarm, nodes_of
+from swarmdsl.syntax.ast import (
+    Address,
+    IndexUse,
+    NameUse,
+    Part,
+    Role,
+    StateMachine,
+    Swarm,
+    nodes_of,
+)
 
 
 @dataclass(frozen=True)
@@ -55,7 +64,8 @@ def named_roles(machine: StateMachine, crews: Iterable[Crew]) -> Iterator[NamedR
 def values_like_roles(machine: StateMachine, crew: Crew) -> Iterator[tuple[NameUse, Role]]:
     """Yield the values that are addresses of a machine, and that a role has the name of."""
     for address in nodes_of(machine, Address):
-        use = address.id.tree if address.id is not None else None
+        tree = address.id.tree
+        use = tree.base if isinstance(tree, IndexUse) else tree
         if isinstance(use, NameUse) and use.target is not None and use.name in crew.roles:
             yield use, crew.roles[use.name]
 

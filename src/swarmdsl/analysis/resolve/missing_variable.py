@@ -15,6 +15,7 @@ from swarmdsl.syntax.ast import (
     Branch,
     Call,
     Communication,
+    Element,
     EnumType,
     Expression,
     ExpressionTree,
@@ -153,7 +154,9 @@ def _type_of(tree: ExpressionTree | None) -> Type | None:
             return BOOL
         case Value(value=str()):
             return STRING
-        case NameUse(target=target) if target is not None and not isinstance(target, EnumType):
+        case NameUse(target=target) if target is not None and not isinstance(
+            target, (EnumType, Element)
+        ):
             return target.type.type
     return None
 

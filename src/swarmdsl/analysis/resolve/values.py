@@ -23,14 +23,18 @@ from swarmdsl.syntax.ast import (
     AliasType,
     Call,
     Constant,
+    Construction,
+    Element,
     EnumType,
     Expression,
     ExpressionTree,
     FieldUse,
     FitnessInput,
+    IndexUse,
     NameUse,
     OperatorUse,
     Param,
+    Query,
     StateMachine,
     TopLevel,
     Variable,
@@ -40,7 +44,7 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import Named
 
-Values = Mapping[str, Variable | Param | FitnessInput]
+Values = Mapping[str, Variable | Param | FitnessInput | Element]
 # Unresolved names, each with the fields after it.
 Missing = list[tuple[NameUse, list[FieldUse]]]
 
@@ -63,7 +67,7 @@ class ValueLinker:
         """Bind the names in some expressions of a declaration with these values."""
         unknown: list[tuple[NameUse, list[FieldUse], Expression]] = []
         shared = _values_of_all(owner)
-        addresses = [each.id for each in nodes_of(owner, Address)]
+        addresses = {each.id: each for each in nodes_of(owner, Address)}
         for node in nodes:
             if shared is None or node in shared:
                 self._check_no_self(node)
@@ -71,8 +75,8 @@ class ValueLinker:
                 missing: Missing = []
                 node.tree = self._linked(node.tree, owner, values, missing)
                 # The name of a role is an address by itself; the swarm that has it checks it.
-                if not (missing and missing[0][0] is node.tree and node in addresses):
-                    unknown += [(base, fields, node) for base, fields in missing]
+                role = addresses[node].role_use if node in addresses else None
+                unknown += [(base, fields, node) for base, fields in missing if base is not role]
         # Hints for a name depend on the names beside it, which are bound now.
         for base, fields, node in unknown:
             report_value(base, fields, node, owner, values, _DECLARED, self.scope, self.report)
@@ -103,6 +107,19 @@ class ValueLinker:
                 tree.arguments = tuple(
                     [self._linked(each, owner, values, missing) for each in arguments]
                 )
+            case IndexUse(base=array, index=index):
+                tree.base = self._linked(array, owner, values, missing)
+                tree.index = self._linked(index, owner, values, missing)
+            case Query(element=element, condition=condition, key=key):
+                element.array = self._linked(element.array, owner, values, missing)
+                inside = {**values, str(element.name): element}
+                if condition is not None:
+                    tree.condition = self._linked(condition, owner, inside, missing)
+                if key is not None:
+                    tree.key = self._linked(key, owner, inside, missing)
+            case Construction(values=given):
+                for each in given:
+                    each.value = self._linked(each.value, owner, values, missing)
         return tree
 
     def _path(
@@ -113,7 +130,9 @@ class ValueLinker:
         while isinstance(base, FieldUse):
             fields.insert(0, base)
             base = base.base
-        assert isinstance(base, NameUse)
+        if not isinstance(base, NameUse):
+            fields[0].base = self._linked(base, owner, values, missing)
+            return tree
         if base.name in values:
             base.target = values[base.name]
         elif not base.is_predefined:

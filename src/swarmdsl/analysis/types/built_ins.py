@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.types import FLOAT, INT, Type
+from swarmdsl.syntax.types import BOOL, FLOAT, INT, Type
 
 
 @dataclass(frozen=True)
@@ -52,4 +52,5 @@ BUILT_INS: Mapping[str, BuiltIn] = {
     "atan2": BuiltIn(("y", "x"), FLOAT, "The angle of the direction (x, y), from -π to π."),
     "distance": BuiltIn(_PAIR, FLOAT, "The distance of two messages with `x`, `y`, perhaps `z`."),
     "len": BuiltIn(_X, INT, "The length of a string or array."),
+    "contains": BuiltIn(("array", "x"), BOOL, "True if an item of an array equals `x`."),
 }

@@ -132,7 +132,7 @@ class Folding:
             raise found
         return found
 
-    def _computed(self, tree: Value | OperatorUse | Call) -> Folded | None:
+    def _computed(self, tree: ExpressionTree) -> Folded | None:
         match tree:
             case OperatorUse(operator=word, operands=(operand,)):
                 known = self._fold(operand)
@@ -147,6 +147,7 @@ class Folding:
                 return self._applied(function, arguments) if function in OPERATIONS else None
             case Value(unit=unit):
                 return nanoseconds(tree.span.text, unit)
+        return None  # arrays and messages are not constant
 
     def _applied(self, word: str, operands: tuple[ExpressionTree, ...]) -> Folded | None:
         values = [self._fold(operand) for operand in operands]

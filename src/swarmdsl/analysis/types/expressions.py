@@ -11,23 +11,28 @@ from math import inf
 
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.report_unresolved import report_missing
+from swarmdsl.analysis.types.arrays import type_of_construction, type_of_item, type_of_query
 from swarmdsl.analysis.types.constant_folding import Folded, Folding
 from swarmdsl.analysis.types.fitting import fits, is_number, is_text, range_of
 from swarmdsl.analysis.types.operators import Application
 from swarmdsl.analysis.types.positions import Position, position_of
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
-from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import did_you_mean
 from swarmdsl.syntax.ast import (
     Call,
+    Construction,
+    Element,
     EnumType,
     ExpressionTree,
     Field,
     FieldUse,
+    IndexUse,
     NameUse,
     OperatorUse,
     Parameter,
+    Query,
     Value,
     Word,
 )
@@ -39,6 +44,7 @@ from swarmdsl.syntax.types import (
     INT,
     SELF_FIELDS,
     STRING,
+    Array,
     Named,
     Primitive,
     Type,
@@ -87,6 +93,12 @@ class Typing:
                 return self._fact(name)
             case FieldUse(base=base, name=name):
                 return self.field(self.infer(base), name, name.span)
+            case IndexUse():
+                return type_of_item(tree, self)
+            case Query():
+                return type_of_query(tree, self)
+            case Construction():
+                return type_of_construction(tree, self)
             case OperatorUse(operands=operands) | Call(arguments=operands):
                 return self._checked_result(tree, [self.infer(operand) for operand in operands])
         raise AssertionError(tree)
@@ -120,7 +132,14 @@ class Typing:
                 help=f"write `{use.span.text}.{target.values[0].name}`" if target.values else None,
             )
             return None
+        if isinstance(target, Element):
+            return self.element_type(target)
         return target.type.type if target is not None else None
+
+    def element_type(self, element: Element) -> Type | None:
+        """Return the type of the items that a query goes through; report nothing."""
+        array = replace(self, report=Diagnostics()).infer(element.array)
+        return array.element if isinstance(array, Array) else None
 
     def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """Return the type of an operation on operands of these types."""
@@ -200,16 +219,24 @@ class Typing:
     def field(self, owner: Type | None, name: str, at: Span) -> Type | None:
         """Return the type of a field of a message; report a missing field."""
         if isinstance(owner, Named):
-            fields = self.interfaces.fields(owner)
-            if fields is None:
-                return None
-            found = next((known for known in fields if known.name == name), None)
-            if found is not None:
-                return found.type.type
-            report_unknown_field(f"`{owner}`", name, at, fields, self.report)
-        elif owner is not None:
+            found = self._field(owner, name, at)
+            return found.type.type if found is not None else None
+        if owner is not None:
             self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
         return None
+
+    def field_of(self, owner: Named, name: Word) -> Field | Parameter | None:
+        """Return a field of a message; report a missing one."""
+        return self._field(owner, name, name.span)
+
+    def _field(self, owner: Named, name: str, at: Span) -> Field | Parameter | None:
+        fields = self.interfaces.fields(owner)
+        if fields is None:
+            return None
+        found = next((known for known in fields if known.name == name), None)
+        if found is None:
+            report_unknown_field(f"`{owner}`", name, at, fields, self.report)
+        return found
 
     def _own(self, name: Word) -> Type | None:
         """Return the type of a field of `self`."""

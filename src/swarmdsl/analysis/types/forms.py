@@ -8,6 +8,7 @@ from swarmdsl.syntax.ast import (
     EnumType,
     ExpressionTree,
     FieldUse,
+    IndexUse,
     NameUse,
     OperatorUse,
     Value,
@@ -42,3 +43,15 @@ def assignable(tree: ExpressionTree) -> bool:
         case FieldUse(base=base):
             return assignable(base)
     return False
+
+
+def item_of(tree: ExpressionTree) -> ExpressionTree | None:
+    """Return the array of an item that can be assigned to or removed, such as `a.b` of `a.b[i]`."""
+    return tree.base if isinstance(tree, IndexUse) and assignable(tree.base) else None
+
+
+def stored_name(tree: ExpressionTree | None) -> NameUse | None:
+    """Return the name of the variable that a store changes, such as `a` of `a.b[i]`."""
+    while isinstance(tree, (FieldUse, IndexUse)):
+        tree = tree.base
+    return tree if isinstance(tree, NameUse) else None

@@ -51,6 +51,8 @@ class Application:
             return None
         if function == "len":
             self._require(lambda t: is_text(t) or isinstance(t, Array))
+        elif function == "contains":
+            self._check_items(*types)
         elif function == "div":
             self._require(lambda t: is_number(t) and not is_float(t), self._division_hint)
         elif function == "distance":
@@ -62,6 +64,15 @@ class Application:
         if self._are_durations():
             return DURATION
         return self._widest() if self._require(is_number, self._unit_hint) else None
+
+    def _check_items(self, array: Type | None, value: Type | None) -> None:
+        """Report what is no array, and a value that no item of it can equal."""
+        if array is not None and not isinstance(array, Array):
+            self._report_operands("it takes an array and a value")
+        elif isinstance(array, Array) and not self._comparable(array.element, value):
+            is_message = isinstance(array.element, Named) and not self.is_enum(array.element)
+            hint = "compare a field: `any(x in array where x.id == ...)`"
+            self._report_operands(hint if is_message else None)
 
     def _check_positions(self) -> None:
         """Report what is not a position, and two of which one has no `z`."""

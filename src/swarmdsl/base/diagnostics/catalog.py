@@ -186,6 +186,9 @@ CODES: dict[str, Code] = {
     "unclear-address": Code(
         "SW0712", "error", "`{name}` is a value, and a role of swarm `{swarm}`"
     ),
+    "no-such-item": Code("SW0721", "error", "array `{array}` has no item {number}"),
+    "unbounded-array": Code("SW0722", "error", "array `{name}` grows without a bound"),
+    "hidden-value": Code("SW0723", "error", "item `{name}` hides {hidden}"),
     # ---- SCXML documents
     "not-xml": Code("SW0801", "error", "invalid XML: {reason}"),
     "xml-document-type": Code("SW0802", "error", "document type declarations are not supported"),

@@ -70,7 +70,7 @@ def _value(expression: Expression, params: Mapping[str, Param]) -> Any:
             return _value(left, params) and _value(right, params)
         case Binary(operator=symbol, left=left, right=right):
             return _apply(symbol, (left, right), params, expression.origin)
-        case Call(function=function, arguments=arguments):
+        case Call(function=function, arguments=arguments) if function in OPERATIONS:
             return _apply(function, arguments, params, expression.origin)
     raise UnknownValueError
 

@@ -5,17 +5,31 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.codegen.swarm_printer.expressions import expression
-from swarmdsl.ir import Activity, Address, Assignment, Effect, Expression, Send
+from swarmdsl.ir import Activity, Address, Assignment, Call, Effect, Expression, Send
 
 
 def effect_text(effect: Effect) -> str:
     """Return `x = 1` or `send Found(id = 7)`."""
     match effect:
         case Assignment(variable=variable, path=path, value=value):
-            return f"{'.'.join((variable, *path))} = {expression(value)}"
+            return store_text(".".join((variable, *path)), value)
         case Send(event=event, arguments=values, to=to):
             given = f"({arguments(values)})" if values else ""
             return f"send {event}{given}" + (f" to {address_text(to)}" if to is not None else "")
+
+
+def store_text(target: str, value: Expression) -> str:
+    """Return `x = 1`, or an effect on an array such as `append 1 to x`."""
+    match value:
+        case Call(function="append", arguments=(_, item, _)):
+            return f"append {expression(item)} to {target}"
+        case Call(function="remove", arguments=(_, index)):
+            return f"remove {target}[{expression(index)}]"
+        case Call(function="replace", arguments=(_, index, item)):
+            return f"{target}[{expression(index)}] = {expression(item)}"
+        case Call(function="empty"):
+            return f"clear {target}"
+    return f"{target} = {expression(value)}"
 
 
 def address_text(address: Address) -> str:

@@ -10,7 +10,13 @@ from swarmdsl.base.records import fields_of, replace
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError, quoted
 from swarmdsl.ir import Array, Expression, Literal, Named, Primitive, VariableRef
-from swarmdsl.ir.expression_printer import Dialect, envelope_name, points, translate
+from swarmdsl.ir.expression_printer import (
+    MODEL_FUNCTIONS,
+    Dialect,
+    envelope_name,
+    points,
+    translate,
+)
 from swarmdsl.syntax.parser.literals import UNITS
 from swarmdsl.syntax.types import DURATION
 
@@ -19,7 +25,7 @@ T = TypeVar("T")
 
 def expression(value: Expression, named: Callable[[str], str] = str) -> str:
     """Return an expression with minimal parentheses; `named` prints names."""
-    functions = {"distance": _distance}
+    functions = {**MODEL_FUNCTIONS, "distance": _distance}
     return translate(
         value,
         Dialect(_literal, named, named, "event", envelope_name, "self.{}".format, {}, functions),

@@ -7,6 +7,7 @@ else of swarmdsl, because generated packages contain a copy.
 """
 
 from .activity import Run, Servers
+from .arrays import appended, item, removed, replaced
 from .configuration import Configuration
 from .instance import Instance
 from .table import (
@@ -46,5 +47,9 @@ __all__ = [
     "TableError",
     "Transition",
     "World",
+    "appended",
     "bounded",
+    "item",
+    "removed",
+    "replaced",
 ]

@@ -16,10 +16,12 @@ from swarmdsl.execution.engine import Event, ExecutionError, InstanceLike
 from swarmdsl.execution.scxml.grammar import Unreadable, parse, unquoted
 from swarmdsl.execution.scxml.session import EVENT_FIELDS, SYSTEM_VARIABLES, event_fields
 from swarmdsl.execution.scxml.values import (
+    APPLYING,
     FUNCTIONS,
     METHODS,
     OPERATIONS,
     SIGNS,
+    apply,
     code_units,
     contains,
     copied,
@@ -273,6 +275,8 @@ def _call(tree: Any) -> Value:
         if _is_member(inner, "JSON", "stringify") and len(of) == 1:
             value = compiled(of[0])
             return lambda instance, event, names: copied(value(instance, event, names))
+    if callee.data == "member" and [each.data for each in given] == ["function"]:
+        return _call_with_function(callee, given[0])
     arguments = [compiled(each) for each in given]
     if callee.data == "function":
         return _call_function(callee, arguments)
@@ -293,6 +297,24 @@ def _call(tree: Any) -> Value:
         (operand,) = arguments
         return lambda instance, event, names: FUNCTIONS["Number"](operand(instance, event, names))
     raise Unreadable("only functions of `Math`, `Number` and `In` can be called")
+
+
+def _call_with_function(callee: Any, function: Any) -> Value:
+    """Return the call of a method of a list with a function that it applies to items."""
+    name = str(callee.children[1])
+    *parameters, result = function.children
+    if len(parameters) != APPLYING.get(name):
+        raise Unreadable(f"`{name}` is not supported with this function")
+    array, body = compiled(callee.children[0]), compiled(result)
+    words = [str(each) for each in parameters]
+
+    def value(instance: InstanceLike, event: Event, names: Names) -> Any:
+        def applied(*items: Any) -> Any:
+            return body(instance, event, {**names, **dict(zip(words, items, strict=True))})
+
+        return apply(name, array(instance, event, names), applied)
+
+    return value
 
 
 def _call_function(function: Any, arguments: list[Value]) -> Value:

@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from decimal import Decimal
+from functools import reduce
 from typing import Any
 
 from swarmdsl.execution.engine import ExecutionError
@@ -268,6 +269,20 @@ def _concat(held: Any, *given: Any) -> Any:
     return made
 
 
+def _slice(values: Any, start: Any = 0, end: Any = None) -> Any:
+    if not isinstance(values, (list, str)):
+        raise ExecutionError(f"`{text(values)}` has no `slice`")
+    if not all(each is None or isinstance(each, int) for each in (start, end)):
+        raise ExecutionError("`slice` takes integers")
+    return values[start:end]
+
+
+def _assigned(target: Any, source: Any) -> dict[str, Any]:
+    if not isinstance(target, dict) or not isinstance(source, dict):
+        raise ExecutionError("`Object.assign` takes objects")
+    return {**target, **source}
+
+
 def _index_of(held: Any, value: Any = None) -> int:
     """Return the first index of an element or part of a string, -1 without."""
     if isinstance(held, str):
@@ -324,6 +339,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "Math.cos": _of_reals(math.cos),
     "Math.atan2": _of_reals(math.atan2),
     "Number": number,
+    "Object.assign": _assigned,
     "Math.min": _extreme(lambda values: min(values, default=math.inf)),
     "Math.max": _extreme(lambda values: max(values, default=-math.inf)),
 }
@@ -331,11 +347,34 @@ METHODS: Mapping[str, Callable[..., Any]] = {
     "concat": _concat,
     "indexOf": _index_of,
     "join": _join,
+    "slice": _slice,
 }
 """Functions of lists and strings; they change neither."""
 
-_ARGUMENTS = {"Math.pow": (2, 2), "Math.atan2": (2, 2), "indexOf": (1, 1), "join": (0, 1)}
+_ARGUMENTS = {
+    **dict.fromkeys(("Math.pow", "Math.atan2", "Object.assign"), (2, 2)),
+    "indexOf": (1, 1),
+    "join": (0, 1),
+    "slice": (0, 2),
+}
 _ANY_NUMBER = ("Math.hypot", "Math.min", "Math.max", "concat")
+
+
+APPLYING: Mapping[str, int] = {"every": 1, "filter": 1, "some": 1, "reduce": 2}
+"""Methods of lists that take a function, with the number of its parameters."""
+
+
+def apply(method: str, values: Any, function: Callable[..., Any]) -> Any:
+    """Return the result of a method of a list that takes a function."""
+    if not isinstance(values, list):
+        raise ExecutionError(f"`{text(values)}` has no `{method}`")
+    if method == "filter":
+        return [each for each in values if truth(function(each))]
+    if method == "reduce":
+        if not values:
+            raise ExecutionError("an empty list has nothing to reduce")
+        return reduce(function, values)
+    return (any if method == "some" else all)(truth(function(each)) for each in values)
 
 
 def takes(function: str, arguments: int) -> bool:

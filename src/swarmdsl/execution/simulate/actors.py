@@ -94,11 +94,11 @@ def values(
     found: dict[str, Any] = {}
     for param in _owner_params(subject, robot, part):
         if param.default is not None:
-            found[param.name] = stored(param.default, param.type)(found, None)
+            found[param.name] = stored(param.default, param.type, subject.system)(found, None)
     if part is not None and part.values:
         around = values(subject, robot, None, scenario)
         for name, value in part.values:
-            found[name] = stored(value, None)(around, None)
+            found[name] = stored(value, None, subject.system)(around, None)
     for word in words(robot, part):
         found.update(scenario.params.get(word, {}))
     return found

@@ -6,19 +6,22 @@ divisor. Durations are in nanoseconds, messages are dictionaries.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from swarmdsl.execution.engine import ExecutionError
+from swarmdsl.execution.engine import ExecutionError, appended, item, removed, replaced
 from swarmdsl.ir import (
     Binary,
     Call,
+    Construction,
     EnvelopeField,
     EventData,
     Expression,
     FieldAccess,
+    ItemRef,
     Literal,
     ParamRef,
+    Query,
     SelfField,
     Unary,
     VariableRef,
@@ -61,11 +64,70 @@ def function_of(expression: Expression) -> Value:
             return _checked("-", lambda data, event: -value(data, event))
         case Binary(operator=symbol, left=left, right=right):
             return _binary(symbol, function_of(left), function_of(right))
+        case Call(function="empty"):
+            return lambda data, event: []
         case Call(function=name, arguments=arguments):
-            function, values = OPERATIONS[name], [function_of(each) for each in arguments]
-            return _checked(
-                name, lambda data, event: function(*[value(data, event) for value in values])
-            )
+            return applied(name, [function_of(each) for each in arguments])
+        case ItemRef(name=name):
+            key = _item_key(name)
+            return lambda data, event: data[key]
+        case Query():
+            return _query(expression)
+        case Construction():
+            raise AssertionError("a new message is only stored or sent")
+
+
+def applied(name: str, values: Sequence[Value]) -> Value:
+    """Return the function that applies a built-in one to values."""
+    function = _ARRAYS.get(name) or OPERATIONS[name]
+    return _checked(name, lambda data, event: function(*[value(data, event) for value in values]))
+
+
+_ARRAYS: Mapping[str, Callable[..., Any]] = {
+    "item": item,
+    "append": appended,
+    "remove": removed,
+    "replace": replaced,
+}
+
+
+def _item_key(name: str) -> str:
+    """Return the key of an item of a query in the data; no variable has this name."""
+    return f"{name} in"
+
+
+_SUMMARIES: Mapping[str, Callable[..., Any]] = {"count": sum, "any": any, "all": all}
+
+
+def _query(query: Query) -> Value:
+    array, key = function_of(query.array), _item_key(query.item)
+    holds = function_of(query.condition) if query.condition is not None else None
+    compared = function_of(query.key) if query.key is not None else None
+
+    def results(of: Value, data: Mapping[str, Any], event: Any) -> Iterator[tuple[Any, Any]]:
+        """Yield each item with the value of a function of it."""
+        for each in array(data, event):
+            yield each, of({**data, key: each}, event)
+
+    if query.function in ("count", "any", "all"):
+        assert holds is not None
+        summary: Callable[[Iterable[bool]], Any] = _SUMMARIES[query.function]
+        condition = holds
+        return _checked(
+            query.function,
+            lambda data, event: summary(bool(held) for _, held in results(condition, data, event)),
+        )
+    extreme = min if query.function == "min" else max
+
+    def found(data: Mapping[str, Any], event: Any) -> Any:
+        items = array(data, event)
+        if holds is not None:
+            items = [each for each, held in results(holds, data, event) if held]
+        if compared is None:
+            return extreme(items)
+        return extreme(items, key=lambda each: compared({**data, key: each}, event))
+
+    return _checked(query.function, found)
 
 
 def _binary(symbol: str, left: Value, right: Value) -> Value:

@@ -29,10 +29,13 @@ from swarmdsl.execution.engine import (
     Transition,
     bounded,
 )
-from swarmdsl.execution.simulate.expressions import SELF, Value, function_of
+from swarmdsl.execution.simulate.expressions import SELF, Value, applied, function_of
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ir import (
+    Array,
     Assignment,
+    Call,
+    Construction,
     Expression,
     Primitive,
     Send,
@@ -74,12 +77,12 @@ def first_data(
         if param.name in params:
             data[param.name] = deepcopy(params[param.name])
         elif (default := first_value(param)) is not None:
-            data[param.name] = stored(default, param.type)(data, None)
+            data[param.name] = stored(default, param.type, system)(data, None)
         else:
             raise ValueError(f"param `{param.name}` of `{machine.name}` has no value")
     for variable in machine.variables:
         if variable.initial is not None:
-            data[variable.name] = stored(variable.initial, variable.type)(data, None)
+            data[variable.name] = stored(variable.initial, variable.type, system)(data, None)
         else:
             data[variable.name] = default_value(variable.type, system)
     return data
@@ -162,7 +165,9 @@ class _Maker:
         """Convert an activity; parts that callbacks fill in are omitted."""
         call = self.system.function(activity.function).communication
         sent = sent_types(self.system.interface(call.type))
-        goal = [(name, stored(value, sent.get(name))) for name, value in activity.arguments]
+        goal = [
+            (name, stored(value, sent.get(name), self.system)) for name, value in activity.arguments
+        ]
 
         def make_goal(instance: InstanceLike) -> dict[str, Any]:
             return {name: value(instance.data, None) for name, value in goal}
@@ -205,7 +210,7 @@ class _Maker:
         match effect:
             case Assignment(variable=variable, path=path, value=expression):
                 held = field_type(self.types.get(variable), path, self.system)
-                value = stored(expression, held)
+                value = stored(expression, held, self.system)
 
                 def assign(instance: InstanceLike, event: Event) -> None:
                     _store(instance.data, variable, path, value(instance.data, event))
@@ -214,7 +219,7 @@ class _Maker:
             case Send(event=name, arguments=arguments, to=to):
                 type_ = self.system.event(name).type
                 fields = [
-                    (field, stored(value, field_type(type_, (field,), self.system)))
+                    (field, stored(value, field_type(type_, (field,), self.system), self.system))
                     for field, value in arguments
                 ]
 
@@ -252,11 +257,23 @@ def _guard(expression: Expression | None) -> Guard | None:
     return lambda instance, event: value(instance.data, event)
 
 
-def stored(expression: Expression, wanted: Type | None) -> Value:
+def stored(expression: Expression, wanted: Type | None, system: System | None) -> Value:
     """Compile an expression whose value is stored or sent as type `wanted`.
 
     The value is a copy, as in ROS; durations are whole nanoseconds, integers are in range.
     """
+    match expression:
+        case Construction():
+            assert system is not None
+            return _new_message(expression, system)
+        case Call(function="append" | "replace" as word, type=Array(element=element)):
+            # The items of the array itself have been copied when they were stored.
+            at = 1 if word == "append" else 2
+            values = [
+                stored(part, element, system) if number == at else function_of(part)
+                for number, part in enumerate(expression.arguments)
+            ]
+            return applied(word, values)
     value = function_of(expression)
     bound = bound_of(expression, wanted)
     if bound is not None:
@@ -266,6 +283,22 @@ def stored(expression: Expression, wanted: Type | None) -> Value:
     if isinstance(expression.type, Primitive):
         return value
     return lambda data, event: deepcopy(value(data, event))
+
+
+def _new_message(made: Construction, system: System) -> Value:
+    """Compile a new message: its fields have their defaults or values."""
+    fields = [
+        (name, stored(value, field_type(made.type, (name,), system), system))
+        for name, value in made.values
+    ]
+
+    def value(data: Mapping[str, Any], event: Any) -> Any:
+        message = default_value(made.type, system)
+        for name, given in fields:
+            message[name] = given(data, event)
+        return message
+
+    return value
 
 
 def _store(data: dict[str, Any], variable: str, path: tuple[str, ...], value: Any) -> None:

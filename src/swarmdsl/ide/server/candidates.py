@@ -80,9 +80,6 @@ class Candidates:
                 own = [node for kind in kinds for node in nodes_of(self._around, kind)]
                 roles = self._roles() if _is_address(use, owner) else []
                 yield [*roles, *own, *self._visible((Constant, EnumType))]
-        for address in nodes_of(owner, Address):
-            if address.role is not None and PLACEHOLDER in address.role:
-                yield self._roles()
 
     def _targets(self, holder: Node, ref: Ref[Node], owner: TopLevel) -> Iterable[Node]:
         """Return the possible targets of a reference."""

@@ -6,7 +6,14 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast.interfaces import Event, Function, Operation
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, TypeRef, Word
-from swarmdsl.syntax.ast.values import Expression, NameUse, Param, Variable
+from swarmdsl.syntax.ast.values import (
+    Expression,
+    ExpressionTree,
+    IndexUse,
+    NameUse,
+    Param,
+    Variable,
+)
 
 
 @dataclass(slots=True, eq=False)
@@ -83,21 +90,30 @@ Trigger = OutcomeTrigger | DoneTrigger | EventTrigger | TimeTrigger | MonitorTri
 
 @dataclass(slots=True, eq=False)
 class Address(Node):
-    """`role[index]`, or an expression: a role, or a value that is the id of a robot or a role."""
+    """`role`, `role[index]`, or a value that is the id of a robot or a role."""
 
-    role: Word | None
-    index: Expression | None
-    id: Expression | None
+    id: Expression
+
+    @property
+    def role_use(self) -> NameUse | None:
+        """The name of the role; None for an address that is a value."""
+        tree = self.id.tree
+        base = tree.base if isinstance(tree, IndexUse) else tree
+        if isinstance(base, NameUse) and base.target is None and not base.is_predefined:
+            return base
+        return None
 
     @property
     def named_role(self) -> tuple[str, Span] | None:
         """The name of the role and its place; None for an address that is a value."""
-        if self.role is not None:
-            return str(self.role), self.role.span
-        match self.id:
-            case Expression(tree=NameUse(target=None, is_predefined=False) as use):
-                return use.name, use.span
-        return None
+        use = self.role_use
+        return (use.name, use.span) if use is not None else None
+
+    @property
+    def index(self) -> ExpressionTree | None:
+        """The number of a robot in its role; None for all of them, and for a value."""
+        tree = self.id.tree
+        return tree.index if isinstance(tree, IndexUse) and self.role_use is not None else None
 
 
 @dataclass(slots=True, eq=False)
@@ -117,7 +133,30 @@ class Assignment(Node):
     value: Expression
 
 
-Effect = Send | Assignment
+@dataclass(slots=True, eq=False)
+class Append(Node):
+    """`append value to target`."""
+
+    value: Expression
+    target: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Remove(Node):
+    """`remove target`, an item of an array."""
+
+    target: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Clear(Node):
+    """`clear target`."""
+
+    target: Expression
+
+
+Store = Assignment | Append | Remove | Clear
+Effect = Send | Store
 
 
 @dataclass(slots=True, eq=False)

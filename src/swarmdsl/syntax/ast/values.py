@@ -30,7 +30,7 @@ class NameUse(Node):
     """
 
     name: str
-    target: Variable | Param | Constant | EnumType | FitnessInput | None = field(
+    target: Variable | Param | Constant | EnumType | FitnessInput | Element | None = field(
         default=None, init=False, metadata={"elsewhere": True}
     )
 
@@ -49,6 +49,48 @@ class FieldUse(Node):
 
 
 @dataclass(slots=True, eq=False)
+class IndexUse(Node):
+    """`base[index]`, an item of an array, or one robot of a role."""
+
+    base: ExpressionTree
+    index: ExpressionTree
+
+
+@dataclass(slots=True, eq=False)
+class Element(Node):
+    """`name in array`: the name of each item in a query."""
+
+    name: Word
+    array: ExpressionTree
+
+
+@dataclass(slots=True, eq=False)
+class Query(Node):
+    """`function(element in array where condition by key)`, the function a built-in one."""
+
+    function: Word
+    element: Element
+    condition: ExpressionTree | None
+    key: ExpressionTree | None
+
+
+@dataclass(slots=True, eq=False)
+class FieldValue(Node):
+    """`name = value` in a construction."""
+
+    name: Word
+    value: ExpressionTree
+
+
+@dataclass(slots=True, eq=False)
+class Construction(Node):
+    """`Type(field = value)`: a new message."""
+
+    type: TypeRef
+    values: tuple[FieldValue, ...]
+
+
+@dataclass(slots=True, eq=False)
 class Call(Node):
     """`function(arguments)`, the function a built-in one."""
 
@@ -64,7 +106,7 @@ class OperatorUse(Node):
     operands: tuple[ExpressionTree, ...]
 
 
-ExpressionTree = Value | NameUse | FieldUse | Call | OperatorUse
+ExpressionTree = Value | NameUse | FieldUse | IndexUse | Call | Query | Construction | OperatorUse
 
 
 @dataclass(slots=True, eq=False)

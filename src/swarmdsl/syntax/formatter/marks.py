@@ -6,12 +6,13 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.syntax.ast import (
     ActionType,
     Activity,
-    Address,
     Branch,
     Call,
+    Construction,
     Documented,
     EnumValue,
     Fact,
+    IndexUse,
     MessageType,
     Model,
     Multiplicity,
@@ -19,6 +20,7 @@ from swarmdsl.syntax.ast import (
     Operation,
     OperatorUse,
     Parameter,
+    Query,
     RobotValues,
     Send,
     ServiceType,
@@ -69,9 +71,11 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                 _join(marks, tokens, start, f"{node.role.name}[{node.index}]")
             case OperatorUse(operands=(_,)) if node.operator == "-":
                 marks.tight.add(tokens.code(start, 2)[1].start)
-            case Call() | Operation():
-                name = node.function if isinstance(node, Call) else node.name
+            case Call() | Query() | Operation():
+                name = node.name if isinstance(node, Operation) else node.function
                 marks.tight.add(tokens.code(name.span.end)[0].start)
+            case Construction():
+                marks.tight.add(tokens.code(node.type.span.end)[0].start)
             case Activity():
                 _mark_list(marks, tokens, node.function.span.start, node.function.name)
                 result = node.results[0].span if node.results else None
@@ -82,14 +86,14 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                     marks.clauses.add(tokens.before(opener.start).start)
             case Send():
                 _mark_list(marks, tokens, node.event.span.start, node.event.name)
-            case Address(role=role) if role is not None:
-                marks.tight.add(tokens.code(role.span.end)[0].start)
             case Who(lower=str(lower)) if lower:
                 _join(marks, tokens, start, f"{lower}..{node.upper}" if node.upper else lower)
             case Who(index=str(index)) if index:
                 _join(marks, tokens, start, f"{node.role.name}[{index}]")
             case Fact(counted=counted) if counted is not None:
                 marks.tight.add(tokens.before(counted.span.start).start)
+            case IndexUse(base=base):
+                marks.tight.add(tokens.code(base.span.end)[0].start)
             case State(machine=machine) if machine is not None:
                 _mark_list(marks, tokens, machine.span.start, machine.name)
             case Transition(effects=[effect, *_]) | Branch(effects=[effect, *_]):

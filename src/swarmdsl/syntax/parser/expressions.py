@@ -13,10 +13,16 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import (
     Call,
+    Construction,
+    Element,
     Expression,
     ExpressionTree,
     FieldUse,
+    FieldValue,
+    IndexUse,
     NameUse,
+    Query,
+    TypeRef,
     Value,
     Word,
     depth,
@@ -40,7 +46,7 @@ _PARTS_OF_COMPARISONS = frozenset("=!<>")
 _PREFIXES = frozenset({"not", "-"})
 # A number may continue with the first; an expression after a number or a name with the second.
 _IN_NUMBERS = UNITS.keys() | {"."}
-_CONTINUATIONS = _OPERATORS | _IN_NUMBERS | {"("}
+_CONTINUATIONS = _OPERATORS | _IN_NUMBERS | {"(", "["}
 _SIMPLE_NUMBER = 9  # digits: no such number is too large
 
 # To call the classes takes longer.
@@ -223,10 +229,12 @@ class ExpressionParser:
         if token not in self._not_a_name:
             following = tokens[at + 1]
             if following == "(":
-                call = self._call(at)
-                if call is not None:
-                    return call
+                found = self._query(at) or self._construction(at) or self._call(at)
+                if found is not None:
+                    return found
             if following == ".":
+                return self._construction(at) or self._path(at)
+            if following == "[":
                 return self._path(at)
             at += 1
             end = self._ends[at]
@@ -278,21 +286,119 @@ class ExpressionParser:
         start = function.span[1]
         return Call(self._span(start, end), function, tuple(arguments)), start, end, following
 
+    def _query(self, at: int) -> _Found | None:
+        """Parse a query of an array."""
+        tokens = self._tokens
+        name = at + 2
+        if tokens[name + 1] != "in" or not self._is_word(name) or tokens[name] in self._not_a_name:
+            return None
+        before = self._fault, self._large
+        self._descend()
+        parts: dict[str, ExpressionTree | None] = {"in": None, "where": None, "by": None}
+        following = name + 1
+        end = 0
+        for word in parts:
+            if tokens[following] == word:
+                found = self._binary(following + 1, _OPERATORS)
+                if found is None:
+                    break
+                parts[word], _, inner_end, following = found
+                end = end or inner_end
+        self._level -= 1
+        array = parts["in"]
+        if array is None or tokens[following] != ")":
+            self._fault, self._large = before
+            return None
+        following += 1
+        self._size += 2
+        function, item = self._word_at(at), self._word_at(name)
+        start = function.span[1]
+        element = Element(self._span(item.span[1], end), item, array)
+        span = self._span(start, self._ends[following])
+        made = Query(span, function, element, parts["where"], parts["by"])
+        return made, start, self._ends[following], following
+
+    def _construction(self, at: int) -> _Found | None:
+        """Parse a type with values of fields."""
+        tokens, start = self._tokens, self._start(at)
+        following = at + 1
+        while (
+            tokens[following] == "."
+            and self._is_adjacent(following)
+            and self._is_word(following + 1)
+            and self._is_adjacent(following + 1)
+        ):
+            following += 2
+        if tokens[following] != "(" or not self._is_word(following + 1):
+            return None
+        name = "".join(tokens[at:following])
+        type_ = TypeRef(self._span(start, self._ends[following]), name, "", "")
+        before = self._fault, self._large
+        self._descend()
+        values: list[FieldValue] = []
+        while tokens[following] == ("," if values else "(") and tokens[following + 2] == "=":
+            if not self._is_word(following + 1):
+                break
+            field = self._word_at(following + 1)
+            found = self._binary(following + 3, _OPERATORS)
+            if found is None:
+                break
+            tree, _, end, following = found
+            values.append(FieldValue(self._span(field.span[1], end), field, tree))
+        self._level -= 1
+        if not values or tokens[following] != ")":
+            self._fault, self._large = before
+            return None
+        following += 1
+        self._size += 2
+        end = self._ends[following]
+        return Construction(self._span(start, end), type_, tuple(values)), start, end, following
+
     def _path(self, at: int) -> _Found:
-        """Parse a name and field accesses."""
+        """Parse a name with fields and items."""
         tokens, start = self._tokens, self._start(at)
         end = self._ends[at + 1]
         tree: ExpressionTree = NameUse(self._span(start, end), tokens[at])
         at += 1
-        while tokens[at] == ".":
-            field = tokens[at + 1]
-            if field < "A" or field in SYMBOLS:
+        while True:
+            if tokens[at] == "." and self._is_word(at + 1):
+                field = tokens[at + 1]
+                at += 2
+                end = self._ends[at]
+                tree = FieldUse(self._span(start, end), tree, self._word(field, end))
+            elif tokens[at] == "[" and tokens[at - 1] != "]" and self._is_adjacent(at):
+                found = self._index(at)
+                if found is None:
+                    break
+                index, at = found
+                end = self._ends[at]
+                tree = IndexUse(self._span(start, end), tree, index)
+            else:
                 break
-            at += 2
-            end = self._ends[at]
-            tree = FieldUse(self._span(start, end), tree, self._word(field, end))
             self._size += 1
         return tree, start, end, at
+
+    def _index(self, at: int) -> tuple[ExpressionTree, int] | None:
+        """Parse an index in brackets."""
+        before = self._fault, self._large
+        self._descend()
+        found = self._binary(at + 1, _OPERATORS)
+        self._level -= 1
+        if found is None or self._tokens[found[3]] != "]":
+            self._fault, self._large = before
+            return None
+        return found[0], found[3] + 1
+
+    def _is_word(self, at: int) -> bool:
+        token = self._tokens[at]
+        return token >= "A" and token not in SYMBOLS
+
+    def _is_adjacent(self, at: int) -> bool:
+        """Return True for a token directly after the one before it."""
+        return self._start(at) == self._ends[at]
+
+    def _word_at(self, at: int) -> Word:
+        return self._word(self._tokens[at], self._ends[at + 1])
 
     def _value(self, at: int, end: int, value: bool | float | str, unit: str = "") -> _Found:
         ends = self._ends

@@ -8,10 +8,10 @@ import re
 from swarmdsl.syntax.parser.expressions import ExpressionParser, TooDeepError
 from swarmdsl.syntax.parser.literals import Language, unquoted
 from swarmdsl.base.source import Source, Span
-from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Argument, Assignment, BehaviorUse, Branch, Chance, Choice, Claim, Communication, CommunicationSettings, Component, Conjunction, Connector, Constant, CountRange, DoneTrigger, Each, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Fact, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Pattern, Port, PortRef, Property, PropertyScope, Region, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, Term, TimeTrigger, Transition, TypeRef, Variable, Who, World
+from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Append, Argument, Assignment, BehaviorUse, Branch, Chance, Choice, Claim, Clear, Communication, CommunicationSettings, Component, Conjunction, Connector, Constant, CountRange, DoneTrigger, Each, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Fact, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Pattern, Port, PortRef, Property, PropertyScope, Region, Remove, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, Term, TimeTrigger, Transition, TypeRef, Variable, Who, World
 from swarmdsl.syntax.parser.lexer import Lexer
 
-GRAMMAR = 654880706
+GRAMMAR = 2527287479
 new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
@@ -103,12 +103,6 @@ def REGEX13(text, at):
     REGEX13 = re.compile('==|!=|<=|>=|<|>', re.MULTILINE).match
     return REGEX13(text, at)
 
-
-def REGEX14(text, at):
-    global REGEX14
-    REGEX14 = re.compile('(?<=[A-Za-z0-9_])(?=\\[)', re.MULTILINE).match
-    return REGEX14(text, at)
-
 SET0 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'optimize', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET2 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
@@ -138,7 +132,6 @@ SET25 = frozenset(['all', 'no', 'some'])
 SET26 = frozenset(['after', 'monitor', 'on'])
 SET27 = frozenset(['aborted', 'preempted', 'succeeded'])
 SET28 = frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state'])
-SET29 = frozenset(['!', '#', '$', '%', '&', "'", ')', '*', '+', ',', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'exit', 'extends', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
 RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
 TERMINALS = (
     ('\\Z', 'EOF', ''),
@@ -272,9 +265,10 @@ TERMINALS = (
     ('cancels\\b', '', 'cancels'),
     ('other\\b', '', 'other'),
     ('\\d+(?:\\.\\d+)?(?:[eE][+-]?\\d+)?(?:[ \\t]*(?:us|ms|s|min|h))?\\b(?!\\.\\d)', 'QUANTITY', ''),
+    ('where\\b', '', 'where'),
+    ('by\\b', '', 'by'),
     ('[A-Za-z_][A-Za-z0-9_]*\\b(?=[ \\t]*(?:->|[:;}\\r\\n]|\\/[\\/*]|$))', 'PORTWORD', ''),
     ('do\\b', '', 'do'),
-    ('by\\b', '', 'by'),
     ('gives\\b', '', 'gives'),
     ('entry\\b', '', 'entry'),
     ('exit\\b', '', 'exit'),
@@ -282,16 +276,20 @@ TERMINALS = (
     ('region\\b', '', 'region'),
     ('some\\b', '', 'some'),
     ('no\\b', '', 'no'),
+    ('(?<=[A-Za-z0-9_])(?=\\.)', '', ''),
+    ('(?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)+', '', ''),
     ('self\\b', '', 'self'),
     ('=>', '', '=>'),
     ('monitor\\b', '', 'monitor'),
     ('as\\b', '', 'as'),
     ('send\\b', '', 'send'),
+    ('append\\b', '', 'append'),
+    ('remove\\b', '', 'remove'),
+    ('clear\\b', '', 'clear'),
     ('done\\b', '', 'done'),
     ('succeeded\\b', '', 'succeeded'),
     ('aborted\\b', '', 'aborted'),
     ('preempted\\b', '', 'preempted'),
-    ('(?<=[A-Za-z0-9_])(?=\\[)', '', ''),
 )
 PROGRAM = (
     (3, 3),
@@ -1186,7 +1184,7 @@ PROGRAM = (
     (0, 104),
     (2, 901),
     (1, 894),
-    (3, 1105),
+    (3, 1111),
     (2, 901),
     (1, 897),
     (0, 105),
@@ -1214,7 +1212,7 @@ PROGRAM = (
     (2, 919),
     (0, 108),
     (4, 0),
-    (3, 1107),
+    (3, 1113),
     (4, 0),
     (1, 926),
     (3, 907),
@@ -1232,7 +1230,7 @@ PROGRAM = (
     (3, 606),
     (0, 66),
     (2, 938),
-    (3, 1107),
+    (3, 1113),
     (4, 0),
     (0, 110),
     (3, 407),
@@ -1242,10 +1240,10 @@ PROGRAM = (
     (1, 956),
     (0, 76),
     (1, 954),
-    (3, 1112),
+    (3, 1118),
     (1, 953),
     (0, 9),
-    (3, 1112),
+    (3, 1118),
     (2, 949),
     (2, 954),
     (0, 77),
@@ -1254,7 +1252,7 @@ PROGRAM = (
     (1, 967),
     (0, 4),
     (1, 965),
-    (3, 1116),
+    (3, 1122),
     (1, 964),
     (0, 1),
     (2, 964),
@@ -1267,7 +1265,7 @@ PROGRAM = (
     (3, 407),
     (0, 4),
     (1, 978),
-    (3, 1133),
+    (3, 1139),
     (1, 977),
     (0, 1),
     (2, 977),
@@ -1278,7 +1276,7 @@ PROGRAM = (
     (3, 407),
     (0, 4),
     (1, 989),
-    (3, 1144),
+    (3, 1150),
     (1, 988),
     (0, 1),
     (2, 988),
@@ -1298,10 +1296,10 @@ PROGRAM = (
     (0, 115),
     (3, 407),
     (4, 0),
-    (3, 1161),
+    (3, 1167),
     (1, 1009),
     (0, 65),
-    (3, 1161),
+    (3, 1167),
     (2, 1009),
     (4, 0),
     (0, 116),
@@ -1324,7 +1322,7 @@ PROGRAM = (
     (0, 64),
     (3, 391),
     (0, 77),
-    (3, 1163),
+    (3, 1169),
     (3, 840),
     (2, 1071),
     (1, 1037),
@@ -1338,15 +1336,15 @@ PROGRAM = (
     (0, 85),
     (2, 1071),
     (1, 1047),
-    (3, 1180),
+    (3, 1186),
     (3, 391),
     (2, 1071),
     (1, 1051),
-    (3, 1185),
+    (3, 1191),
     (3, 391),
     (2, 1071),
     (1, 1070),
-    (3, 1190),
+    (3, 1196),
     (1, 1057),
     (0, 64),
     (3, 391),
@@ -1358,416 +1356,468 @@ PROGRAM = (
     (0, 85),
     (2, 1069),
     (1, 1067),
-    (3, 1180),
+    (3, 1186),
     (3, 391),
     (2, 1069),
-    (3, 1185),
+    (3, 1191),
     (3, 391),
     (2, 1071),
     (3, 391),
     (4, 0),
     (3, 859),
     (1, 1077),
-    (3, 1212),
+    (3, 1218),
     (3, 859),
     (2, 1073),
     (4, 0),
     (1, 1081),
     (0, 90),
     (2, 1082),
-    (3, 1105),
+    (3, 1111),
     (4, 0),
     (1, 1086),
-    (3, 1220),
-    (2, 1104),
+    (3, 1226),
+    (2, 1110),
     (1, 1089),
     (3, 631),
-    (2, 1104),
+    (2, 1110),
     (1, 1092),
     (0, 120),
-    (2, 1104),
+    (2, 1110),
     (1, 1095),
     (0, 121),
-    (2, 1104),
+    (2, 1110),
     (1, 1098),
-    (3, 1222),
-    (2, 1104),
+    (3, 1228),
+    (2, 1110),
     (1, 1101),
-    (3, 1233),
-    (2, 1104),
+    (3, 1243),
+    (2, 1110),
+    (1, 1104),
+    (3, 1255),
+    (2, 1110),
+    (1, 1107),
+    (3, 1266),
+    (2, 1110),
     (0, 76),
     (3, 644),
     (0, 77),
     (4, 0),
     (0, 122),
     (4, 0),
-    (1, 1110),
+    (1, 1116),
     (3, 606),
-    (2, 1111),
-    (3, 1239),
+    (2, 1117),
+    (3, 1275),
     (4, 0),
     (3, 633),
     (0, 13),
     (3, 427),
     (4, 0),
-    (1, 1119),
-    (3, 1241),
-    (2, 1132),
-    (1, 1122),
-    (3, 1273),
-    (2, 1132),
     (1, 1125),
-    (3, 1281),
-    (2, 1132),
+    (3, 1277),
+    (2, 1138),
     (1, 1128),
-    (3, 1289),
-    (2, 1132),
+    (3, 1309),
+    (2, 1138),
     (1, 1131),
+    (3, 1317),
+    (2, 1138),
+    (1, 1134),
+    (3, 1325),
+    (2, 1138),
+    (1, 1137),
     (3, 741),
-    (2, 1132),
+    (2, 1138),
     (3, 744),
     (4, 0),
-    (1, 1136),
-    (3, 1355),
-    (2, 1143),
-    (1, 1139),
-    (3, 1273),
-    (2, 1143),
     (1, 1142),
-    (3, 1281),
-    (2, 1143),
-    (3, 1289),
+    (3, 1391),
+    (2, 1149),
+    (1, 1145),
+    (3, 1309),
+    (2, 1149),
+    (1, 1148),
+    (3, 1317),
+    (2, 1149),
+    (3, 1325),
     (4, 0),
-    (1, 1149),
+    (1, 1155),
     (0, 84),
     (3, 427),
     (0, 85),
-    (2, 1150),
+    (2, 1156),
     (0, 123),
-    (1, 1158),
+    (1, 1164),
     (0, 106),
-    (3, 1366),
-    (1, 1157),
+    (3, 1402),
+    (1, 1163),
     (0, 9),
-    (3, 1366),
-    (2, 1153),
-    (2, 1158),
+    (3, 1402),
+    (2, 1159),
+    (2, 1164),
     (0, 81),
     (3, 391),
     (4, 0),
     (0, 124),
     (4, 0),
-    (1, 1166),
-    (0, 98),
-    (2, 1179),
-    (1, 1169),
-    (0, 99),
-    (2, 1179),
     (1, 1172),
-    (0, 100),
-    (2, 1179),
+    (0, 98),
+    (2, 1185),
     (1, 1175),
-    (0, 101),
-    (2, 1179),
+    (0, 99),
+    (2, 1185),
     (1, 1178),
+    (0, 100),
+    (2, 1185),
+    (1, 1181),
+    (0, 101),
+    (2, 1185),
+    (1, 1184),
     (0, 102),
-    (2, 1179),
+    (2, 1185),
     (0, 103),
     (4, 0),
-    (1, 1183),
+    (1, 1189),
     (0, 125),
-    (2, 1184),
+    (2, 1190),
     (0, 126),
     (4, 0),
-    (1, 1188),
+    (1, 1194),
     (0, 127),
-    (2, 1189),
+    (2, 1195),
     (0, 128),
     (4, 0),
-    (1, 1197),
-    (3, 1371),
-    (1, 1195),
-    (0, 129),
-    (2, 1195),
-    (3, 606),
-    (2, 1211),
-    (1, 1205),
-    (3, 1161),
     (1, 1203),
-    (0, 65),
-    (3, 1161),
-    (2, 1203),
+    (3, 1416),
+    (1, 1201),
+    (0, 129),
+    (2, 1201),
     (3, 606),
-    (2, 1211),
-    (3, 606),
+    (2, 1217),
     (1, 1211),
+    (3, 1167),
+    (1, 1209),
+    (0, 65),
+    (3, 1167),
+    (2, 1209),
+    (3, 606),
+    (2, 1217),
+    (3, 606),
+    (1, 1217),
     (0, 84),
     (3, 840),
     (0, 85),
-    (2, 1211),
+    (2, 1217),
     (4, 0),
-    (1, 1215),
+    (1, 1221),
     (0, 104),
-    (2, 1219),
-    (1, 1218),
-    (3, 1105),
-    (2, 1219),
+    (2, 1225),
+    (1, 1224),
+    (3, 1111),
+    (2, 1225),
     (0, 105),
     (4, 0),
     (0, 130),
     (4, 0),
     (3, 606),
     (0, 76),
-    (1, 1231),
+    (3, 606),
+    (0, 64),
     (3, 644),
-    (1, 1230),
-    (0, 9),
+    (1, 1237),
+    (0, 131),
     (3, 644),
-    (2, 1226),
-    (2, 1231),
+    (2, 1237),
+    (1, 1241),
+    (0, 132),
+    (3, 644),
+    (2, 1241),
     (0, 77),
     (4, 0),
-    (3, 1379),
-    (1, 1238),
+    (3, 606),
+    (1, 1247),
+    (3, 1424),
+    (2, 1247),
+    (0, 76),
+    (3, 1427),
+    (1, 1253),
+    (0, 9),
+    (3, 1427),
+    (2, 1249),
+    (0, 77),
+    (4, 0),
+    (3, 606),
+    (0, 76),
+    (1, 1264),
+    (3, 644),
+    (1, 1263),
+    (0, 9),
+    (3, 644),
+    (2, 1259),
+    (2, 1264),
+    (0, 77),
+    (4, 0),
+    (3, 1431),
+    (1, 1274),
+    (1, 1272),
     (0, 66),
     (3, 857),
-    (2, 1234),
+    (2, 1273),
+    (3, 840),
+    (2, 1267),
     (4, 0),
-    (0, 131),
-    (4, 0),
-    (0, 132),
-    (3, 391),
-    (1, 1258),
-    (0, 76),
-    (1, 1249),
     (0, 133),
-    (3, 407),
-    (2, 1256),
-    (1, 1256),
-    (3, 1112),
-    (1, 1255),
-    (0, 9),
-    (3, 1112),
-    (2, 1251),
-    (2, 1256),
-    (0, 77),
-    (2, 1258),
-    (1, 1272),
+    (4, 0),
     (0, 134),
-    (1, 1264),
-    (0, 133),
-    (3, 407),
-    (2, 1271),
+    (3, 391),
+    (1, 1294),
     (0, 76),
-    (3, 1387),
-    (1, 1270),
+    (1, 1285),
+    (0, 132),
+    (3, 407),
+    (2, 1292),
+    (1, 1292),
+    (3, 1118),
+    (1, 1291),
     (0, 9),
-    (3, 1387),
-    (2, 1266),
+    (3, 1118),
+    (2, 1287),
+    (2, 1292),
     (0, 77),
-    (2, 1272),
-    (4, 0),
+    (2, 1294),
+    (1, 1308),
     (0, 135),
-    (0, 106),
-    (3, 1366),
-    (1, 1280),
+    (1, 1300),
+    (0, 132),
+    (3, 407),
+    (2, 1307),
+    (0, 76),
+    (3, 1439),
+    (1, 1306),
     (0, 9),
-    (3, 1366),
-    (2, 1276),
+    (3, 1439),
+    (2, 1302),
+    (0, 77),
+    (2, 1308),
     (4, 0),
     (0, 136),
     (0, 106),
-    (3, 1366),
-    (1, 1288),
+    (3, 1402),
+    (1, 1316),
     (0, 9),
-    (3, 1366),
-    (2, 1284),
+    (3, 1402),
+    (2, 1312),
     (4, 0),
-    (1, 1292),
     (0, 137),
-    (2, 1292),
-    (1, 1333),
-    (1, 1301),
-    (0, 25),
-    (3, 1391),
-    (1, 1300),
-    (0, 9),
-    (3, 1391),
-    (2, 1296),
-    (2, 1313),
-    (1, 1308),
-    (3, 1399),
-    (1, 1307),
-    (0, 9),
-    (3, 1399),
-    (2, 1303),
-    (2, 1313),
-    (3, 1402),
-    (1, 1313),
-    (0, 9),
-    (3, 1402),
-    (2, 1309),
-    (1, 1318),
-    (0, 84),
-    (3, 427),
-    (0, 85),
-    (2, 1318),
-    (1, 1330),
     (0, 106),
-    (3, 1366),
-    (1, 1325),
+    (3, 1402),
+    (1, 1324),
     (0, 9),
-    (3, 1366),
-    (2, 1321),
-    (1, 1329),
-    (0, 81),
-    (3, 391),
-    (2, 1329),
+    (3, 1402),
+    (2, 1320),
+    (4, 0),
+    (1, 1328),
+    (0, 138),
+    (2, 1328),
+    (1, 1369),
+    (1, 1337),
+    (0, 25),
+    (3, 1443),
+    (1, 1336),
+    (0, 9),
+    (3, 1443),
     (2, 1332),
-    (0, 81),
-    (3, 391),
-    (2, 1354),
-    (1, 1341),
-    (0, 25),
-    (3, 1411),
-    (1, 1340),
+    (2, 1349),
+    (1, 1344),
+    (3, 1451),
+    (1, 1343),
     (0, 9),
-    (3, 1411),
-    (2, 1336),
-    (2, 1354),
+    (3, 1451),
+    (2, 1339),
+    (2, 1349),
+    (3, 1454),
+    (1, 1349),
+    (0, 9),
+    (3, 1454),
+    (2, 1345),
+    (1, 1354),
     (0, 84),
     (3, 427),
     (0, 85),
-    (1, 1352),
+    (2, 1354),
+    (1, 1366),
     (0, 106),
-    (3, 1366),
-    (1, 1351),
+    (3, 1402),
+    (1, 1361),
     (0, 9),
-    (3, 1366),
-    (2, 1347),
-    (2, 1352),
+    (3, 1402),
+    (2, 1357),
+    (1, 1365),
+    (0, 81),
+    (3, 391),
+    (2, 1365),
+    (2, 1368),
+    (0, 81),
+    (3, 391),
+    (2, 1390),
+    (1, 1377),
+    (0, 25),
+    (3, 1463),
+    (1, 1376),
+    (0, 9),
+    (3, 1463),
+    (2, 1372),
+    (2, 1390),
+    (0, 84),
+    (3, 427),
+    (0, 85),
+    (1, 1388),
+    (0, 106),
+    (3, 1402),
+    (1, 1387),
+    (0, 9),
+    (3, 1402),
+    (2, 1383),
+    (2, 1388),
     (0, 81),
     (3, 391),
     (4, 0),
-    (0, 138),
+    (0, 139),
     (3, 407),
     (0, 4),
-    (1, 1364),
-    (3, 1413),
-    (1, 1363),
+    (1, 1400),
+    (3, 1465),
+    (1, 1399),
     (0, 1),
-    (2, 1363),
-    (2, 1358),
+    (2, 1399),
+    (2, 1394),
     (0, 5),
     (4, 0),
-    (1, 1369),
-    (3, 1418),
-    (2, 1370),
-    (3, 1436),
+    (1, 1405),
+    (3, 1470),
+    (2, 1415),
+    (1, 1408),
+    (3, 1488),
+    (2, 1415),
+    (1, 1411),
+    (3, 1493),
+    (2, 1415),
+    (1, 1414),
+    (3, 1496),
+    (2, 1415),
+    (3, 1499),
     (4, 0),
-    (1, 1374),
+    (1, 1419),
     (0, 55),
-    (2, 1378),
-    (1, 1377),
-    (0, 139),
-    (2, 1378),
+    (2, 1423),
+    (1, 1422),
     (0, 140),
-    (4, 0),
-    (1, 1382),
-    (0, 24),
-    (2, 1386),
-    (1, 1385),
+    (2, 1423),
     (0, 141),
-    (2, 1386),
+    (4, 0),
+    (0, 142),
+    (0, 143),
+    (4, 0),
+    (3, 857),
+    (0, 13),
+    (3, 644),
+    (4, 0),
+    (1, 1434),
+    (0, 24),
+    (2, 1438),
+    (1, 1437),
+    (0, 144),
+    (2, 1438),
     (3, 606),
     (4, 0),
     (3, 633),
-    (0, 142),
-    (3, 1440),
+    (0, 145),
+    (3, 1503),
     (4, 0),
-    (1, 1394),
-    (3, 1411),
-    (2, 1398),
-    (1, 1397),
-    (3, 1442),
-    (2, 1398),
-    (3, 1452),
+    (1, 1446),
+    (3, 1463),
+    (2, 1450),
+    (1, 1449),
+    (3, 1505),
+    (2, 1450),
+    (3, 1515),
     (4, 0),
     (0, 43),
     (3, 838),
     (4, 0),
-    (0, 143),
+    (0, 146),
     (3, 402),
     (0, 11),
     (3, 413),
-    (1, 1410),
-    (0, 144),
+    (1, 1462),
+    (0, 147),
     (3, 407),
-    (2, 1410),
+    (2, 1462),
     (4, 0),
-    (3, 1454),
+    (3, 1517),
     (4, 0),
-    (1, 1416),
+    (1, 1468),
     (3, 741),
-    (2, 1417),
+    (2, 1469),
     (3, 744),
     (4, 0),
-    (0, 145),
+    (0, 148),
     (3, 391),
-    (1, 1431),
+    (1, 1483),
     (0, 76),
-    (1, 1429),
-    (3, 1112),
-    (1, 1428),
+    (1, 1481),
+    (3, 1118),
+    (1, 1480),
     (0, 9),
-    (3, 1112),
-    (2, 1424),
-    (2, 1429),
+    (3, 1118),
+    (2, 1476),
+    (2, 1481),
     (0, 77),
-    (2, 1431),
-    (1, 1435),
+    (2, 1483),
+    (1, 1487),
     (0, 59),
-    (3, 1462),
-    (2, 1435),
+    (3, 1525),
+    (2, 1487),
     (4, 0),
-    (3, 1440),
+    (0, 149),
+    (3, 427),
+    (0, 59),
+    (3, 1503),
+    (4, 0),
+    (0, 150),
+    (3, 1503),
+    (4, 0),
+    (0, 151),
+    (3, 1503),
+    (4, 0),
+    (3, 1503),
     (0, 13),
     (3, 427),
     (4, 0),
     (3, 859),
     (4, 0),
-    (1, 1446),
+    (1, 1509),
     (3, 606),
     (0, 66),
-    (2, 1446),
-    (0, 146),
-    (1, 1451),
+    (2, 1509),
+    (0, 152),
+    (1, 1514),
     (0, 66),
     (3, 606),
-    (2, 1451),
+    (2, 1514),
     (4, 0),
     (3, 391),
     (4, 0),
-    (1, 1457),
-    (0, 147),
-    (2, 1461),
-    (1, 1460),
-    (0, 148),
-    (2, 1461),
-    (0, 149),
+    (1, 1520),
+    (0, 153),
+    (2, 1524),
+    (1, 1523),
+    (0, 154),
+    (2, 1524),
+    (0, 155),
     (4, 0),
-    (1, 1468),
-    (3, 1470),
-    (0, 84),
     (3, 427),
-    (0, 85),
-    (2, 1469),
-    (3, 427),
-    (4, 0),
-    (3, 1472),
-    (4, 0),
-    (3, 606),
-    (0, 150),
     (4, 0),
 )
 
@@ -5468,6 +5518,56 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.to = to_
         return made
 
+    def r_Append():
+        nonlocal at, token
+        start = ends[at + 1] - 6
+        value_ = None
+        target_ = None
+        at += 1; token = tokens[at]
+        found = expression(at)
+        if found is None: return None
+        value, at = found; token = tokens[at]
+        value_ = value
+        if not (token == 'to'): return None
+        at += 1; token = tokens[at]
+        found = operand(at)
+        if found is None: return None
+        value, at = found; token = tokens[at]
+        target_ = value
+        made = new_node(Append)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.value = value_
+        made.target = target_
+        return made
+
+    def r_Remove():
+        nonlocal at, token
+        start = ends[at + 1] - 6
+        target_ = None
+        at += 1; token = tokens[at]
+        found = operand(at)
+        if found is None: return None
+        value, at = found; token = tokens[at]
+        target_ = value
+        made = new_node(Remove)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.target = target_
+        return made
+
+    def r_Clear():
+        nonlocal at, token
+        start = ends[at + 1] - 5
+        target_ = None
+        at += 1; token = tokens[at]
+        found = operand(at)
+        if found is None: return None
+        value, at = found; token = tokens[at]
+        target_ = value
+        made = new_node(Clear)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.target = target_
+        return made
+
     def r_Assignment():
         nonlocal at, token
         start = ends[at + 1] - len(token)
@@ -5560,52 +5660,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
     def r_Address():
         nonlocal at, token
         start = ends[at + 1] - len(token)
-        role_ = None
-        index_ = None
         id_ = None
-        chosen1 = False
-        if not chosen1 and token >= 'A' and token not in SET2:
-            before2 = at
-            before3 = role_
-            before4 = index_
-            while True:
-                first = ends[at + 1] - len(token)
-                taken6 = token; at += 1; token = tokens[at]
-                text5 = taken6
-                match7 = REGEX14(text, ends[at + 1] - len(token))
-                if match7 is None: at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
-                end = match7.end()
-                while ends[at] < end: at += 1
-                if ends[at] > end: at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
-                token = tokens[at]
-                text5 += match7[0]
-                value = new_word(Word, text5)
-                value.span = new_span(Span, (source, first, ends[at]))
-                role_ = value
-                if not (token == '['): at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
-                at += 1; token = tokens[at]
-                found = expression(at)
-                if found is None: at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
-                value, at = found; token = tokens[at]
-                index_ = value
-                if not (token == ']'): at = before2; token = tokens[at]; role_ = before3; index_ = before4; break
-                at += 1; token = tokens[at]
-                chosen1 = True
-                break
-        if not chosen1 and token not in SET29:
-            before8 = at
-            while True:
-                found = expression(at)
-                if found is None: at = before8; token = tokens[at]; break
-                value, at = found; token = tokens[at]
-                id_ = value
-                chosen1 = True
-                break
-        if not chosen1: return None
+        found = expression(at)
+        if found is None: return None
+        value, at = found; token = tokens[at]
+        id_ = value
         made = new_node(Address)
         made.span = new_span(Span, (source, start, ends[at]))
-        made.role = role_
-        made.index = index_
         made.id = id_
         return made
 
@@ -5652,6 +5713,30 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         at = before; token = tokens[at]
         return r_RobotValues()
 
+    def try_Append_Assignment():
+        nonlocal at, token
+        before = at
+        made = r_Append()
+        if made is not None: return made
+        at = before; token = tokens[at]
+        return r_Assignment()
+
+    def try_Clear_Assignment():
+        nonlocal at, token
+        before = at
+        made = r_Clear()
+        if made is not None: return made
+        at = before; token = tokens[at]
+        return r_Assignment()
+
+    def try_Remove_Assignment():
+        nonlocal at, token
+        before = at
+        made = r_Remove()
+        if made is not None: return made
+        at = before; token = tokens[at]
+        return r_Assignment()
+
     def try_DoneTrigger_EventTrigger():
         nonlocal at, token
         before = at
@@ -5672,7 +5757,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
     FitnessItem_RULES = {'in': r_FitnessInput, 'maximize': r_Objective, 'minimize': r_Objective, 'param': r_Param}
     StateItem_RULES = {'[': r_Transition, 'after': r_Transition, 'choice': r_Choice, 'deep': r_History, 'do': r_Activity, 'entry': r_Entry, 'exit': r_Exit, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'parallel': r_Parallel, 'state': r_State}
     ParallelItem_RULES = {'[': r_Transition, 'after': r_Transition, 'entry': r_Entry, 'exit': r_Exit, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'region': r_Region}
-    Effect_RULES = {'(': r_Assignment, '-': r_Assignment, 'event': r_Assignment, 'false': r_Assignment, 'not': r_Assignment, 'self': r_Assignment, 'send': r_Send, 'true': r_Assignment}
+    Effect_RULES = {'(': r_Assignment, '-': r_Assignment, 'append': try_Append_Assignment, 'clear': try_Clear_Assignment, 'event': r_Assignment, 'false': r_Assignment, 'not': r_Assignment, 'remove': try_Remove_Assignment, 'self': r_Assignment, 'send': r_Send, 'true': r_Assignment}
     Trigger_RULES = {'aborted': r_OutcomeTrigger, 'done': r_DoneTrigger, 'preempted': r_OutcomeTrigger, 'succeeded': r_OutcomeTrigger}
     RegionItem_RULES = {'choice': r_Choice, 'deep': r_History, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'parallel': r_Parallel, 'state': r_State}
 
@@ -5688,7 +5773,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return model, len(expressions.faults)
     finally:
         # They refer to each other: so they are gone at once, without the garbage collector.
-        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Property = r_Field = r_TypeRef = r_EnumValue = r_Each = r_PropertyScope = r_Pattern = r_Chance = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Claim = r_Term = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Conjunction = r_Fact = r_Argument = r_Branch = r_Who = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_OutcomeTrigger = r_Send = r_Assignment = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
+        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Property = r_Field = r_TypeRef = r_EnumValue = r_Each = r_PropertyScope = r_Pattern = r_Chance = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Claim = r_Term = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Conjunction = r_Fact = r_Argument = r_Branch = r_Who = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_OutcomeTrigger = r_Send = r_Append = r_Remove = r_Clear = r_Assignment = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_Append_Assignment = try_Clear_Assignment = try_Remove_Assignment = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
 
 LANGUAGE = Language(LEXER, RESERVED)
 # An item may stand after them on one line; the last one is the start of the file.

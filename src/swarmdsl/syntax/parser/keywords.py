@@ -10,12 +10,14 @@ CONTEXTUAL = {
     'again': '[*A-Za-z_0-9"]',
     'all': '[A-Za-z_]',
     'always': '(?:possible)\\b',
+    'append': '[A-Za-z_0-9"-]',
     'as': '[A-Za-z_]',
     'at': '(?:all|least|most)\\b',
     'before': '[*A-Za-z_0-9"]',
     'between': '[*A-Za-z_0-9"]',
-    'by': '[A-Za-z_]',
+    'by': '[A-Za-z_0-9"-]',
     'cancels': '[A-Za-z_]',
+    'clear': '[A-Za-z_0-9"-]',
     'count': '(?:(?:of)\\b|[(])',
     'deep': '(?:history)\\b',
     'each': '[A-Za-z_]',
@@ -37,6 +39,7 @@ CONTEXTUAL = {
     'only': '(?:after)\\b',
     'other': '[A-Za-z_]',
     'possible': '[*A-Za-z_0-9"]',
+    'remove': '[A-Za-z_0-9"-]',
     'request': '[{]',
     'response': '[{]',
     'result': '[{]',
@@ -52,6 +55,7 @@ CONTEXTUAL = {
     'times': '$',
     'to': '[*A-Za-z_0-9"-]',
     'until': '[*A-Za-z_0-9"]',
+    'where': '[A-Za-z_0-9"-]',
     'within': '[A-Za-z_0-9"-]',
     'world': '[0-9"]',
     'x': '[0-9"]',
@@ -60,7 +64,7 @@ CONTEXTUAL = {
 FIRST = {
     'ComponentItem': frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param']),
     'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
-    'Effect': frozenset(['event', 'false', 'not', 'self', 'send', 'true']),
+    'Effect': frozenset(['append', 'clear', 'event', 'false', 'not', 'remove', 'self', 'send', 'true']),
     'EnvironmentItem': frozenset(['size', 'world']),
     'FitnessItem': frozenset(['in', 'maximize', 'minimize', 'param']),
     'FunctionItem': frozenset(['action', 'in', 'out', 'param', 'service']),
@@ -110,4 +114,4 @@ GROUPS = {
 # Keywords of declarations that can follow `:`, as categories.
 CATEGORIES = frozenset(['swarm'])
 # Keywords that a name can follow.
-BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'as', 'before', 'behavior', 'between', 'by', 'cancels', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'history', 'import', 'in', 'initial', 'inout', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'within'])
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'as', 'before', 'behavior', 'between', 'by', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'history', 'import', 'in', 'initial', 'inout', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'remove', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'within'])

@@ -32,9 +32,7 @@ def _values(node: type[Node]) -> dict[str, str]:
 TARGET = Target(
     nodes={name: _values(node) for name, node in NODES.items()},
     words={
-        **dict.fromkeys(
-            ("Name", "FieldName", "PortName", "InterfaceName", "PackageName", "RobotRole"), "{}"
-        ),
+        **dict.fromkeys(("Name", "FieldName", "PortName", "InterfaceName", "PackageName"), "{}"),
         "Text": "unquoted({})",
     },
     written={"Expression": "expression", "Operand": "operand", "Delay": "delay"},

@@ -6,26 +6,30 @@ import json
 import re
 from collections.abc import Callable, Mapping, Sequence
 
+from swarmdsl.codegen.exchange.scxml.arrays import (
+    ARRAY_FUNCTIONS,
+    NO_VALUE,
+    construction_text,
+    copied,
+    item_name,
+    query_text,
+)
 from swarmdsl.codegen.exchange.scxml.effects import effects_of
 from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.ir import (
     Address,
     Assignment,
+    Call,
     Effect,
     EnvelopeField,
-    EventData,
     Expression,
-    FieldAccess,
     Literal,
-    ParamRef,
-    Primitive,
     StateMachine,
     System,
     TimeTrigger,
     Trigger,
     Type,
-    VariableRef,
 )
 from swarmdsl.ir.expression_printer import Dialect, ecmascript_literal, points, translate
 
@@ -33,8 +37,11 @@ SELF = "self"
 """Id of the `<data>` with the identity of the robot."""
 
 
-def dialect(data: Mapping[str, str]) -> Dialect:
-    """Return the dialect, in which variables and params have the ids of `data`."""
+def dialect(data: Mapping[str, str], system: System | None = None) -> Dialect:
+    """Return the dialect, in which variables and params have the ids of `data`.
+
+    `system` describes the messages of which expressions make new ones.
+    """
     return Dialect(
         literal=ecmascript_literal,
         variable=data.__getitem__,
@@ -54,6 +61,7 @@ def dialect(data: Mapping[str, str]) -> Dialect:
             "clamp": _clamped,
             "atan2": lambda values: "Math.atan2({} + 0, {} + 0)".format(*values),
             "distance": _distance,
+            **ARRAY_FUNCTIONS,
             **{name: _of_finite("a - a == 0", result) for name, result in _FINITE.items()},
             # A wave of NaN is NaN.
             **{
@@ -61,6 +69,9 @@ def dialect(data: Mapping[str, str]) -> Dialect:
                 for name in ("sin", "cos")
             },
         },
+        item=lambda name: item_name(name, data.values()),
+        query=lambda query, text: query_text(query, text, data.values()),
+        construction=lambda made, text: construction_text(made, text, system),
         modulo=_modulo,
         quotient=_quotient,
         division=_division,
@@ -74,21 +85,17 @@ def _envelope(fact: EnvelopeField) -> str:
     return f"(_event.data && _event.data.{fact.field} || 0)"
 
 
-# `Infinity` and `NaN` of ECMAScript are errors in the language.
-_NO_VALUE = "null.value"
-
-
 def _quotient(left: str, right: str) -> str:
     if _is_number(right):
         return f"{left} / {right}"
-    return f"(function (a, b) {{ return b != 0 ? a / b : {_NO_VALUE}; }})({left}, {right})"
+    return f"(function (a, b) {{ return b != 0 ? a / b : {NO_VALUE}; }})({left}, {right})"
 
 
 def _modulo(left: str, right: str) -> str:
     """Return the remainder with the sign of the divisor, unlike ECMAScript's `%`."""
     if _is_number(right):
         return f"(({left} % {right}) + {right}) % {right}"
-    result = f"b != 0 ? ((a % b) + b) % b : {_NO_VALUE}"
+    result = f"b != 0 ? ((a % b) + b) % b : {NO_VALUE}"
     return f"(function (a, b) {{ return {result}; }})({left}, {right})"
 
 
@@ -96,7 +103,7 @@ def _division(left: str, right: str) -> str:
     """Return the quotient of integers, rounded down."""
     if _is_number(right):
         return f"Math.floor({left} / {right})"
-    result = f"b != 0 ? Math.floor(a / b) : {_NO_VALUE}"
+    result = f"b != 0 ? Math.floor(a / b) : {NO_VALUE}"
     return f"(function (a, b) {{ return {result}; }})({left}, {right})"
 
 
@@ -122,7 +129,7 @@ def _distance(coordinates: Sequence[str]) -> str:
 
 def _of_finite(test: str, result: str) -> Callable[[Sequence[str]], str]:
     """Return the printer of a function without a value for numbers that fail the test."""
-    head = f"(function (a) {{ return {test} ? {result} : {_NO_VALUE}; }})"
+    head = f"(function (a) {{ return {test} ? {result} : {NO_VALUE}; }})"
     return lambda values: f"{head}({values[0]})"
 
 
@@ -130,7 +137,7 @@ def _root(values: Sequence[str]) -> str:
     (value,) = values
     if _is_number(value):
         return f"Math.sqrt({value})"
-    return f"(function (a) {{ return a >= 0 ? Math.sqrt(a) : {_NO_VALUE}; }})({value})"
+    return f"(function (a) {{ return a >= 0 ? Math.sqrt(a) : {NO_VALUE}; }})({value})"
 
 
 def _is_number(text: str) -> bool:
@@ -140,11 +147,14 @@ def _is_number(text: str) -> bool:
 
 def stored(expression: Expression, words: Dialect) -> str:
     """Return a value to assign or send; messages and arrays are copied, as in ROS."""
-    text = translate(expression, words)
-    kept = isinstance(expression, (VariableRef, ParamRef, EventData, FieldAccess))
-    if kept and not isinstance(expression.type, Primitive):
-        return f"JSON.parse(JSON.stringify({text}))"
-    return text
+    if isinstance(expression, Call) and expression.function in ("append", "replace"):
+        at = 1 if expression.function == "append" else 2
+        values = [
+            stored(part, words) if number == at else translate(part, words)
+            for number, part in enumerate(expression.arguments)
+        ]
+        return ARRAY_FUNCTIONS[expression.function](values)
+    return copied(expression, translate(expression, words))
 
 
 def address(to: Address, words: Dialect) -> str:

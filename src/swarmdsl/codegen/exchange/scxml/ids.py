@@ -12,7 +12,7 @@ from collections import Counter
 from swarmdsl.ir import StateMachine
 
 # Reserved words of ECMAScript, SCXML's own variables, and the identity of the robot.
-_RESERVED = re.compile(
+RESERVED = re.compile(
     "arguments|await|break|case|catch|class|const|continue|debugger|default|"
     "delete|do|else|enum|eval|export|extends|false|finally|for|function|"
     "if|implements|import|in|instanceof|interface|let|new|null|package|"
@@ -28,7 +28,7 @@ def data_ids(machine: StateMachine) -> dict[str, str]:
     ids: dict[str, str] = {}
     given, taken = set(names), set[str]()
     for name in names:
-        candidate = f"data_{name}" if _RESERVED.fullmatch(name) else name
+        candidate = f"data_{name}" if RESERVED.fullmatch(name) else name
         while candidate in taken or (candidate != name and candidate in given):
             candidate += "_"
         ids[name] = candidate

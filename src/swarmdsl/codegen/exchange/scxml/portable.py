@@ -71,7 +71,7 @@ def portable(machine: StateMachine, system: System, places: Places | None = None
     _add_data(document, machine, system, data, places)
     left_with_effects = frozenset(state.id for state in machine.walk() if state.exit)
     events = Events(machine, ids)
-    writer = _StateWriter(machine, ids, dialect(data), events, left_with_effects, places)
+    writer = _StateWriter(machine, ids, dialect(data, system), events, left_with_effects, places)
     for state in machine.states:
         writer.add_state(document, state)
     return document
@@ -87,7 +87,7 @@ def _add_data(
     if not data and not uses_self(machine):
         return
     model = add(document, "datamodel")
-    values = dialect(data)
+    values = dialect(data, system)
     if uses_self(machine):
         add(model, "data", id=SELF, expr=robot_alone())
     for param in machine.params:

@@ -1,0 +1,113 @@
+"""Checks of effects that change arrays, and of the names of items in queries."""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.node_kinds import kind_name
+from swarmdsl.analysis.types import Typing, assignable, item_of
+from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.syntax.ast import (
+    Append,
+    Clear,
+    Expression,
+    FieldUse,
+    IndexUse,
+    Param,
+    Query,
+    Remove,
+    StateMachine,
+    Variable,
+    nodes_of,
+    walk,
+)
+from swarmdsl.syntax.types import Array
+
+
+def check_array_effect(effect: Append | Remove | Clear, typing: Typing) -> None:
+    """Check the target of an effect on an array, and the value that is appended."""
+    target = effect.target.tree
+    if target is None:
+        return
+    word = type(effect).__name__.lower()
+    array = item_of(target) if isinstance(effect, Remove) else target
+    if array is None and not isinstance(target, IndexUse):
+        typing.report.report(
+            "bad-operand",
+            effect.span,
+            operator=word,
+            operands=f"`{effect.target.span.text}`",
+            help=f"name an item of an array: `remove {effect.target.span.text}[0]`",
+        )
+        return
+    if array is None or not assignable(array):
+        report_not_assignable(effect.target, typing)
+        return
+    type_ = typing.infer(array)
+    if isinstance(effect, Remove):
+        typing.infer(target)
+    if not isinstance(type_, Array):
+        if type_ is not None and not isinstance(effect, Remove):
+            typing.report.report(
+                "bad-operand",
+                effect.span,
+                operator=word,
+                operands=str(type_),
+                help="it takes an array",
+            )
+    elif type_.size is not None and not type_.bounded:
+        typing.report.report(
+            "bad-operand",
+            effect.span,
+            operator=word,
+            operands=str(type_),
+            help=f"its length never changes; `{type_.element}[<={type_.size}]` has at most "
+            f"{type_.size} items",
+        )
+    elif type_.size is None and isinstance(effect, Append):
+        typing.report.report(
+            "unbounded-array",
+            effect.target.span,
+            name=effect.target.span.text,
+            help=f"give it a bound, such as `{type_.element}[<=16]`",
+        )
+    if isinstance(effect, Append):
+        typing.expect(effect.value.tree, type_.element if isinstance(type_, Array) else None)
+
+
+def report_not_assignable(target: Expression, typing: Typing) -> None:
+    """Report the target of a store that is not in a variable."""
+    tree = target.tree
+    help_ = "only variables (`var name : Type`) and their fields can be assigned to"
+    while isinstance(tree, FieldUse):
+        tree = tree.base
+    if isinstance(tree, IndexUse) and item_of(tree) is not None:
+        help_ = f"assign the whole item: `{tree.span.text} = ...`"
+    typing.report.report("not-assignable", target.span, text=target.span.text, help=help_)
+
+
+def check_element_names(machine: StateMachine, context: Context) -> None:
+    """Report names of items that hide a variable, a param, or the name in an outer query."""
+    known = {str(item.name): item for item in machine.items if isinstance(item, Variable | Param)}
+    for query in nodes_of(machine, Query):
+        name = query.element.name
+        hidden = known.get(str(name))
+        if hidden is not None:
+            context.report.report(
+                "hidden-value",
+                name.span,
+                name=name,
+                hidden=f"{kind_name(hidden)} `{hidden.name}`",
+                related=(Label(hidden.name.span, "declared here"),),
+                help="give the item another name",
+            )
+        for part in (query.condition, query.key):
+            for inner in walk(part) if part is not None else ():
+                if isinstance(inner, Query) and inner.element.name == name:
+                    context.report.report(
+                        "hidden-value",
+                        inner.element.name.span,
+                        name=name,
+                        hidden=f"the item `{name}`",
+                        related=(Label(name.span, "declared here"),),
+                        help="give the item another name",
+                    )

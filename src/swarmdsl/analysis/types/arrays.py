@@ -1,0 +1,163 @@
+"""Types of items, queries and new messages."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Protocol
+
+from swarmdsl.analysis.resolve.interfaces import Interfaces
+from swarmdsl.analysis.resolve.report_unresolved import report_missing
+from swarmdsl.analysis.types.constant_folding import Folding
+from swarmdsl.analysis.types.fitting import is_number
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.ast import (
+    Construction,
+    EnumType,
+    ExpressionTree,
+    Field,
+    IndexUse,
+    Parameter,
+    Query,
+    Word,
+)
+from swarmdsl.syntax.types import BOOL, DURATION, INT, Array, Named, Primitive, Type
+
+COUNT = Primitive("uint32")
+"""Type of the number of an item, counted from 0."""
+
+
+@dataclass(frozen=True)
+class QueryKind:
+    """Query of an array; `takes_key` if `by` may follow, `result` None for the item that it finds.
+
+    A query without a key needs a condition.
+    """
+
+    result: Type | None
+    doc: str
+    takes_key: bool = False
+
+    def signature(self, name: str) -> str:
+        """Return the form, as the reference shows it."""
+        if self.takes_key:
+            return f"{name}(item in array where condition by value)"
+        return f"{name}(item in array where condition) : {self.result}"
+
+
+QUERIES: Mapping[str, QueryKind] = {
+    "count": QueryKind(INT, "The number of items for which a condition holds."),
+    "any": QueryKind(BOOL, "True if a condition holds for an item."),
+    "all": QueryKind(BOOL, "True if a condition holds for all items."),
+    "min": QueryKind(None, "The first item with the least value.", takes_key=True),
+    "max": QueryKind(None, "The first item with the greatest value.", takes_key=True),
+}
+
+
+class Inference(Protocol):
+    """Typing of expressions, as far as it is needed here."""
+
+    @property
+    def interfaces(self) -> Interfaces: ...  # noqa: D102
+
+    @property
+    def report(self) -> Diagnostics: ...  # noqa: D102
+
+    @property
+    def folding(self) -> Folding: ...  # noqa: D102
+
+    def infer(self, tree: ExpressionTree) -> Type | None: ...  # noqa: D102
+
+    def expect(self, tree: ExpressionTree | None, expected: Type | None) -> bool: ...  # noqa: D102
+
+    def field_of(self, owner: Named, name: Word) -> Field | Parameter | None: ...  # noqa: D102
+
+
+def type_of_item(use: IndexUse, typing: Inference) -> Type | None:
+    """Return the type of an item of an array; report a wrong array or index."""
+    array = typing.infer(use.base)
+    if not typing.expect(use.index, COUNT):
+        return array.element if isinstance(array, Array) else None
+    if not isinstance(array, Array):
+        if array is not None:
+            typing.report.report(
+                "bad-operand",
+                use.span,
+                operator="[]",
+                operands=str(array),
+                help="only arrays have items; write a space before the `[` of a guard",
+            )
+        return None
+    number = typing.folding.value(use.index)
+    if array.size is not None and isinstance(number, int) and number >= array.size:
+        typing.report.report(
+            "no-such-item",
+            use.index.span,
+            array=use.base.span.text,
+            number=number,
+            help=f"items are counted from 0: the last one is `[{array.size - 1}]`",
+        )
+    return array.element
+
+
+def type_of_query(query: Query, typing: Inference) -> Type | None:
+    """Return the type of the result of a query; report what is wrong with it."""
+    array = typing.infer(query.element.array)
+    word = str(query.function)
+    kind = QUERIES.get(word)
+    if kind is None:
+        report_missing("query", word, query.function.span, QUERIES, typing.report)
+        return None
+    if array is not None and not isinstance(array, Array):
+        _report(query, f"{array}", "it queries the items of an array", typing)
+        return kind.result
+    typing.expect(query.condition, BOOL)
+    key = typing.infer(query.key) if query.key is not None else None
+    element = array.element if isinstance(array, Array) else None
+    name = query.element.name
+    if not kind.takes_key:
+        if query.key is not None:
+            _report(query, "`by`", "only `min` and `max` compare items", typing)
+        elif query.condition is None:
+            help_ = f"write `{word}({name} in {query.element.array.span.text} where ...)`"
+            _report(query, "items without a condition", help_, typing)
+        return kind.result
+    compared = key if query.key is not None else element
+    if compared is not None and not (is_number(compared) or compared == DURATION):
+        help_ = f"compare numbers or durations: `by {name}...`"
+        _report(query, str(compared), help_, typing)
+    return element
+
+
+def type_of_construction(made: Construction, typing: Inference) -> Type | None:
+    """Return the type of a new message; report what is wrong with its fields."""
+    type_ = made.type.type
+    known = typing.interfaces.get(type_) if isinstance(type_, Named) else None
+    if type_ is not None and (not isinstance(type_, Named) or isinstance(known, EnumType)):
+        typing.report.report(
+            "interface-kind",
+            made.type.span,
+            name=made.type.name,
+            actual="an enum" if isinstance(known, EnumType) else f"the type `{type_}`",
+            expected="a message",
+        )
+        type_ = None
+    first: dict[str, Word] = {}
+    for given in made.values:
+        earlier = first.setdefault(str(given.name), given.name)
+        if earlier is not given.name:
+            typing.report.report(
+                "repeated-item",
+                given.name.span,
+                item=f"field `{given.name}`",
+                related=(Label(earlier.span, "first given here"),),
+            )
+        field = typing.field_of(type_, given.name) if isinstance(type_, Named) else None
+        typing.expect(given.value, field.type.type if field is not None else None)
+    return type_
+
+
+def _report(query: Query, operands: str, help_: str, typing: Inference) -> None:
+    typing.report.report(
+        "bad-operand", query.span, operator=query.function, operands=operands, help=help_
+    )
