@@ -7,20 +7,20 @@ _REASONS: dict[str, dict[str, str]] = {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
             "FieldAccess.type ParamRef.type "
-            "SelfField.type Unary.type VariableRef.type"
+            "ItemRef.type Query.type SelfField.type Unary.type VariableRef.type"
         ),
     },
     "printer": {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type SelfField.type "
+            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
             "Unary.type"
         ),
     },
     "diff": {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type SelfField.type "
+            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
             "Unary.type"
         ),
         "a name that nothing declares reads as another name of the swarm": ("Optimization.swarm"),
@@ -39,14 +39,14 @@ _REASONS: dict[str, dict[str, str]] = {
         ),
         "interfaces are not drawn; types are drawn without package and bounds": (
             "Action.external Action.feedback Action.goal Action.result Action.type "
-            "Array.bounded Array.element Array.size Constant.name Constant.type "
+            "Constant.name Constant.type "
             "Constant.value Message.constants Message.external Message.fields Message.type "
             "Named.package Primitive.bound Service.external Service.request Service.response "
             "Service.type System.interfaces"
         ),
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type SelfField.type "
+            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
             "Unary.type"
         ),
         "calls are drawn by the name of their function": (
@@ -74,7 +74,7 @@ _REASONS: dict[str, dict[str, str]] = {
     "portable SCXML": {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "ParamRef.type SelfField.type Unary.type"
+            "ParamRef.type ItemRef.type Query.type SelfField.type Unary.type"
         ),
         "comments of calls are not written": ("Communication.doc"),
         "a document is about one state machine": (
@@ -113,9 +113,7 @@ _REASONS: dict[str, dict[str, str]] = {
             "FunctionPort.topic FunctionPort.type"
         ),
     },
-    "document": {
-        "makes no difference in a transition without a target": "Transition.internal",
-    },
+    "document": {},
 }
 
 LEFT_OUT = {

@@ -51,7 +51,7 @@ def check_array_effect(effect: Append | Remove | Clear, typing: Typing) -> None:
                 "bad-operand",
                 effect.span,
                 operator=word,
-                operands=str(type_),
+                operands=f"`{type_}`",
                 help="it takes an array",
             )
     elif type_.size is not None and not type_.bounded:
@@ -59,7 +59,7 @@ def check_array_effect(effect: Append | Remove | Clear, typing: Typing) -> None:
             "bad-operand",
             effect.span,
             operator=word,
-            operands=str(type_),
+            operands=f"`{type_}`",
             help=f"its length never changes; `{type_.element}[<={type_.size}]` has at most "
             f"{type_.size} items",
         )

@@ -84,7 +84,7 @@ def type_of_item(use: IndexUse, typing: Inference) -> Type | None:
                 "bad-operand",
                 use.span,
                 operator="[]",
-                operands=str(array),
+                operands=f"`{array}`",
                 help="only arrays have items; write a space before the `[` of a guard",
             )
         return None
@@ -109,7 +109,7 @@ def type_of_query(query: Query, typing: Inference) -> Type | None:
         report_missing("query", word, query.function.span, QUERIES, typing.report)
         return None
     if array is not None and not isinstance(array, Array):
-        _report(query, f"{array}", "it queries the items of an array", typing)
+        _report(query, f"`{array}`", "it queries the items of an array", typing)
         return kind.result
     typing.expect(query.condition, BOOL)
     key = typing.infer(query.key) if query.key is not None else None
@@ -125,7 +125,7 @@ def type_of_query(query: Query, typing: Inference) -> Type | None:
     compared = key if query.key is not None else element
     if compared is not None and not (is_number(compared) or compared == DURATION):
         help_ = f"compare numbers or durations: `by {name}...`"
-        _report(query, str(compared), help_, typing)
+        _report(query, f"`{compared}`", help_, typing)
     return element
 
 

@@ -13,9 +13,11 @@ from swarmdsl.ir import (
     Activity,
     Address,
     Assignment,
+    Call,
     DoneTrigger,
     Effect,
     EventTrigger,
+    Expression,
     OutcomeTrigger,
     Param,
     Send,
@@ -172,11 +174,25 @@ class _Machine:
             case Assignment(variable=variable, path=path, value=value):
                 rest = "".join(f".{name}" for name in path)
                 known = Ref(variable_kind(self.name), variable)
-                return known, f"{rest} = ", *expression_value(value, self.name)
+                return self._store((known, rest), value)
             case Send(event=event, arguments=arguments, to=to):
                 given = argument_values(arguments, self.name)
                 sent: Value = ("send ", Ref("event", event), *(("(", *given, ")") if given else ()))
                 return (*sent, " to ", *self._address(to)) if to is not None else sent
+
+    def _store(self, target: Value, value: Expression) -> Value:
+        """Return an assignment, or the effect on an array that it stands for."""
+        parts = [expression_value(part, self.name) for part in getattr(value, "arguments", ())]
+        match value:
+            case Call(function="append"):
+                return "append ", *parts[1], " to ", *target
+            case Call(function="remove"):
+                return "remove ", *target, "[", *parts[1], "]"
+            case Call(function="replace"):
+                return *target, "[", *parts[1], "] = ", *parts[2]
+            case Call(function="empty"):
+                return "clear ", *target
+        return *target, " = ", *expression_value(value, self.name)
 
     def _address(self, address: Address) -> Value:
         if address.id is not None:

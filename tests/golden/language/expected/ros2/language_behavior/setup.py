@@ -27,6 +27,7 @@ setup(
     entry_points={
         'console_scripts': [
             'b = language_behavior.b:main',
+            'market = language_behavior.market:main',
         ],
     },
 )

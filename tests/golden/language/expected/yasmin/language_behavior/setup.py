@@ -28,6 +28,7 @@ setup(
     entry_points={
         'console_scripts': [
             'b = language_behavior.b_fsm:main',
+            'market = language_behavior.market_fsm:main',
         ],
     },
 )

@@ -6,11 +6,13 @@ from types import SimpleNamespace
 from language_behavior import (
     b,
     engine,
+    market,
 )
 import pytest
 
 BEHAVIORS = [
     b.BEHAVIOR,
+    market.BEHAVIOR,
 ]
 WORDS = {'bool': True, 'string': '', 'wstring': ''}
 

@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from language_behavior import b_fsm
+from language_behavior import b_fsm, market_fsm
 import pytest
 import yasmin
 import yasmin_factory
@@ -11,6 +11,7 @@ import yasmin_factory
 FOLDER = Path(__file__).resolve().parents[1] / 'state_machines'
 MACHINES = {
     'b': b_fsm.build,
+    'market': market_fsm.build,
 }
 
 

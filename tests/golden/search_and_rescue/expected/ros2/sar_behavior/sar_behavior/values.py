@@ -29,6 +29,11 @@ def get(message, field):
         value = getattr(message, field)
     except AttributeError:
         raise _missing(message, field) from None
+    return plain(value)
+
+
+def plain(value):
+    """Return a value in a message as a value of the model."""
     if isinstance(value, (Duration, Time)):
         return value.sec * SECOND + value.nanosec
     if isinstance(value, bytes) and len(value) == 1:
