@@ -75,8 +75,8 @@ def test_guards_that_hold_for_no_value(guard: str, codes: Callable[[list[str]], 
 
 
 def test_a_wave_is_between_its_bounds(codes: Callable[[list[str]], list[str]]) -> None:
-    assert codes(["sin(x) > 1"]) == ["SW0519"]
-    assert codes(["cos(x) < -1 or b and not b"]) == ["SW0519"]
+    assert codes(["sin(x * 1 rad) > 1"]) == ["SW0519"]
+    assert codes(["cos(x * 1 rad) < -1 or b and not b"]) == ["SW0519"]
 
 
 @pytest.mark.parametrize(
@@ -93,7 +93,7 @@ def test_a_wave_is_between_its_bounds(codes: Callable[[list[str]], list[str]]) -
         "n > 3 and other < 3",
         "n > 3 or n < 9 and b",
         "hypot(x, n) <= 0",
-        "sin(x) >= 1",
+        "sin(x * 1 rad) >= 1",
         "floor(x) > 3 and floor(x) < 5",
     ],
 )

@@ -67,7 +67,7 @@ def infer(typed: Typed, text: str) -> tuple[Type | None, list[str]]:
         *(("div(i, 2)", INT), ("int(f)", INT), ("round(2)", INT), ("floor(p)", INT)),
         *(("ceil(f)", INT), ("float(u)", FLOAT), ("clamp(i, 0, 3)", INT)),
         *(("clamp(i, 0, 1.5)", FLOAT), ("clamp(d, 1 s, 2 s)", DURATION), ("hypot(i, 2, f)", FLOAT)),
-        *(("atan2(i, f)", FLOAT), ("sin(i)", FLOAT), ("cos(p)", FLOAT)),
+        *(("atan2(i, f)", FLOAT), ("sin(i * 1 rad)", FLOAT), ("cos(1 rad)", FLOAT)),
         *(("distance(m.pose, event.pose.position)", FLOAT), ("distance(e, m.pose)", FLOAT)),
         *(("len(s)", INT), ("len(a)", INT), ("min(1 s, d)", DURATION)),
         *(("m.level", Primitive("float32")), ("m.pose", POSE), ("m.path", Array(FLOAT, 3))),

@@ -138,5 +138,6 @@ NOT_LOWERED = {
     "TypeRef.array": "the resolved type is lowered",
     "TypeRef.bound": "the resolved type is lowered",
     "TypeRef.name": "the resolved type is lowered",
+    "TypeRef.unit": "the resolved type is lowered",
 }
 """Fields of the syntax tree that are not read by lowering, with the reason."""

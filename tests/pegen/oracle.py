@@ -45,6 +45,7 @@ from swarmdsl.syntax.parser.literals import is_out_of_range, quantity_value, unq
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
 from swarmdsl.syntax.pegen.metamodel import metamodel
 from swarmdsl.syntax.pegen.swarm_actions import TARGET
+from swarmdsl.syntax.units import UNITS
 
 _TOKEN = re.compile(
     r'(?P<blank>\s+|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)|"(?:[^"\\\n]|\\[^\n])*"|\w+|.', re.DOTALL
@@ -184,8 +185,8 @@ def _is_too_large(token: object) -> bool:
 
 
 def _quantity(text: str) -> tuple[str, str]:
-    digits = text.rstrip("usminh").rstrip()
-    return digits, text.removeprefix(digits).strip()
+    unit = next((u for u in sorted(UNITS, key=len, reverse=True) if text.endswith(u)), "")
+    return text.removesuffix(unit).rstrip(), unit
 
 
 def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:

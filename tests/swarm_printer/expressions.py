@@ -25,7 +25,9 @@ from swarmdsl.syntax.types import (
     Array,
     Primitive,
     Type,
+    with_unit,
 )
+from swarmdsl.syntax.units import RADIAN
 
 INTEGER_TYPES = tuple(Primitive(name) for name in INTEGERS)
 FLOAT_TYPES = tuple(Primitive(name) for name in FLOATS)
@@ -44,6 +46,8 @@ floats = {
     width: st.floats(allow_nan=False, allow_infinity=False, width=width) for width in (32, 64)
 }
 lengths = st.integers(0, 2**56) | st.sampled_from([1, 999, 1_000, 60_000_000_000, 2**53 + 1])
+
+_RADIAN = Literal(1, with_unit(INT, RADIAN))
 
 
 def literals(type_: Type) -> st.SearchStrategy[Expression]:
@@ -199,10 +203,12 @@ def _number(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int) -> Express
         case "wave":
             number = expressions(draw, FLOAT, leaves, depth)
             assert number is not None
-            return Call(draw(st.sampled_from(["sin", "cos"])), (number,), FLOAT)
+            angle = Binary("*", number, _RADIAN, FLOAT)
+            return Call(draw(st.sampled_from(["sin", "cos"])), (angle,), FLOAT)
         case "hypot":
             word = draw(st.sampled_from(["hypot", "atan2"]))
-            return Call(word, _two(draw, FLOAT, leaves, depth + 1), FLOAT)
+            call = Call(word, _two(draw, FLOAT, leaves, depth + 1), FLOAT)
+            return call if word == "hypot" else Binary("/", call, _RADIAN, FLOAT)
         case "div":
             left, divisor = expressions(draw, type_, leaves, depth), draw(st.integers(1, 9))
             assert left is not None

@@ -10,7 +10,7 @@ from swarmdsl.syntax.ast import NODES, Documented
 from swarmdsl.syntax.pegen.metamodel import metamodel
 
 # Words with a place, and the two rules for expressions, become `Word` and `Expression`.
-WORDS = {"Name", "FieldName", "PortName", "InterfaceName", "PackageName", "Text"}
+WORDS = {"Name", "FieldName", "PortName", "InterfaceName", "PackageName", "Text", "Unit"}
 EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
 OTHERS = {

@@ -21,10 +21,12 @@ from pygments.token import (
 )
 
 from swarmdsl.syntax.parser.keywords import CONTEXTUAL, GROUPS, NAMING, RESERVED
+from swarmdsl.syntax.parser.literals import PERCENT_SIGN, UNIT_NAMES
 from swarmdsl.syntax.types import PRIMITIVES
 
 _NAME = r"[A-Za-z_]\w*"
 _NAMED = "|".join(sorted(NAMING))
+_NUMBER = r"\d+(?:\.\d+)?(?:[eE][+-]?\d+)?"
 _DECLARATIONS = sorted(RESERVED - frozenset().union(*GROUPS.values()))
 
 
@@ -60,7 +62,10 @@ class SwarmLexer(RegexLexer):  # type: ignore[misc]
             (rf"(->)([ \t]*)({_NAME})", bygroups(Operator, Whitespace, Name)),
             (words(sorted(PRIMITIVES), prefix=r"\b", suffix=r"\b"), Keyword.Type),
             (rf"{_NAME}(?=\s*=(?!=))", Name.Attribute),
-            (r"\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?:[ \t]*(?:us|ms|s|min|h|km|cm|mm|m)\b)?", Number),
+            (
+                rf"\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?:[ \t]*(?:(?:{UNIT_NAMES})\b|{PERCENT_SIGN}))?",
+                Number,
+            ),
             (rf"({_NAME})(/)({_NAME})", bygroups(Name.Namespace, Punctuation, Name.Class)),
             *((rf"\b{word}\b(?=[ \t]*{follow})", Keyword) for word, follow in CONTEXTUAL.items()),
             (

@@ -13,7 +13,7 @@ from swarmdsl.ir.architecture import Multiplicity, PortRef
 from swarmdsl.ir.expression_printer import MODEL_FUNCTIONS, Dialect, envelope_name, translate
 from swarmdsl.ir.expressions import Expression, Literal
 from swarmdsl.ir.system import System
-from swarmdsl.syntax.types import DURATION, Array, Named, Primitive
+from swarmdsl.syntax.types import DURATION, Array, Named, Primitive, written
 
 _WIDTH = 100
 _EXPRESSIONS = get_args(Expression)
@@ -84,7 +84,7 @@ def _plain(value: Any) -> str:
         return str(value.value)
     if isinstance(value, bool):
         return str(value).lower()
-    text = str(value)
+    text = written(value) if isinstance(value, (Primitive, Array)) else str(value)
     return json.dumps(text, ensure_ascii=False) if _needs_quotes(text) else text
 
 

@@ -6,6 +6,9 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 
+SECOND = 10**9
+"""Length of a second as a duration."""
+
 
 def _distance(*coordinates: float) -> float:
     """Return the distance of two points: the coordinates of one, then those of the other."""
@@ -39,6 +42,7 @@ OPERATIONS: Mapping[str, Callable[..., bool | int | float | str]] = {
     "ceil": math.ceil,
     "clamp": lambda value, low, high: min(max(value, low), high),
     "hypot": math.hypot,
+    "seconds": lambda length: length / SECOND,
     "sin": math.sin,
     "cos": math.cos,
     # An integer has no negative zero in Python, but has one in ECMAScript.

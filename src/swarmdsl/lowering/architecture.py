@@ -11,8 +11,7 @@ from swarmdsl.base.naming import snake_case
 from swarmdsl.base.numerals import integer
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.docs import lower_docs
-from swarmdsl.lowering.expressions import lower_expression
-from swarmdsl.lowering.interfaces import lower_params
+from swarmdsl.lowering.interfaces import lower_params, lower_values
 from swarmdsl.syntax.ast import (
     BehaviorUse,
     CommunicationSettings,
@@ -25,7 +24,6 @@ from swarmdsl.syntax.ast import (
     Multiplicity,
     Param,
     Part,
-    PartValue,
     Port,
     PortRef,
     RobotValues,
@@ -104,11 +102,11 @@ def _role(role: Role, robots: Iterable[RobotValues], context: Context) -> ir.Rol
         str(role.name),
         context.name(role.member),
         _multiplicity(role.multiplicity),
-        _values(role.values, context),
+        lower_values(role.values, role.member.target, context),
         tuple(
             ir.RobotValues(
                 integer(robot.index),
-                _values(robot.values, context),
+                lower_values(robot.values, role.member.target, context),
                 robot.doc,
                 lower_docs(robot.values),
                 robot.span,
@@ -119,10 +117,6 @@ def _role(role: Role, robots: Iterable[RobotValues], context: Context) -> ir.Rol
         lower_docs(role.values),
         role.name.span,
     )
-
-
-def _values(values: Iterable[PartValue], context: Context) -> tuple[tuple[str, ir.Expression], ...]:
-    return tuple((str(each.name), lower_expression(each.value, context)) for each in values)
 
 
 def lower_environment(environment: Environment, context: Context) -> ir.Environment:
@@ -148,7 +142,7 @@ def _communication(member: Member, context: Context) -> ir.CommunicationSettings
     for settings in all_items(member, CommunicationSettings):
         return ir.CommunicationSettings(
             str(settings.technology),
-            _values(settings.values, context),
+            lower_values(settings.values, None, context),
             settings.doc,
             lower_docs(settings.values),
             settings.span,
@@ -174,7 +168,7 @@ def _part(part: Part, context: Context) -> ir.Part:
     return ir.Part(
         name=str(part.name),
         component=context.name(part.component),
-        values=_values(part.values, context),
+        values=lower_values(part.values, part.component.target, context),
         operations=context.offered(part),
         doc=part.doc,
         docs=lower_docs(part.values),

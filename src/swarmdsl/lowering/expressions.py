@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from swarmdsl import ir
 from swarmdsl.analysis.types import QUERIES
+from swarmdsl.analysis.types.unit_rules import (
+    NUMBER_OF_SECONDS,
+    has_dimension,
+    literal_type,
+    takes_seconds,
+)
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
+from swarmdsl.ir.operations import SECOND
 from swarmdsl.lowering.context import Context
 from swarmdsl.syntax.ast import (
     Append,
@@ -30,7 +37,19 @@ from swarmdsl.syntax.ast import (
     Variable,
 )
 from swarmdsl.syntax.parser.literals import nanoseconds
-from swarmdsl.syntax.types import BOOL, DURATION, ENVELOPE_FIELDS, FLOAT, INT, SELF_FIELDS, STRING
+from swarmdsl.syntax.types import (
+    BOOL,
+    DURATION,
+    ENVELOPE_FIELDS,
+    FLOAT,
+    INT,
+    INTEGERS,
+    SELF_FIELDS,
+    STRING,
+    unit_of,
+    with_unit,
+)
+from swarmdsl.syntax.units import DURATIONS, UNITS, in_unit_of_ros
 
 _TYPES = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
 
@@ -42,15 +61,31 @@ _CARRIERS = {
 """Types of headers that carry facts about an event, and their fields."""
 
 
-def lower_optional(expression: Expression | None, context: Context) -> ir.Expression | None:
+def lower_optional(
+    expression: Expression | None, context: Context, expected: ir.Type | None = None
+) -> ir.Expression | None:
     """Lower an expression, or return None if there is none."""
-    return None if expression is None else lower_expression(expression, context)
+    return None if expression is None else lower_expression(expression, context, expected)
 
 
-def lower_expression(expression: Expression, context: Context) -> ir.Expression:
-    """Lower an expression that was parsed and checked."""
+def lower_expression(
+    expression: Expression, context: Context, expected: ir.Type | None = None
+) -> ir.Expression:
+    """Lower an expression that was parsed and checked.
+
+    A duration becomes a number in seconds where a value of type `expected` has a unit.
+    """
     assert expression.tree is not None
-    return lower_tree(expression.tree, context)
+    found = lower_tree(expression.tree, context)
+    if not has_dimension(unit_of(expected)):
+        return found
+    whole = isinstance(expected, ir.Primitive) and expected.name in INTEGERS
+    if whole and found.type == DURATION:
+        value = context.typing.folding.value(expression.tree)
+        assert isinstance(value, int)
+        type_ = with_unit(INT, unit_of(NUMBER_OF_SECONDS))
+        return ir.Literal(value // SECOND, type_, found.origin)
+    return _seconds(found)
 
 
 def lower_path(expression: Expression, context: Context) -> tuple[str, tuple[str, ...]]:
@@ -95,8 +130,10 @@ def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
             return _field(lower_tree(base, context), str(name), tree.span, context)
         case Call(function="distance", arguments=points):
             return _distance(tree, [lower_tree(point, context) for point in points], context)
+        case Call(function="seconds", arguments=(argument,)):
+            return _seconds(lower_tree(argument, context), tree.span)
         case Call(function=function, arguments=arguments):
-            values = tuple(lower_tree(argument, context) for argument in arguments)
+            values = _operands(str(function), arguments, context)
             return ir.Call(str(function), values, _result(tree, values, context), tree.span)
         case IndexUse(base=base, index=index):
             array = lower_tree(base, context)
@@ -110,7 +147,7 @@ def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
             fields = tuple((str(each.name), lower_tree(each.value, context)) for each in given)
             return ir.Construction(made, fields, tree.span)
         case OperatorUse(operator=operator, operands=operands):
-            values = tuple(lower_tree(operand, context) for operand in operands)
+            values = _operands(str(operator), operands, context)
             type_ = _result(tree, values, context)
             if len(values) == 1:
                 return _unary(str(operator), values[0], type_, tree.span)
@@ -146,20 +183,41 @@ def lower_store(effect: Store, context: Context) -> ir.Assignment:
     value: ir.Expression
     match effect, tree:
         case Assignment(value=given), IndexUse(index=index):
-            parts = (array, lower_tree(index, context), lower_expression(given, context))
+            item = lower_expression(given, context, _item_type(array))
+            parts = (array, lower_tree(index, context), item)
             value = ir.Call("replace", parts, array.type, effect.span)
         case Assignment(value=given), _:
-            value = lower_expression(given, context)
+            value = lower_expression(given, context, context.typing.infer(tree))
         case Append(value=given), _:
             assert isinstance(array.type, ir.Array)
             assert array.type.size is not None
-            parts = (array, lower_expression(given, context), ir.Literal(array.type.size, INT))
+            item = lower_expression(given, context, array.type.element)
+            parts = (array, item, ir.Literal(array.type.size, INT))
             value = ir.Call("append", parts, array.type, effect.span)
         case Remove(), IndexUse(index=index):
             value = ir.Call("remove", (array, lower_tree(index, context)), array.type, effect.span)
         case _:
             value = ir.Call("empty", (), array.type, effect.span)
     return ir.Assignment(variable, path, value, effect.span)
+
+
+def _operands(
+    word: str, operands: tuple[ExpressionTree, ...], context: Context
+) -> tuple[ir.Expression, ...]:
+    """Lower operands, durations to numbers where the operation takes them so."""
+    values = tuple(lower_tree(operand, context) for operand in operands)
+    return tuple(map(_seconds, values)) if takes_seconds(word, [v.type for v in values]) else values
+
+
+def _seconds(value: ir.Expression, at: Span | None = None) -> ir.Expression:
+    """Return a duration as a number in seconds; other values as they are."""
+    if value.type != DURATION:
+        return value
+    origin = at or value.origin
+    if isinstance(value, ir.Literal) and isinstance(value.value, int) and not value.name:
+        return ir.Literal(value.value / SECOND, NUMBER_OF_SECONDS, origin)
+    second = ir.Literal(SECOND, DURATION, origin)
+    return ir.Binary("/", value, second, NUMBER_OF_SECONDS, origin)
 
 
 def _distance(tree: Call, points: list[ir.Expression], context: Context) -> ir.Call:
@@ -176,7 +234,7 @@ def _distance(tree: Call, points: list[ir.Expression], context: Context) -> ir.C
         for name in place.path if place is not None else ():
             point = _field(point, name, tree.span, context)
         values += [_field(point, name, tree.span, context) for name in coordinates]
-    return ir.Call("distance", tuple(values), FLOAT, tree.span)
+    return ir.Call("distance", tuple(values), _result(tree, tuple(points), context), tree.span)
 
 
 def _field(owner: ir.Expression, name: str, at: Span, context: Context) -> ir.FieldAccess:
@@ -203,7 +261,8 @@ def _constant(constant: Constant, at: Span, context: Context) -> ir.Literal:
     if constant.type.type == DURATION:
         assert not isinstance(value, str)
         return ir.Literal(round(value), DURATION, at, name=name)
-    return ir.Literal(value, _TYPES[type(value)], at, name=name)
+    type_ = with_unit(_TYPES[type(value)], unit_of(constant.type.type))
+    return ir.Literal(value, type_, at, name=name)
 
 
 def _type_of(use: NameUse, context: Context) -> ir.Type:
@@ -244,8 +303,12 @@ def _literal(value: Value) -> ir.Literal:
     match value.value:
         case bool():
             return ir.Literal(value.value, BOOL, value.span)
-        case int() | float() if value.unit:
+        case int() | float() if value.unit in DURATIONS:
             return ir.Literal(nanoseconds(value.span.text, value.unit), DURATION, value.span)
+        case int() | float() if value.unit:
+            digits = value.span.text.removesuffix(value.unit).rstrip()
+            number = in_unit_of_ros(digits, UNITS[value.unit])
+            return ir.Literal(number, literal_type(value.value, value.unit), value.span)
         case int():
             return ir.Literal(value.value, INT, value.span)
         case float():

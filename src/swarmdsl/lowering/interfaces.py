@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from swarmdsl import ir
 from swarmdsl.analysis.event_topics import topic_of
+from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.types.enum_values import numbers, underlying
 from swarmdsl.lowering.context import Context, operations_of
@@ -21,10 +22,12 @@ from swarmdsl.syntax.ast import (
     Field,
     Function,
     FunctionPort,
+    Member,
     MessageType,
     Operation,
     Param,
     Part,
+    PartValue,
     ServiceType,
     StructType,
 )
@@ -83,7 +86,7 @@ def _constant(constant: Constant, context: Context) -> ir.Constant:
     return ir.Constant(
         str(constant.name),
         context.type_of(constant.type),
-        lower_expression(constant.value, context),
+        lower_expression(constant.value, context, constant.type.type),
         constant.doc,
         constant.name.span,
     )
@@ -163,12 +166,24 @@ def lower_params(items: Iterable[object], context: Context) -> tuple[ir.Param, .
         ir.Param(
             str(item.name),
             context.type_of(item.type),
-            lower_optional(item.default, context),
+            lower_optional(item.default, context, item.type.type),
             item.doc,
             item.name.span,
         )
         for item in items
         if isinstance(item, Param)
+    )
+
+
+def lower_values(
+    values: Iterable[PartValue], owner: Component | Member | None, context: Context
+) -> tuple[tuple[str, ir.Expression], ...]:
+    """Return the values that params of an owner get."""
+    params = all_items(owner, Param) if owner is not None else []
+    types = {str(param.name): param.type.type for param in params}
+    return tuple(
+        (str(each.name), lower_expression(each.value, context, types.get(str(each.name))))
+        for each in values
     )
 
 

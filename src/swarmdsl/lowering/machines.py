@@ -13,7 +13,7 @@ from swarmdsl.base.records import replace
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.docs import lower_docs
 from swarmdsl.lowering.expressions import lower_expression, lower_optional
-from swarmdsl.lowering.interfaces import lower_params
+from swarmdsl.lowering.interfaces import lower_params, lower_values
 from swarmdsl.lowering.transitions import (
     Frame,
     lower_activity,
@@ -87,7 +87,7 @@ class _Builder:
                     ir.Variable(
                         name,
                         context.type_of(item.type),
-                        lower_optional(item.initial, context),
+                        lower_optional(item.initial, context, item.type.type),
                         item.doc,
                         item.name.span,
                     )
@@ -179,7 +179,7 @@ class _Builder:
             if isinstance(item, Param):
                 value = bound.get(str(item.name), item.default)
                 assert value is not None
-                values[item] = lower_expression(value, frame.context)
+                values[item] = lower_expression(value, frame.context, item.type.type)
         inner = Frame(_ids(machine, frame.ids[state]), frame.context.reusing(names, values))
         return made(
             kind=ir.StateKind.COMPOSITE,
@@ -194,7 +194,7 @@ class _Builder:
 def _first_values(names: Mapping[Variable, str], context: Context) -> Iterator[ir.Assignment]:
     for variable, name in names.items():
         if variable.initial is not None:
-            value = lower_expression(variable.initial, context)
+            value = lower_expression(variable.initial, context, variable.type.type)
             yield ir.Assignment(name, (), value, variable.name.span)
 
 
@@ -244,7 +244,7 @@ def _values(
     }
     parts = context.parts.get(owner, []) if isinstance(owner, Component) else []
     for part in parts:
-        given = {str(v.name): lower_expression(v.value, context) for v in part.values}
+        given = dict(lower_values(part.values, owner, context))
         yield {**defaults, **given}
     if not parts:
         yield defaults

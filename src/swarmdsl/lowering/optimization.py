@@ -45,9 +45,9 @@ def lower_optimization(optimization: Optimization, context: Context) -> ir.Optim
             ir.ParamRange(
                 item.role.name,
                 item.param.name,
-                lower_expression(item.lower, context),
-                lower_expression(item.upper, context),
-                lower_optional(item.step, context),
+                lower_expression(item.lower, context, _type_of(item)),
+                lower_expression(item.upper, context, _type_of(item)),
+                lower_optional(item.step, context, _type_of(item)),
                 item.doc,
                 item.span,
             )
@@ -74,3 +74,8 @@ def lower_optimization(optimization: Optimization, context: Context) -> ir.Optim
         docs=lower_docs(optimization.items),
         origin=optimization.swarm.span,
     )
+
+
+def _type_of(item: ParamRange) -> ir.Type | None:
+    """Return the type of the param of a range."""
+    return item.param.target.type.type if item.param.target is not None else None

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.records import dataclass, field, replace
+from swarmdsl.syntax.units import Unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -10,12 +11,14 @@ class Primitive:
     """`bool`, `int32`, `float64`, `string`, `time`, `duration`, ...
 
     `bound` is the greatest length of a string, None where there is no limit. In the intermediate
-    representation, `enum` is the enum whose values an integer has; it makes no other type.
+    representation, `enum` is the enum whose values an integer has; it makes no other type, and
+    neither does `unit`, the unit of a number.
     """
 
     name: str
     bound: int | None = None
     enum: Named | None = field(default=None, compare=False, repr=False)
+    unit: Unit | None = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         return self.name if self.bound is None else f"{self.name}<={self.bound}"
@@ -56,6 +59,7 @@ STRING = Primitive("string")
 DURATION = Primitive("duration")
 INT = Primitive("int64")
 FLOAT = Primitive("float64")
+_NUMBERS = frozenset((*INTEGERS, *FLOATS, "byte", "char"))
 
 SELF_FIELDS = {
     "id": STRING,
@@ -67,3 +71,31 @@ SELF_FIELDS = {
 
 ENVELOPE_FIELDS = {"sender": STRING, "sent": DURATION}
 """Fields of `event` that every swarm event has, whatever its message."""
+
+
+def unit_of(type_: Type | None) -> Unit | None:
+    """Return the unit of a number, or of the numbers in an array; None for a plain number."""
+    if isinstance(type_, Array):
+        type_ = type_.element
+    return type_.unit if isinstance(type_, Primitive) else None
+
+
+def declared_unit(type_: Type | None) -> Unit | None:
+    """Return the unit that a declaration gives to a number; None if it gives none."""
+    unit = unit_of(type_)
+    return None if unit is None or unit.is_any else unit
+
+
+def with_unit(type_: Type, unit: Unit | None) -> Type:
+    """Return the type of a number, or of an array of numbers, with a unit; others as they are."""
+    if isinstance(type_, Array):
+        return replace(type_, element=with_unit(type_.element, unit))
+    if isinstance(type_, Primitive) and type_.name in _NUMBERS and type_.enum is None:
+        return replace(type_, unit=unit)
+    return type_
+
+
+def written(type_: Type | None) -> str:
+    """Return a type as it is declared, with its unit: `float64 in m`."""
+    unit = declared_unit(type_)
+    return f"{type_}" if unit is None else f"{type_} in {unit}"

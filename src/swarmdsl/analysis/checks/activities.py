@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_value
-from swarmdsl.analysis.types import Typing, assignable, report_unknown_field
+from swarmdsl.analysis.types import Typing, assignable, of_field, report_unknown_field
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -113,8 +113,8 @@ def check_arguments(
                     owner, argument.name, argument.name.span, fields, typing.report
                 )
             else:
-                expected = field.type.type
-        typing.expect(argument.value.tree, expected)
+                expected = of_field(field.type.type)
+        typing.expect(argument.value.tree, expected, converts=False)
     return exist
 
 
@@ -157,7 +157,7 @@ def _check_result(
     if tree is None or found is None:
         return
     expected = context.typing.infer(tree)
-    context.check_fits(found.type.type, expected, result.span)
+    context.check_fits(of_field(found.type.type), expected, result.span)
 
 
 def _check_callback(

@@ -9,7 +9,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.interfaces import check_graph_name
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.inheritance import MOST_BASES, all_items
-from swarmdsl.analysis.types import fits
+from swarmdsl.analysis.types import check_types, fits
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.graphs import cycles, leaves_first
 from swarmdsl.base.source import Span
@@ -155,6 +155,8 @@ def _check_params_given(owner: Component | Member, use: BehaviorUse, context: Co
                 found=f"`{given.type.type}`",
                 related=(Label(param.type.span, "the behavior declares it so"),),
             )
+        elif given is not None:
+            check_types(given.type.type, param.type.type, given.type.span, context.report)
 
 
 def _check_part(part: Part, context: Context) -> None:

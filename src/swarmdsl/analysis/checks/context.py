@@ -11,7 +11,7 @@ from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.event_topics import is_of_swarm
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.analysis.resolve.interfaces import Interfaces
-from swarmdsl.analysis.types import Typing, constant, fits, is_number
+from swarmdsl.analysis.types import Typing, check_types, constant, fits, is_number
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
@@ -100,6 +100,8 @@ class Context:
         """Check that a value of type `found` can be stored as `expected`."""
         if not fits(found, expected):
             self.report.report("type-mismatch", at, expected=f"`{expected}`", found=f"`{found}`")
+        else:
+            check_types(found, expected, at, self.report)
 
     def check_default(self, owner: Param | Variable, value: Expression | None) -> None:
         """Check an initial or default value: a constant of the type of its owner."""

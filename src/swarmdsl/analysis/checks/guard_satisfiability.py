@@ -24,6 +24,7 @@ from swarmdsl.analysis.checks.value_sets import (
 )
 from swarmdsl.analysis.types import Typing, is_float, range_of
 from swarmdsl.analysis.types.constant_folding import Folded, Folding
+from swarmdsl.analysis.types.unit_rules import in_measure_of
 from swarmdsl.syntax.ast import (
     Branch,
     Call,
@@ -129,6 +130,8 @@ def _comparison(
     if isinstance(value, bool):
         holds = _condition(left, typing)
         return holds if value is (operator == "==") else negate(holds)
+    if not isinstance(value, str):
+        value = in_measure_of(typing.infer(left), value, typing.infer(right))
     return _compared(operator, left, value, typing)
 
 

@@ -12,7 +12,8 @@ import re
 from swarmdsl.base.numerals import integer
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import TypeRef
-from swarmdsl.syntax.types import PRIMITIVES, Array, Named, Primitive, Type
+from swarmdsl.syntax.types import PRIMITIVES, Array, Named, Primitive, Type, with_unit
+from swarmdsl.syntax.units import UNITS
 
 _PRIMITIVES = {name: Primitive(name) for name in PRIMITIVES}
 _BRACKETS = re.compile(r"\[\s*(<=?)?\s*([^\]\s]*)\s*\]")
@@ -30,7 +31,9 @@ def interface_name(file: File, name: str) -> Named:
 def written_type(ref: TypeRef) -> Type | None:
     """Type that a reference writes in full; None for the name of a declaration."""
     element = written_element(ref)
-    return array_of(element, ref) if element is not None and ref.array else element
+    type_ = array_of(element, ref) if element is not None and ref.array else element
+    unit = UNITS.get(ref.unit) if ref.unit is not None else None
+    return with_unit(type_, unit) if type_ is not None and unit is not None else type_
 
 
 def written_element(ref: TypeRef) -> Type | None:

@@ -26,7 +26,7 @@ from swarmdsl.syntax.ast import (
     StructType,
     TypeRef,
 )
-from swarmdsl.syntax.types import Array, Type
+from swarmdsl.syntax.types import Array, Type, with_unit
 
 _TYPES: tuple[type[Interface], ...] = (
     StructType,
@@ -75,7 +75,17 @@ class TypeLinker:
             found = ref.type
         element = None if isinstance(found, AliasType) else found
         for ref in reversed(waiting):
-            element = ref.type = self._in_array(element, ref)
+            element = ref.type = self._with_unit(self._in_array(element, ref), ref)
+
+    def _with_unit(self, type_: Type | None, ref: TypeRef) -> Type | None:
+        """Apply the unit of a reference to its type, which has no other."""
+        if ref.unit is None or type_ is None:
+            return type_
+        # Most models have no wrong units.
+        from swarmdsl.analysis.resolve.unit_names import find_unit
+
+        unit = find_unit(type_, ref.unit, self._report)
+        return type_ if unit is None else with_unit(type_, unit)
 
     def _named(self, ref: TypeRef, scope: FileScope) -> Type | AliasType | None:
         """Resolve the name of a type; report a failure and return None."""

@@ -9,6 +9,7 @@ from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.report_unresolved import report_missing
 from swarmdsl.analysis.types.constant_folding import Folding
 from swarmdsl.analysis.types.fitting import is_number
+from swarmdsl.analysis.types.unit_rules import of_field
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import (
@@ -68,7 +69,9 @@ class Inference(Protocol):
 
     def infer(self, tree: ExpressionTree) -> Type | None: ...  # noqa: D102
 
-    def expect(self, tree: ExpressionTree | None, expected: Type | None) -> bool: ...  # noqa: D102
+    def expect(  # noqa: D102
+        self, tree: ExpressionTree | None, expected: Type | None, *, converts: bool = True
+    ) -> bool: ...
 
     def field_of(self, owner: Named, name: Word) -> Field | Parameter | None: ...  # noqa: D102
 
@@ -153,7 +156,9 @@ def type_of_construction(made: Construction, typing: Inference) -> Type | None:
                 related=(Label(earlier.span, "first given here"),),
             )
         field = typing.field_of(type_, given.name) if isinstance(type_, Named) else None
-        typing.expect(given.value, field.type.type if field is not None else None)
+        typing.expect(
+            given.value, of_field(field.type.type) if field is not None else None, converts=False
+        )
     return type_
 
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from swarmdsl.analysis.types.unit_rules import NUMBER_OF_SECONDS
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.types import BOOL, FLOAT, INT, Type
+from swarmdsl.syntax.types import BOOL, FLOAT, INT, Type, with_unit, written
+from swarmdsl.syntax.units import RADIAN
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,7 @@ class BuiltIn:
     def signature(self, name: str) -> str:
         """Return the declaration, as the reference shows it."""
         more = ", ..." if self.more else ""
-        result = f" : {self.result}" if self.result is not None else ""
+        result = f" : {written(self.result)}" if self.result is not None else ""
         return f"{name}({', '.join(self.parameters)}{more}){result}"
 
 
@@ -47,9 +49,12 @@ BUILT_INS: Mapping[str, BuiltIn] = {
     "float": BuiltIn(_X, FLOAT, "A number as a floating-point number."),
     "sqrt": BuiltIn(_X, FLOAT, "The square root."),
     "hypot": BuiltIn(("x", "y"), FLOAT, "The square root of the sum of squares.", more=True),
-    "sin": BuiltIn(_X, FLOAT, "The sine of an angle in radians."),
-    "cos": BuiltIn(_X, FLOAT, "The cosine of an angle in radians."),
-    "atan2": BuiltIn(("y", "x"), FLOAT, "The angle of the direction (x, y), from -π to π."),
+    "seconds": BuiltIn(("d",), NUMBER_OF_SECONDS, "A duration as a number in `s`."),
+    "sin": BuiltIn(_X, FLOAT, "The sine of an angle in `rad`."),
+    "cos": BuiltIn(_X, FLOAT, "The cosine of an angle in `rad`."),
+    "atan2": BuiltIn(
+        ("y", "x"), with_unit(FLOAT, RADIAN), "The angle of the direction (x, y), from -π to π."
+    ),
     "distance": BuiltIn(_PAIR, FLOAT, "The distance of two messages with `x`, `y`, perhaps `z`."),
     "len": BuiltIn(_X, INT, "The length of a string or array."),
     "contains": BuiltIn(("array", "x"), BOOL, "True if an item of an array equals `x`."),

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from swarmdsl.analysis.types.enum_values import numbers
+from swarmdsl.analysis.types.unit_rules import (
+    has_dimension,
+    in_seconds,
+    literal_type,
+    result_unit,
+    takes_seconds,
+)
 from swarmdsl.base.graphs import leaves_first
-from swarmdsl.ir.operations import OPERATIONS
+from swarmdsl.ir.operations import OPERATIONS, SECOND
 from swarmdsl.syntax.ast import (
     Call,
     Constant,
@@ -21,6 +28,8 @@ from swarmdsl.syntax.ast import (
     walk,
 )
 from swarmdsl.syntax.parser.literals import nanoseconds
+from swarmdsl.syntax.types import DURATION, FLOAT, Type, unit_of, with_unit
+from swarmdsl.syntax.units import DURATIONS, UNITS, in_unit_of_ros
 
 Folded = bool | int | float | str
 
@@ -70,7 +79,15 @@ class Folding:
         if constant not in self._constants:
             for each in leaves_first([constant], self._needed):
                 tree = each.value.tree
-                self._constants[each] = self.value(tree) if tree is not None else None
+                value = self.value(tree) if tree is not None else None
+                if (
+                    isinstance(value, int)
+                    and has_dimension(unit_of(each.type.type))
+                    and tree is not None
+                    and self._measure(tree) == DURATION
+                ):
+                    value = value / SECOND
+                self._constants[each] = value
         return self._constants[constant]
 
     def _needed(self, constant: Constant) -> list[Constant]:
@@ -101,7 +118,8 @@ class Folding:
             return None
         try:
             negation = (word, len(values)) == ("-", 1)
-            result = _negative(values[0]) if negation else _apply(word, values)
+            converted = self._converted(word, operands, values)
+            result = _negative(values[0]) if negation else _apply(word, converted)
             if result is not None:
                 self._check_room(result)
         except _UndefinedError as error:
@@ -145,15 +163,49 @@ class Folding:
                 return self._applied(word, operands)
             case Call(function=function, arguments=arguments):
                 return self._applied(function, arguments) if function in OPERATIONS else None
-            case Value(unit=unit):
+            case Value(unit=unit) if unit in DURATIONS:
                 return nanoseconds(tree.span.text, unit)
+            case Value(unit=unit):
+                return in_unit_of_ros(tree.span.text.removesuffix(unit).rstrip(), UNITS[unit])
         return None  # arrays and messages are not constant
+
+    def _converted(
+        self, word: str, operands: Sequence[ExpressionTree], values: list[Any]
+    ) -> list[Any]:
+        """Return the values of operands, durations in seconds where the operation takes them so."""
+        types = [self._measure(operand) for operand in operands]
+        if not takes_seconds(word, types):
+            return values
+        return [
+            value / SECOND if type_ == DURATION else value
+            for value, type_ in zip(values, types, strict=True)
+        ]
+
+    def _measure(self, tree: ExpressionTree) -> Type | None:
+        """Return the type of a constant that is a number or a duration, without checks."""
+        match tree:
+            case Value(unit=unit, value=int() | float() as value) if not isinstance(value, bool):
+                return literal_type(value, unit) if unit else FLOAT
+            case NameUse(target=Constant() as constant):
+                return constant.type.type
+            case (
+                OperatorUse(operator=word, operands=operands)
+                | Call(function=word, arguments=operands)
+            ):
+                types = in_seconds(word, [self._measure(each) for each in operands])
+                is_number = word in ("seconds", *_ALWAYS_DEFINED) or (
+                    word == "/" and types[-1] == DURATION
+                )
+                if DURATION in types and not is_number:
+                    return DURATION
+                return with_unit(FLOAT, result_unit(word, types))
+        return None
 
     def _applied(self, word: str, operands: tuple[ExpressionTree, ...]) -> Folded | None:
         values = [self._fold(operand) for operand in operands]
         if None in values:
             return None
-        result = _apply(word, values)
+        result = _apply(word, self._converted(word, operands, values))
         if isinstance(result, str):
             self._characters += len(result)
             self._check_room(result)

@@ -16,10 +16,18 @@ from swarmdsl.analysis.types.constant_folding import Folded, Folding
 from swarmdsl.analysis.types.fitting import fits, is_number, is_text, range_of
 from swarmdsl.analysis.types.operators import Application
 from swarmdsl.analysis.types.positions import Position, position_of
+from swarmdsl.analysis.types.unit_checks import check_value
+from swarmdsl.analysis.types.unit_rules import (
+    NUMBER_OF_SECONDS,
+    has_dimension,
+    literal_type,
+    of_field,
+)
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import did_you_mean
+from swarmdsl.ir.operations import SECOND
 from swarmdsl.syntax.ast import (
     Call,
     Construction,
@@ -48,7 +56,10 @@ from swarmdsl.syntax.types import (
     Named,
     Primitive,
     Type,
+    unit_of,
+    with_unit,
 )
+from swarmdsl.syntax.units import UNITS
 
 _FLOAT32 = Primitive("float32")
 _LONGEST = 2**31 * 10**9
@@ -149,22 +160,38 @@ class Typing:
         """Return the position in a message; None if there is none."""
         return position_of(type_, self.interfaces)
 
-    def expect(self, tree: ExpressionTree | None, expected: Type | None) -> bool:
-        """Report an expression that does not fit type `expected`; return True for a correct one."""
+    def expect(
+        self, tree: ExpressionTree | None, expected: Type | None, *, converts: bool = True
+    ) -> bool:
+        """Report an expression that does not fit type `expected`; return True for a correct one.
+
+        A duration fits a number in `s` if it `converts`, which lowering does.
+        """
         if tree is None:
             return True
         before = len(self.report)
         found = self.infer(tree)
+        is_converted = False
+        if converts and found == DURATION and has_dimension(unit_of(expected)):
+            found, is_converted = self._number_of_seconds(tree, expected), True
         if fits(found, expected):
+            check_value(tree, found, expected, self.report)
             value = self.folding.value(tree)
-            if value is not None and len(self.report) == before:
+            if value is not None and len(self.report) == before and not is_converted:
                 self._check_size(tree, value, expected)
         else:
             help_ = _bool_hint(tree, found) if expected == BOOL else None
-            if expected == DURATION and isinstance(tree, Value) and is_number(found):
+            if found == DURATION and is_number(expected):
+                help_ = f"`seconds({tree.span.text})` is a number in `s`"
+            if expected == DURATION and has_dimension(unit_of(found)):
+                help_ = f"a duration in seconds: `1 s * ({tree.span.text} / 1 s)`"
+            elif expected == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"
-            if range_of(expected) and found == FLOAT and not isinstance(tree, Value):
-                help_ = self._whole_number(tree)
+            if range_of(expected) and found == FLOAT:
+                if not isinstance(tree, Value):
+                    help_ = self._whole_number(tree)
+                elif tree.unit:
+                    help_ = "its number in the unit of ROS has a fraction: declare it `float64`"
             enum = self.interfaces.get(expected) if isinstance(expected, Named) else None
             if isinstance(enum, EnumType) and enum.values and is_number(found):
                 help_ = f"name one of its values: `{enum.name}.{enum.values[0].name}`"
@@ -172,6 +199,12 @@ class Typing:
                 "type-mismatch", tree.span, expected=f"`{expected}`", found=f"`{found}`", help=help_
             )
         return len(self.report) == before
+
+    def _number_of_seconds(self, tree: ExpressionTree, expected: Type | None) -> Type:
+        """Return the type of a duration as a number: an integer only if it is known and whole."""
+        value = self.folding.value(tree)
+        whole = range_of(expected) is not None and isinstance(value, int) and value % SECOND == 0
+        return with_unit(INT, UNITS["s"]) if whole else NUMBER_OF_SECONDS
 
     def _whole_number(self, tree: ExpressionTree) -> str:
         """Hint for a number with a fraction in place of an integer."""
@@ -220,7 +253,7 @@ class Typing:
         """Return the type of a field of a message; report a missing field."""
         if isinstance(owner, Named):
             found = self._field(owner, name, at)
-            return found.type.type if found is not None else None
+            return of_field(found.type.type) if found is not None else None
         if owner is not None:
             self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
         return None
@@ -319,8 +352,8 @@ def report_unknown_field(
 
 
 def _value_type(value: bool | int | float | str, unit: str) -> Type:
-    if unit:
-        return DURATION
+    if unit and isinstance(value, (int, float)):
+        return literal_type(value, unit)
     match value:
         case bool():
             return BOOL

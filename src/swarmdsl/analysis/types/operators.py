@@ -8,10 +8,24 @@ from swarmdsl.analysis.resolve.report_unresolved import report_missing
 from swarmdsl.analysis.types.built_ins import BUILT_INS
 from swarmdsl.analysis.types.fitting import fits, is_float, is_number, is_text
 from swarmdsl.analysis.types.positions import Position
+from swarmdsl.analysis.types.unit_checks import check_operands
+from swarmdsl.analysis.types.unit_rules import in_seconds, result_unit, takes_angle
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, replace
 from swarmdsl.syntax.ast import Call, OperatorUse, Value
-from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING, Array, Named, Type
+from swarmdsl.syntax.types import (
+    BOOL,
+    DURATION,
+    FLOAT,
+    INT,
+    STRING,
+    Array,
+    Named,
+    Type,
+    unit_of,
+    with_unit,
+)
+from swarmdsl.syntax.units import ANY, Unit
 
 
 @dataclass(frozen=True)
@@ -25,13 +39,34 @@ class Application:
     report: Diagnostics
 
     def result(self) -> Type | None:
-        """Return the type of the result; report operands of wrong types."""
+        """Return the type of the result; report operands of wrong types and units."""
+        word = str(self.tree.function if isinstance(self.tree, Call) else self.tree.operator)
+        types = in_seconds(word, self.types)
+        if types is not self.types:
+            return replace(self, types=types).result()
+        before = len(self.report)
+        found = self._plain_result(word)
+        measured = takes_angle(word) or any(unit_of(each) is not None for each in types)
+        if measured and len(self.report) == before:
+            check_operands(self.tree, types, self.report)
+        if not is_number(found) or found is None:
+            return found
+        if word == "distance":
+            return with_unit(found, self._unit_of_distance())
+        return with_unit(found, result_unit(word, types))
+
+    def _plain_result(self, word: str) -> Type | None:
+        """Return the type of the result without its unit."""
         if isinstance(self.tree, Call):
             return self._call(self.tree)
-        operator = str(self.tree.operator)
         if len(self.types) == 1:
-            return self._sign(operator, self.types[0])
-        return self._binary(operator, *self.types)
+            return self._sign(word, self.types[0])
+        return self._binary(word, *self.types)
+
+    def _unit_of_distance(self) -> Unit | None:
+        """Return the unit of the coordinates of two positions."""
+        units = [place.unit for place in map(self.position, self.types) if place is not None]
+        return next((unit for unit in units if unit is not None and not unit.is_any), ANY)
 
     def _call(self, call: Call) -> Type | None:
         function, types = str(call.function), self.types
@@ -57,6 +92,8 @@ class Application:
             self._require(lambda t: is_number(t) and not is_float(t), self._division_hint)
         elif function == "distance":
             self._check_positions()
+        elif function == "seconds":
+            self._require(lambda t: t == DURATION)
         elif known.result is not None:
             self._require(is_number, self._duration_hint)
         if known.result is not None:
@@ -161,7 +198,7 @@ class Application:
 
     def _duration_hint(self) -> str | None:
         """Hint for a function of numbers of which an argument is a duration."""
-        return "divide it by a unit: `d / 1 s` is a number" if DURATION in self.types else None
+        return "`seconds(d)` is a number" if DURATION in self.types else None
 
     def _division_hint(self) -> str | None:
         """Hint for a division of integers with other numbers."""

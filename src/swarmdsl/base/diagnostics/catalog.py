@@ -169,6 +169,7 @@ CODES: dict[str, Code] = {
         "SW0616", "warning", "no definition of interface `{name}`", silent=True
     ),
     "monitor-name": Code("SW0617", "error", "topic `{topic}` cannot be called `{name}`"),
+    "wrong-unit": Code("SW0621", "error", "expected {expected}, found {found}"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

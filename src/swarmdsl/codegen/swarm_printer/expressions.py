@@ -18,7 +18,8 @@ from swarmdsl.ir.expression_printer import (
     translate,
 )
 from swarmdsl.syntax.parser.literals import UNITS
-from swarmdsl.syntax.types import DURATION
+from swarmdsl.syntax.types import DURATION, declared_unit
+from swarmdsl.syntax.units import written_in
 
 T = TypeVar("T")
 
@@ -76,6 +77,8 @@ def _literal(literal: Literal) -> str:
             raise UnprintableError(f"{literal.value} is not a number that can be written")
         case str():
             return quoted(literal.value)
+        case value if (unit := declared_unit(literal.type)) is not None:
+            return written_in(value, unit)
         case value:
             return repr(value)
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.ir import Array, Component, Function, Named, Part, Primitive, System, Type
-from swarmdsl.syntax.types import PRIMITIVES
+from swarmdsl.syntax.types import PRIMITIVES, declared_unit
 
 
 @dataclass(frozen=True)
@@ -22,9 +22,14 @@ class Names:
 
     def type(self, type_: Type) -> str:
         """Return a type as written in the model."""
+        unit = declared_unit(type_)
+        return f"{self._plain(type_)} in {unit}" if unit is not None else self._plain(type_)
+
+    def _plain(self, type_: Type) -> str:
+        """Return a type without its unit."""
         match type_:
             case Array(element=element, size=size, bounded=bounded):
-                return f"{self.type(element)}[{'<=' if bounded else ''}{size or ''}]"
+                return f"{self._plain(element)}[{'<=' if bounded else ''}{size or ''}]"
             case Named(name=name) if type_ in self.own and name not in PRIMITIVES:
                 return name
             case Primitive() | Named():

@@ -71,10 +71,12 @@ class Ref(Generic[N]):
 class TypeRef(Node):
     """Type by name; `type` is None until it is linked, and for unknown types.
 
-    `bound` (`<=10`) and `array` (`[]`, `[16]`, `[<=5]`) are as written, or empty.
+    `bound` (`<=10`) and `array` (`[]`, `[16]`, `[<=5]`) are as written, or empty; `unit` is the
+    word after `in`.
     """
 
     name: str
     bound: str
     array: str
+    unit: Word | None = None
     type: Type | None = field(default=None, init=False)

@@ -9,8 +9,6 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from swarmdsl.syntax.errors.foreign_statements import PHYSICAL_UNIT
-
 
 class DelayedError(NamedTuple):
     """Error at its own place: offsets of the token, message and hint."""
@@ -51,10 +49,6 @@ _MIXED = (
     ),
 )
 _TAIL = re.compile(r"(?P<guard>\[[^]\n]*\][ \t]*)?(?:/(?:[^\n;}/]|/(?!/))*)?")
-_LENGTH = re.compile(
-    rf"=[ \t]*-?(?P<number>\d+(?:\.\d+)?)[ \t]+(?P<token>{PHYSICAL_UNIT})\b", re.MULTILINE
-)
-_PER_CENT = re.compile(r"(?<![\w.])(?P<number>\d+(?:\.\d+)?)[ \t]*(?P<token>%)")
 _TWO_WORDS = re.compile(
     r"^[ \t]*[A-Za-z_]\w*[ \t]*:[ \t]*(?P<first>[a-z]+)[ \t]+(?P<token>[a-z]\w*)[ \t]*$",
     re.MULTILINE,
@@ -80,15 +74,6 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
                 one, other = f"on {found['events']} {rest}", f"after {found['delay']} {rest}"
                 message = "a transition waits for events or for a delay, not for both"
                 return _delayed(found, message, f"write two: `{one}` and `{other}`")
-    if (found := _last(_PER_CENT, text, near, before + 1)) and found.start("token") == before:
-        number = found["number"]
-        share = f"{float(number) / 100:.10g}"
-        help_ = f"`%` is a remainder: write `{number}`, or `{share}` where all is 1"
-        return _delayed(found, "expected a value after `%`", help_)
-    # The parser took the unit for the name of the next value.
-    if (found := _last(_LENGTH, text, near, at)) and found.start("token") == before:
-        message = f"expected `,` or the end of the line, found `{found['token']}`"
-        return _delayed(found, message, f"only times have a unit: write `{found['number']}`")
     if (found := _TWO_WORDS.match(text, line)) and found.end("token") > before:
         message = f"expected the end of the line, found `{found['token']}`"
         return _delayed(found, message, "the name of a type is one word, such as `uint32`")
@@ -102,10 +87,6 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
 
 def _delayed(found: re.Match[str], message: str, help_: str | None = None) -> DelayedError:
     return DelayedError(*found.span("token"), message, help_)
-
-
-def _last(pattern: re.Pattern[str], text: str, start: int, end: int) -> re.Match[str] | None:
-    return max(pattern.finditer(text, start, end), key=re.Match.end, default=None)
 
 
 def _in_order(found: re.Match[str], text: str) -> str:

@@ -13,13 +13,6 @@ _SERVER = 'write the name of the server first: `"cmd/name" : package/Type`'
 _FIELD = r"name the field of each value: `name = \1`"
 _POWER = "there is no power operator: write `x * x`"
 _MULTIPLICITY = "write `[3]`, `[1..5]`, `[2..*]` or `[*]`"
-# Without those of times.
-PHYSICAL_UNIT = (
-    "(?:[mcdk]?m|deg|degrees?|rad|k?g|m?V|m?A|m?Ah|k?Wh?|k?J|k?Hz|met(?:er|re)s?|percent)"
-)
-# Not after `after` and `size`, which have units.
-_NUMBER = r"^(?!.*\b(?:after|size) [^/\[]*@).*(?<![\w.])"
-_ONLY_TIMES = r"only times have a unit: write `\1`"
 
 # A line with a mark (@) where the parser stops, a terminal that must be expected there (any, if
 # empty), and the hint. The first that fits counts.
@@ -50,8 +43,6 @@ _HINTS = (
         "`+`",
         "expressions cannot index arrays: only `len` applies to them",
     ),
-    (rf"{_NUMBER}(\d+(?:\.\d+)?) *@{PHYSICAL_UNIT}\b", "", _ONLY_TIMES),
-    (rf"{_NUMBER}@(\d+(?:\.\d+)?){PHYSICAL_UNIT}\b", "", _ONLY_TIMES),
     # states
     (r"\bhistory@ *$", "", "write `history Name`"),
     (r"^ *@\[\*\] *-+> *(\w+)", "", r"write `initial \1`"),

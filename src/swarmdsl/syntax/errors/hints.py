@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from swarmdsl.base.diagnostics.collector import listed
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.errors.foreign_tokens import symbol_hint
 from swarmdsl.syntax.parser.keywords import RESERVED
 from swarmdsl.syntax.types import PRIMITIVES
+from swarmdsl.syntax.units import UNITS, meant_unit
 
 _NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
 SIZES = "write `[]` for any number of elements, `[4]` for exactly 4, `[<=4]` for at most 4"
@@ -50,8 +52,9 @@ def token_hint(
         return SIZES
     if token == "/" and joined:
         return "complete the name of the type, as in `std_msgs/Empty`"
-    if last[:1].isdigit() and token[0].isalpha() and "`->`" in expected:
-        return "the units of time are `us`, `ms`, `s`, `min` and `h`"
+    if last[:1].isdigit() and token[0].isalpha() and expected & {"`->`", "`+`"}:
+        unit = meant_unit(token)
+        return f"write `{last} {unit}`" if unit else f"the units are {listed(list(UNITS), 'and')}"
     if token in "})]" and "`struct`" in expected:
         return "delete it: there is no open bracket"
     if hint := symbol_hint(token):

@@ -30,6 +30,7 @@ TERMINALS = {
     "INTEGER": "a whole number",
     "MINUS": "`-`",
     "BOUND": "a number or `*`",
+    "UNIT": "a unit",
     "LENGTH": "a length such as `10 m`",
     "QUANTITY": "a value",
     "PREFIX": "a value",
@@ -65,11 +66,11 @@ _IMPLIED = {
 _OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"}
 # Continuations of a statement that could end here.
 _CONTINUATIONS = {
-    f"`{word}`" for word in ("[", ",", "->", "/", "(", "{", "=", "on", "gives", "extends")
+    f"`{word}`" for word in ("[", ",", "->", "/", "(", "{", "=", "on", "gives", "extends", "in")
 }
 # Continuations of the line above.
 _LINE_CONTINUATIONS = {
-    f"`{word}`" for word in (",", "->", "/", "(", "=", "on", "gives", "extends", "..")
+    f"`{word}`" for word in (",", "->", "/", "(", "=", "on", "gives", "extends", "..", "in")
 }
 _COLON = re.compile(r"[ \t]*:")
 _MAX_SHOWN = 8

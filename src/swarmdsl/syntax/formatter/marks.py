@@ -27,6 +27,7 @@ from swarmdsl.syntax.ast import (
     State,
     Transition,
     TypeRef,
+    Value,
     Who,
     walk,
 )
@@ -57,6 +58,10 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
         match node:
             case TypeRef():
                 _join(marks, tokens, start, f"{node.name}{node.bound}{node.array}")
+                if node.unit is not None:
+                    _join(marks, tokens, node.unit.span.start, node.unit)
+            case Value(unit=unit) if "/" in unit:
+                _join(marks, tokens, node.span.end - len(unit), unit)
             case MessageType() | ServiceType() | ActionType():
                 _join(marks, tokens, node.name.span.start, node.name)
             case EnumValue(value=str(value)):

@@ -29,7 +29,6 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.parser.lexer import SYMBOLS, Tokens
 from swarmdsl.syntax.parser.literals import (
-    UNITS,
     Language,
     is_out_of_range,
     quantity_value,
@@ -37,6 +36,7 @@ from swarmdsl.syntax.parser.literals import (
 )
 from swarmdsl.syntax.parser.precedence import BINDING, NOT, SIGN, Fault, Operation, Operator, join
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
+from swarmdsl.syntax.units import UNITS
 
 # Tokens that can begin an operator.
 _OPERATORS = frozenset({*BINDING, "=", "!"})
@@ -45,7 +45,7 @@ _DELAY_OPERATORS = frozenset({"+", "-", "*"})
 _PARTS_OF_COMPARISONS = frozenset("=!<>")
 _PREFIXES = frozenset({"not", "-"})
 # A number may continue with the first; an expression after a number or a name with the second.
-_IN_NUMBERS = UNITS.keys() | {"."}
+_IN_NUMBERS = {name.partition("/")[0] for name in UNITS} | {"."}
 _CONTINUATIONS = _OPERATORS | _IN_NUMBERS | {"(", "["}
 _SIMPLE_NUMBER = 9  # digits: no such number is too large
 
@@ -412,7 +412,7 @@ class ExpressionParser:
         return made, start, end, at
 
     def _literal(self, at: int) -> _Found | None:
-        """Parse a string, a number or a duration."""
+        """Parse a string, or a number with its unit."""
         token, start = self._tokens[at], self._start(at)
         if token[:1] == '"' or self._tokens[at + 1] not in _IN_NUMBERS:
             value = _simple_value(token)

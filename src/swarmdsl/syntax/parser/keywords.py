@@ -99,6 +99,7 @@ CLAUSES = {
     'after': frozenset(['property']),
     'extends': frozenset(['actuator', 'controller', 'member', 'sensor', 'virtual']),
     'gives': frozenset(['do']),
+    'in': frozenset([]),
     'on': frozenset(['event', 'in', 'inout', 'out', 'swarm']),
 }
 # Keywords that the name of a new element follows.

@@ -7,10 +7,15 @@ import sys
 from collections.abc import Iterable, Iterator
 from math import isinf
 
+from swarmdsl.syntax import units
 from swarmdsl.syntax.parser.lexer import SYMBOLS, Lexer
 
 # Nanoseconds in each unit of durations.
 UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
+# Longer names first: `m` begins `m/s`.
+UNIT_NAMES = "|".join(sorted((name for name in units.UNITS if name != "%"), key=len, reverse=True))
+# Where an operand follows, `%` is the remainder.
+PERCENT_SIGN = r'%(?![ \t]*(?:(?!(?:and|or)\b|step[ \t]+[\w("-])[A-Za-z_]|[\d("]|-(?!>)))'
 # Maximum of `uint64`, and of a duration in nanoseconds.
 _LARGEST, _LONGEST = 2**64 - 1, 2**63 - 1
 _ESCAPE = re.compile(r"\\(?:u([0-9A-Fa-f]{4})|U([0-9A-Fa-f]{8})|([^\n]))")
@@ -29,7 +34,8 @@ class Language:
         self.tokens = tokens
         self.not_a_name = frozenset(reserved) | SYMBOLS
         self.quantity = re.compile(
-            r"(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]*(us|ms|s|min|h))?\b(?!\.\d)"
+            r"(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)"
+            rf"(?:[ \t]*((?:{UNIT_NAMES})\b|{PERCENT_SIGN})|\b)(?!\.\d)"
         ).match
 
 
@@ -108,8 +114,12 @@ def is_out_of_range(text: str, digits: str, unit: str) -> bool:
     value = quantity_value(digits)
     if isinstance(value, float) and isinf(value):
         return True
-    if unit:
+    if unit in UNITS:
         return nanoseconds(text, unit) > _LONGEST
+    if unit:
+        value = units.in_unit_of_ros(digits, units.UNITS[unit])
+        if isinstance(value, float):
+            return isinf(value)
     return isinstance(value, int) and value > _LARGEST
 
 

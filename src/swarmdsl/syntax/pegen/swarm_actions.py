@@ -32,7 +32,9 @@ def _values(node: type[Node]) -> dict[str, str]:
 TARGET = Target(
     nodes={name: _values(node) for name, node in NODES.items()},
     words={
-        **dict.fromkeys(("Name", "FieldName", "PortName", "InterfaceName", "PackageName"), "{}"),
+        **dict.fromkeys(
+            ("Name", "FieldName", "PortName", "InterfaceName", "PackageName", "Unit"), "{}"
+        ),
         "Text": "unquoted({})",
     },
     written={"Expression": "expression", "Operand": "operand", "Delay": "delay"},
