@@ -102,7 +102,7 @@ def deliveries(subject: Subject, crowd: Crowd, *, trace: bool = False) -> float:
     start = process_time()
     run(world, [], crowd.seconds * SECOND)
     spent = process_time() - start
-    assert world.delivered["Hello"] == crowd.deliveries
+    assert world.network.delivered["Hello"] == crowd.deliveries
     return crowd.deliveries / spent
 
 

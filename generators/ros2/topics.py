@@ -5,7 +5,7 @@ from __future__ import annotations
 from swarmdsl.codegen import Diagnostics, incoming_topic
 from swarmdsl.codegen.python import Call, Source
 from swarmdsl.codegen.shared import envelopes_of
-from swarmdsl.ir import Event, Named, StateMachine, System
+from swarmdsl.ir import Delivery, Event, Named, StateMachine, System
 
 from .actions import feedback_topic
 from .imports import Imports
@@ -43,8 +43,21 @@ def topics(
         if name in around:
             interface = imports.interface(around[name].type, "msg")
             keywords.append(("envelope", Source(interface)))
+        if event.delivery is not None:
+            keywords.append(("delivery", _delivery(event.delivery)))
         found.append((event, Call("Topic", arguments, tuple(keywords))))
     return found
+
+
+def _delivery(delivery: Delivery) -> Call:
+    """Return the call for the settings of a delivery; events are reliable unless it says else."""
+    given: list[tuple[str, object]] = []
+    given += [("reliable", False)] if delivery.reliable is False else []
+    given += [("latest", True)] if delivery.latest else []
+    for name in ("keep", "lifespan", "deadline"):
+        value = getattr(delivery, name)
+        given += [(name, value)] if value is not None else []
+    return Call("Delivery", (), tuple(given))
 
 
 def _place(event: Event, is_sent: bool) -> tuple[str, bool]:

@@ -180,6 +180,8 @@ def _machine_view(
     check_feedback(machine, imports.messages_of_actions, report)
     if heard:
         imports.own("topics", "Topic")
+        if any(event.delivery is not None for event, _ in heard):
+            imports.own("topics", "Delivery")
     functions = _functions(machine, system, imports, report)
     values = _values(machine, imports)
     return MachineView(

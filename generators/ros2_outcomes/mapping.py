@@ -57,6 +57,7 @@ def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, 
         ("param", _EXACT, f"ROS parameter, `Parameter(`, and key of the {memory}"),
         ("sent event", _EXACT, "published by the chart: `machine.emit(`"),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
+        ("delivery of a swarm event", _EXACT, "quality of service: `delivery=Delivery(`"),
         (
             "monitored topic",
             _EXACT,

@@ -60,6 +60,8 @@ MAPPING = tuple(
         ("param", _EXACT, "ROS parameter, checked at the start: `param(`, and userdata"),
         ("param that is a message", _EMULATED, "dictionary, converted by `message(`"),
         ("sent event", _EXACT, "published: `.send(`"),
+        ("latest, keep of an event", _EXACT, "`latch=True`, `queue_size=` of its publisher"),
+        ("lifespan, deadline of an event", _REJECTED, "ROS 1 has neither (SW0903)"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `<remap from=`"),
         (
             "initial state of a machine that is final",

@@ -333,7 +333,21 @@ def _events(system: System, machines: list[StateMachine], report: Diagnostics) -
                 target=TARGET,
                 construct=f"an event with data of type `{event.type}`, which is not a message",
             )
+        _check_delivery(event, report)
     return events
+
+
+def _check_delivery(event: Event, report: Diagnostics) -> None:
+    """Report the settings that topics of ROS 1 do not have."""
+    for setting in ("lifespan", "deadline"):
+        if event.delivery is not None and getattr(event.delivery, setting) is not None:
+            report.report(
+                "unsupported-construct",
+                event.delivery.origin,
+                target=TARGET,
+                construct=f"the {setting} of event `{event.name}`",
+                help="leave it out, or build for ROS 2: `--option smach.ros=2`",
+            )
 
 
 def _event_views(
@@ -346,12 +360,18 @@ def _event_views(
     for event in events:
         assert isinstance(event.type, Named)
         message = Source(imports.interface(event.type, "msg"))
+        keywords: list[tuple[str, object]] = []
+        if event.name in around:
+            interface = imports.interface(around[event.name].type, "msg")
+            keywords.append(("envelope", Source(interface)))
+        if event.delivery is not None and event.delivery.latest:
+            keywords.append(("latch", True))
+        if event.delivery is not None and event.delivery.keep is not None:
+            keywords.append(("queue_size", event.delivery.keep))
         call = Call(
             imports.name(f"{imports.types.package}.states", "Event"),
             (event.name, message, event.incoming_topic, event.topic),
-            (("envelope", Source(imports.interface(around[event.name].type, "msg"))),)
-            if event.name in around
-            else (),
+            tuple(keywords),
         )
         statement = layout(call, 0, f"{constants[event.name]} = ")
         found.append(EventView(statement, comments(event.origin, event.doc)))

@@ -68,7 +68,10 @@ _REASONS: dict[str, dict[str, str]] = {
         "inheritance and operations are not drawn": (
             "Component.base Component.operations Member.base"
         ),
-        "events and ports are drawn by name": ("Event.topic Event.type Port.topic"),
+        "events and ports are drawn by name": (
+            "Delivery.deadline Delivery.keep Delivery.latest Delivery.lifespan Delivery.reliable "
+            "Event.delivery Event.topic Event.type Port.topic"
+        ),
         "diagrams have the names of what they show": ("System.name"),
     },
     "portable SCXML": {

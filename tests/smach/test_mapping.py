@@ -18,6 +18,8 @@ function ask  : abstraction { service "ask" : Ask }
 event Go   : Note
 event Stop : Note
 swarm event Call : Note
+swarm event Kept : Note { latest, keep 3 }
+swarm event Brief : Note { lifespan 1 s }
 """
 PARTS = """
 sensor Eye { out seen : Note; behavior Work }
@@ -118,15 +120,19 @@ MODELS = {
         param first : Note
         state A { on Go [first.level > 1] -> End; on Stop -> End }""",
     "sent event": "state A { on Go / send Stop() -> End }",
+    "latest, keep of an event": "state A { on Go / send Kept -> End }",
+    "lifespan, deadline of an event": "state A { on Go / send Brief -> End }",
     "connector": "state A { on Go -> End }",
     "initial state of a machine that is final": "final A",
     "name that Python cannot have": """
         var lambda : int32
         state A { on Go [lambda > 1] -> End; on Stop / lambda = 2 }""",
 }
+ONLY_ROS_1 = ("latest, keep of an event", "lifespan, deadline of an event")
 FOR_ROS_2 = {
-    **MODELS,
+    **{name: model for name, model in MODELS.items() if name not in ONLY_ROS_1},
     "swarm event": "state A { on Call -> End }",
+    "delivery of a swarm event": "state A { on Go / send Kept -> End }",
     "monitored topic": 'state A { monitor "seen" : Note [event.level > 1] -> End }',
     "monitored feedback of an action": """
         var last : float64
@@ -156,6 +162,10 @@ def test_the_table_is_true(
     if mapped.construct == "connector":
         (word,) = re.findall("`([^`]*)`", mapped.means)
         assert word in generate(model + PARTS)["launch/uav.launch"].text
+        return
+    if mapped.construct == "latest, keep of an event":
+        (text,) = [f.text for path, f in generate(model).items() if path.endswith("events.py")]
+        assert all(word in text for word in re.findall("`([^`]*)`", mapped.means))
         return
     if mapped.support is Support.REJECTED:
         (code,) = re.findall(r"\((SW\d{4})\)", mapped.means)

@@ -34,13 +34,16 @@ syn match swarmDeclaration #\<append\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<as\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<at\>\ze[ \t]*\%(all\|least\|most\)\>#
 syn match swarmDeclaration #\<before\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmStatement #\<best\>\ze[ \t]*\%(effort\)\>#
 syn match swarmDeclaration #\<between\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<cancels\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<clear\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<count\>\ze[ \t]*\%(\%(of\)\>\|[(]\)#
+syn match swarmStatement #\<deadline\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#
 syn match swarmDeclaration #\<each\>\ze[ \t]*[A-Za-z_]#
+syn match swarmStatement #\<effort\>\ze[ \t]*[,;}]#
 syn match swarmStatement #\<evaluations\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<eventually\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<feedback\>\ze[ \t]*[{]#
@@ -48,8 +51,11 @@ syn match swarmDeclaration #\<goal\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<has\>\ze[ \t]*[\[]#
 syn match swarmDeclaration #\<hears\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<internal\>\ze[ \t]*\%(\%(after\|monitor\|on\)\>\|[\[]\)#
+syn match swarmStatement #\<keep\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmStatement #\<latest\>\ze[ \t]*[,;}]#
 syn match swarmDeclaration #\<leads\>\ze[ \t]*\%(to\)\>#
 syn match swarmDeclaration #\<least\>\ze[ \t]*[0-9"]#
+syn match swarmStatement #\<lifespan\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<maximize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<minimize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<most\>\ze[ \t]*[0-9"]#
@@ -59,6 +65,7 @@ syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<only\>\ze[ \t]*\%(after\)\>#
 syn match swarmDeclaration #\<other\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<possible\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmStatement #\<reliable\>\ze[ \t]*[,;}]#
 syn match swarmDeclaration #\<remove\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<request\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<response\>\ze[ \t]*[{]#
@@ -72,7 +79,7 @@ syn match swarmDeclaration #\<starts\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<step\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<then\>\ze[ \t]*[*A-Za-z_0-9"]#
-syn match swarmDeclaration #\<times\>\ze[ \t]*$#
+syn match swarmDeclaration #\<times\>\ze[ \t]*[,;}]#
 syn match swarmStatement #\<to\>\ze[ \t]*[*A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<where\>\ze[ \t]*[A-Za-z_0-9"-]#

@@ -17,7 +17,7 @@ from .diagnostics import Diagnostics, Losses
 from .engine import Envelope, Event, ExecutionError, Instance, LoopError, Machine, Servers
 from .identity import identity, SETTINGS
 from .parameters import Parameter, StartError
-from .topics import reliable, Topics
+from .topics import Delivery, hearing, Topics
 from .tracing import Output, Trace
 from .values import from_json
 
@@ -131,7 +131,7 @@ class Host:
         self._injected = None
         if settings['debug.inject']:
             self._injected = node.create_subscription(
-                String, '~/events', self._inject, reliable(), callback_group=self._group
+                String, '~/events', self._inject, hearing(Delivery()), callback_group=self._group
             )
         self._servers = Servers()
         self._pauses = Pauses()

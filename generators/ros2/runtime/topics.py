@@ -3,7 +3,14 @@
 from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time
-from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.duration import Duration
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    QoSPolicyKind,
+    QoSProfile,
+    ReliabilityPolicy,
+)
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 from .engine import Envelope, Event
@@ -19,6 +26,21 @@ DEPTH = 10_000
 _OF_ROS, _OF_BRIDGE = 'std_msgs/Header', 'swarmros/EventHeader'
 _ECHO = 2 * SECOND
 """Time in which an event of the node itself may arrive on its topic, in nanoseconds."""
+
+
+class Delivery(NamedTuple):
+    """
+    How a swarm event is delivered; times are in nanoseconds.
+
+    `keep` is the number of messages that a publisher keeps for those who do not answer, and with
+    `latest` for those who come later.
+    """
+
+    reliable: bool = True
+    latest: bool = False
+    keep: Any = None
+    lifespan: Any = None
+    deadline: Any = None
 
 
 class Topic(NamedTuple):
@@ -38,6 +60,7 @@ class Topic(NamedTuple):
     sent: bool = False
     local: str = ''
     envelope: Any = None
+    delivery: Any = Delivery()
 
 
 class Topics:
@@ -66,9 +89,12 @@ class Topics:
             if topic.sent:
                 self._headers[topic.event] = _headers(topic.interface)
                 wire = topic.envelope or topic.interface
-                self._publishers[topic.event] = self._publisher(wire, name, group)
+                qos = sending(topic.delivery)
+                self._publishers[topic.event] = self._publisher(wire, name, group, qos)
                 if topic.local:
-                    local = self._publisher(topic.interface, topic.local, group)
+                    local = self._publisher(
+                        topic.interface, topic.local, group, sending(Delivery())
+                    )
                     self._local_publishers[topic.event] = local
             if topic.heard:
                 if topic.swarm and topic.sent:
@@ -125,11 +151,11 @@ class Topics:
             for each in publishers.values():
                 self._node.destroy_publisher(each)
 
-    def _publisher(self, interface, name, group):
+    def _publisher(self, interface, name, group, qos):
         return self._node.create_publisher(
             interface,
             name,
-            reliable(),
+            qos,
             callback_group=group,
             qos_overriding_options=QoSOverridingOptions.with_default_policies(),
         )
@@ -171,8 +197,8 @@ class _Subscription:
     """
     A subscription to an event, which matches every publisher.
 
-    It is reliable, and a message that the network drops is sent again, until a publisher comes
-    that is best effort, such as many sensors; then it is best effort.
+    It asks for the delivery of the model until a publisher comes that offers less, such as many
+    sensors, which are best effort; then it asks for no more than that.
     """
 
     def __init__(self, node, topic, name, group, hear, drop):
@@ -183,7 +209,7 @@ class _Subscription:
         self._hear = hear
         self._drop = drop
         overriding = QoSOverridingOptions.with_default_policies()
-        self._made = self._subscribe(reliable(), qos_overriding_options=overriding)
+        self._made = self._subscribe(hearing(topic.delivery), qos_overriding_options=overriding)
 
     def destroy(self):
         """End the subscription."""
@@ -197,38 +223,93 @@ class _Subscription:
         options.update(callback_group=self._group)
         interface = self._topic.envelope or self._topic.interface
         arguments = (interface, self._name, self._hear, qos)
-        events = SubscriptionEventCallbacks(incompatible_qos=self._match, message_lost=self._lose)
+        late = self._miss if self._topic.delivery.deadline is not None else None
+        events = SubscriptionEventCallbacks(
+            incompatible_qos=self._match, message_lost=self._lose, deadline=late
+        )
         try:
             return self._node.create_subscription(*arguments, **options, event_callbacks=events)
         except UnsupportedEventTypeError:
             # The middleware does not tell what it loses; it matches all publishers.
             return self._node.create_subscription(*arguments, **options)
 
-    def _match(self, _):
-        """Match a publisher that is best effort."""
-        if not self._is_reliable:
-            return
-        self._node.get_logger().info(f'{self._name} has a publisher that is best effort')
+    def _match(self, mismatch):
+        """Match a publisher that offers less."""
         earlier = self._made
+        qos = earlier.qos_profile
+        offered = _LESS.get(mismatch.last_policy_kind)
+        if offered is None or not offered(qos):
+            return
+        what = _OFFERS[mismatch.last_policy_kind]
+        self._node.get_logger().info(f'{self._name} has a publisher that is {what}')
         with earlier.handle:
             while (taken := earlier.handle.take_message(earlier.msg_type, False)) is not None:
                 self._hear(taken[0])
         self.destroy()
-        qos = earlier.qos_profile
-        qos.reliability = ReliabilityPolicy.BEST_EFFORT
         self._made = self._subscribe(qos)
+
+    def _miss(self, missed):
+        event, count = self._topic.event, missed.total_count_change
+        self._node.get_logger().warning(f'{event} missed its deadline {count} times')
 
     def _lose(self, lost):
         self._drop(self._topic.event, lost.total_count_change, self._is_reliable)
 
 
-def reliable():
-    """Return the QoS of events."""
+def sending(delivery):
+    """Return the QoS of a publisher of an event."""
+    qos = hearing(delivery)
+    if delivery.keep is not None or delivery.latest:
+        qos.depth = delivery.keep or 1
+    if delivery.lifespan is not None:
+        qos.lifespan = Duration(nanoseconds=delivery.lifespan)
+    return qos
+
+
+def hearing(delivery):
+    """Return the QoS of a subscription to an event, which hears from several publishers."""
+    policies = {}
+    if delivery.latest:
+        policies['durability'] = DurabilityPolicy.TRANSIENT_LOCAL
+    if delivery.deadline is not None:
+        policies['deadline'] = Duration(nanoseconds=delivery.deadline)
+    reliability = ReliabilityPolicy.RELIABLE
+    if not delivery.reliable:
+        reliability = ReliabilityPolicy.BEST_EFFORT
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
         depth=DEPTH,
-        reliability=ReliabilityPolicy.RELIABLE,
+        reliability=reliability,
+        **policies,
     )
+
+
+def _less_reliable(qos):
+    before, qos.reliability = qos.reliability, ReliabilityPolicy.BEST_EFFORT
+    return before is not ReliabilityPolicy.BEST_EFFORT
+
+
+def _less_durable(qos):
+    before, qos.durability = qos.durability, DurabilityPolicy.VOLATILE
+    return before is not DurabilityPolicy.VOLATILE
+
+
+def _less_timely(qos):
+    before, qos.deadline = qos.deadline, Duration()
+    return before != Duration()
+
+
+_LESS = {
+    QoSPolicyKind.RELIABILITY: _less_reliable,
+    QoSPolicyKind.DURABILITY: _less_durable,
+    QoSPolicyKind.DEADLINE: _less_timely,
+}
+"""Ask for less by policy; they return False if the QoS asked for no more already."""
+_OFFERS = {
+    QoSPolicyKind.RELIABILITY: 'best effort',
+    QoSPolicyKind.DURABILITY: 'volatile',
+    QoSPolicyKind.DEADLINE: 'without the deadline',
+}
 
 
 def _headers(interface):

@@ -23,11 +23,23 @@ class Event:
     """An event, received and sent as a message on a topic.
 
     The `envelope` is the type of a message around it with its sender, its time and its address, if
-    a machine asks for them.
+    a machine asks for them. With `latch`, who comes later gets the last message; `queue_size` is
+    the number of messages that may wait for a slow connection.
     """
 
-    def __init__(self, name, message_type, heard_on, sent_on, envelope=None):
+    def __init__(
+        self,
+        name,
+        message_type,
+        heard_on,
+        sent_on,
+        envelope=None,
+        latch=False,
+        queue_size=_QUEUE,
+    ):
         self.name = name
+        self.latch = latch
+        self.queue_size = queue_size
         self.message_type = message_type
         self.heard_on = heard_on
         self.sent_on = sent_on
@@ -59,7 +71,9 @@ class Event:
         if self._publisher is None:
             self._sender = identity().id
             kind = self.envelope or self.message_type
-            self._publisher = rospy.Publisher(self.sent_on, kind, queue_size=_QUEUE)
+            self._publisher = rospy.Publisher(
+                self.sent_on, kind, latch=self.latch, queue_size=self.queue_size
+            )
 
     def send(self, message, to=None):
         """Publish a message, with its time and sender in empty headers.

@@ -5,10 +5,12 @@ See `codegen.exchange.scxml.payload`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Literal
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.expressions import UnsupportedError, constant
@@ -18,6 +20,7 @@ from swarmdsl.ir import (
     Action,
     Communication,
     Constant,
+    Delivery,
     Event,
     Field,
     Function,
@@ -28,6 +31,12 @@ from swarmdsl.ir import (
     Type,
 )
 from swarmdsl.ir.docs import Docs
+from swarmdsl.syntax.parser.literals import nanoseconds
+
+_RELIABLE = {"reliable": True, "best-effort": False}
+_MEANS = {"keep": "number", "lifespan": "duration", "deadline": "duration"}
+_COUNT = re.compile(r"0*[1-9][0-9]*")
+_TIME = re.compile(r"(?=[0-9.]*[1-9])([0-9]+(?:\.[0-9]{1,3})?) (us|ms|s|min|h)")
 
 
 @dataclass(frozen=True)
@@ -79,8 +88,37 @@ class PortableDescription:
         for node in self._named("event"):
             type_ = self._type(node)
             if isinstance(type_, Named):
-                topic, swarm = node.get("topic", ""), node.get("swarm") == "true"
-                yield Event(node.attributes["name"], type_, topic, swarm, doc_of(node.children))
+                swarm = node.get("swarm") == "true"
+                yield Event(
+                    node.attributes["name"],
+                    type_,
+                    node.get("topic", ""),
+                    swarm,
+                    doc_of(node.children),
+                    delivery=self._delivery(node) if swarm else None,
+                )
+
+    def _delivery(self, node: Node) -> Delivery | None:
+        """Return the settings of a swarm event; None if it has none."""
+        values: dict[str, int] = {}
+        for name in ("keep", "lifespan", "deadline"):
+            text = node.get(name, "")
+            found = (_COUNT if name == "keep" else _TIME).fullmatch(text)
+            if found is not None:
+                values[name] = nanoseconds(text, found[2]) if name != "keep" else integer(text)
+            elif text:
+                self._left_out(node, name, f"`{text}` is not a positive {_MEANS[name]}")
+        given = node.get("reliability", "")
+        if given not in ("", *_RELIABLE):
+            self._left_out(node, "reliability", f"`{given}` is neither {' nor '.join(_RELIABLE)}")
+        delivery = Delivery(
+            reliable=_RELIABLE.get(given),
+            latest=node.get("latest") == "true",
+            keep=values.get("keep"),
+            lifespan=values.get("lifespan"),
+            deadline=values.get("deadline"),
+        )
+        return delivery if delivery != Delivery() else None
 
     def functions(self) -> Iterator[Function]:
         """Yield the functions that its activities call."""

@@ -53,6 +53,7 @@ if TYPE_CHECKING:
         Action,
         Communication,
         Constant,
+        Delivery,
         Event,
         Field,
         Function,
@@ -134,8 +135,8 @@ else:
             ),
             "swarmdsl.ir.integer_ranges": "bound_of bound_of_any",
             "swarmdsl.ir.interfaces": (
-                "Action Communication Constant Event Field Function FunctionPort Interface "
-                "Message Param Service"
+                "Action Communication Constant Delivery Event Field Function FunctionPort "
+                "Interface Message Param Service"
             ),
             "swarmdsl.ir.operations": "OPERATIONS",
             "swarmdsl.ir.optimization": "CountRange Fitness Optimization ParamRange",
@@ -180,6 +181,7 @@ __all__ = [
     "Construction",
     "Count",
     "CountRange",
+    "Delivery",
     "Direction",
     "Docs",
     "DoneTrigger",

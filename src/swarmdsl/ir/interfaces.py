@@ -76,6 +76,23 @@ Interface = Message | Service | Action
 
 
 @dataclass(frozen=True, slots=True)
+class Delivery:
+    """How a swarm event is delivered; times are in nanoseconds, None is what was not said.
+
+    `reliable` is False for best effort. `latest` is True if who comes later gets the last event,
+    `keep` the number of events that wait for a receiver, `lifespan` the age at which an event is
+    dropped, `deadline` the longest time between two events of a sender.
+    """
+
+    reliable: bool | None = None
+    latest: bool = False
+    keep: int | None = None
+    lifespan: int | None = None
+    deadline: int | None = None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Event:
     """Event, known by a message on a topic.
 
@@ -89,6 +106,7 @@ class Event:
     swarm: bool
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+    delivery: Delivery | None = None
 
     @property
     def incoming_topic(self) -> str:

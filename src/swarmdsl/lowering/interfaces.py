@@ -17,6 +17,7 @@ from swarmdsl.syntax.ast import (
     Communication,
     Component,
     Constant,
+    DeliverySetting,
     EnumType,
     Event,
     Field,
@@ -127,14 +128,34 @@ def lower_operations(owner: Component | Part, context: Context) -> Iterator[ir.F
 
 
 def lower_event(event: Event, context: Context) -> ir.Event:
-    """Lower an event; its topic defaults to its name."""
+    """Lower an event; its topic defaults to its name, and it has the comments of its delivery."""
     return ir.Event(
         name=context.names[event],
         type=context.type_of(event.type),
         topic=topic_of(event),
         swarm=event.swarm,
-        doc=event.doc,
+        doc="\n".join(filter(None, (event.doc, *(each.doc for each in event.delivery)))),
         origin=event.name.span,
+        delivery=_lower_delivery(event.delivery, context) if event.delivery else None,
+    )
+
+
+def _lower_delivery(settings: list[DeliverySetting], context: Context) -> ir.Delivery:
+    """Lower the settings of a delivery to their values."""
+    kinds = {each.kind: each for each in settings}
+    values: dict[str, int] = {}
+    for name, setting in kinds.items():
+        if setting.value is not None and setting.value.tree is not None:
+            value = context.typing.folding.value(setting.value.tree)
+            assert isinstance(value, (int, float))
+            values[name] = round(value)
+    return ir.Delivery(
+        reliable="reliable" in kinds if kinds.keys() & {"reliable", "best"} else None,
+        latest="latest" in kinds,
+        keep=values.get("keep"),
+        lifespan=values.get("lifespan"),
+        deadline=values.get("deadline"),
+        origin=settings[0].span,
     )
 
 

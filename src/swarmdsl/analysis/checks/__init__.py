@@ -16,6 +16,7 @@ from swarmdsl.analysis.checks.composition import check_environment, check_swarm
 from swarmdsl.analysis.checks.conflicts import check_conflicts
 from swarmdsl.analysis.checks.context import Context, make_context
 from swarmdsl.analysis.checks.dataflow import check_variables
+from swarmdsl.analysis.checks.delivery import check_delivery, check_lossy_events
 from swarmdsl.analysis.checks.enums import check_enum
 from swarmdsl.analysis.checks.events import check_events
 from swarmdsl.analysis.checks.expressions import check_expressions
@@ -99,6 +100,7 @@ STATE_MACHINE_PASSES: Sequence[Callable[[StateMachine, Context], None]] = (
     check_variables,
     check_conflicts,
     check_initialization,
+    check_lossy_events,
 )
 
 COMMON_PASSES: Sequence[Callable[[Declaration, Context], None]] = (
@@ -109,7 +111,7 @@ COMMON_PASSES: Sequence[Callable[[Declaration, Context], None]] = (
 """Passes over every declaration, before those of its kind."""
 
 PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
-    Event: (check_event,),
+    Event: (check_event, check_delivery),
     Function: (check_function,),
     Component: (check_component,),
     Member: (check_member,),

@@ -169,6 +169,16 @@ CODES: dict[str, Code] = {
         "SW0616", "warning", "no definition of interface `{name}`", silent=True
     ),
     "monitor-name": Code("SW0617", "error", "topic `{topic}` cannot be called `{name}`"),
+    "local-delivery": Code(
+        "SW0618", "error", "event `{name}` stays on one robot: it has no delivery"
+    ),
+    "contradictory-delivery": Code("SW0619", "error", "{fault}"),
+    "lossy-event": Code(
+        "SW0620",
+        "warning",
+        "best effort event `{name}` may never end `{state}`, which has activities",
+        silent=True,
+    ),
     "wrong-unit": Code("SW0621", "error", "expected {expected}, found {found}"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),

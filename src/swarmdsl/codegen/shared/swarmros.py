@@ -16,7 +16,7 @@ from swarmdsl.codegen.api import OutputFile
 from swarmdsl.codegen.shared.constants import Value, constant
 from swarmdsl.codegen.shared.envelopes import BRIDGE_HEADER, envelopes_of
 from swarmdsl.codegen.shared.topic_uses import Use, uses
-from swarmdsl.ir import CommunicationSettings, Member, Message, System
+from swarmdsl.ir import CommunicationSettings, Event, Member, Message, System
 
 _TECHNOLOGY = "zyre"
 _PARAMETERS = ("ifname", "port")
@@ -31,12 +31,27 @@ def bridge_files(system: System, report: Diagnostics) -> Iterator[OutputFile]:
     wires = {system.event(name).topic: str(message.type) for name, message in around.items()}
     used = {member.name: list(uses(member, system)) for member in system.members}
     bridged = _bridged(system, [use for found in used.values() for use in found])
+    crossed = {_suffix(use) for found in used.values() for use in found}
+    _report_deliveries((each for each in system.events if each.topic in crossed), report)
     for member in system.members:
         crossing = [use for use in used[member.name] if _suffix(use) in bridged]
         crossing = [use for use in crossing if _can_cross(use, system, report)]
         if crossing or member.communication is not None:
             text = "\n".join(_file(member, crossing, wires, report)) + "\n"
             yield OutputFile(f"{snake_case(member.name)}.cfg", text, origin=member.origin)
+
+
+def _report_deliveries(events: Iterable[Event], report: Diagnostics) -> None:
+    """Report the events whose delivery the configuration has no words for."""
+    for event in events:
+        if event.delivery is not None:
+            report.report(
+                "no-place",
+                event.delivery.origin,
+                target="swarmros",
+                what=f"the delivery of event `{event.name}`",
+                notes=("the bridge sends each event once, to the robots that it is connected to",),
+            )
 
 
 def _bridged(system: System, used: Iterable[Use]) -> set[str]:

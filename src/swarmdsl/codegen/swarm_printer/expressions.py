@@ -72,7 +72,7 @@ def _literal(literal: Literal) -> str:
         case bool():
             return "true" if literal.value else "false"
         case int() if literal.type == DURATION:
-            return _duration(literal.value)
+            return duration(literal.value)
         case float() if not isfinite(literal.value):
             raise UnprintableError(f"{literal.value} is not a number that can be written")
         case str():
@@ -83,10 +83,10 @@ def _literal(literal: Literal) -> str:
             return repr(value)
 
 
-def _duration(nanoseconds: int) -> str:
+def duration(nanoseconds: int) -> str:
     """Return a duration in the longest unit that divides it, else in `us`."""
     if nanoseconds < 0:
-        return f"-{_duration(-nanoseconds)}"
+        return f"-{duration(-nanoseconds)}"
     if nanoseconds == 0:
         return "0 s"
     for unit, length in sorted(UNITS.items(), key=lambda item: -item[1]):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.base.naming import snake_case
+from swarmdsl.codegen.swarm_printer.delivery import delivery_settings
 from swarmdsl.codegen.swarm_printer.expressions import default, expression
 from swarmdsl.codegen.swarm_printer.layout import block, documented, quoted
 from swarmdsl.codegen.swarm_printer.names import Names
@@ -21,6 +22,8 @@ from swarmdsl.ir import (
     Param,
     Service,
 )
+
+_WIDTH = 100
 
 
 def print_interface(interface: Interface, names: Names) -> list[str]:
@@ -42,7 +45,11 @@ def print_event(event: Event, names: Names) -> list[str]:
     """Print an event; that of a monitored topic is declared like any other."""
     swarm = "swarm " if event.swarm else ""
     on = on_topic(event.topic, event.name)
-    return documented(event.doc, [f"{swarm}event {event.name} : {names.type(event.type)}{on}"])
+    head = f"{swarm}event {event.name} : {names.type(event.type)}{on}"
+    settings = delivery_settings(event.delivery)
+    line = f"{head} {{ {', '.join(settings)} }}" if settings else head
+    # The formatter breaks longer lines, where settings need no separators.
+    return documented(event.doc, block(head, settings) if len(line) > _WIDTH else [line])
 
 
 def print_function(function: Function, names: Names) -> list[str]:

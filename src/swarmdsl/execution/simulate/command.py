@@ -304,7 +304,7 @@ class _Play:
             return None
         timeline = Timeline(self._subject.name, self._cast)
         self._listeners.append(timeline.note)
-        self._world.transmitted = timeline.transmitted
+        self._world.network.transmitted = timeline.transmitted
         return lambda: stream.write(timeline.svg(self._world.clock.now))
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:

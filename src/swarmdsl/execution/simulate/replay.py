@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from copy import deepcopy
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
@@ -29,7 +30,7 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.table import first_data
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.simulate.trace_line import NAMES, numbers, read_line
-from swarmdsl.execution.simulate.world import LOST
+from swarmdsl.execution.simulate.world import LATE, LOST
 from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS
 
@@ -131,6 +132,8 @@ class _Replay:
         self._delays: list[_Delay] = []
         self._runs: list[Run] = []
         self._last: list[str] = []
+        self._first_data = deepcopy(actor.data)
+        self._last_event: str | None = None
         self._instance = Instance(actor.machine, self, data=actor.data, servers=Servers())
         self._trace.watch(self._instance, actor)
 
@@ -188,10 +191,14 @@ class _Replay:
         name, instance = record.event, self._instance
         try:
             if name is None:
-                if instance.running or instance.final is not None:
+                if self._last_event == LOST:
+                    instance = self._start_anew()
+                elif instance.running or instance.final is not None:
                     return "it starts a second time"
                 self._trace.begin(instance, None)
                 instance.start()
+            elif name.startswith(LATE) and instance.running:
+                self._trace.begin(instance, name)
             elif not instance.running:
                 return "it is active after its end" if instance.final else "it has not started"
             elif name in (SHUTDOWN, LOST):
@@ -212,8 +219,18 @@ class _Replay:
         except LoopError as error:
             return str(error)
         finally:
+            self._last_event = name
             self._trace.flush()
         return ""
+
+    def _start_anew(self) -> Instance:
+        """Replace the machine of a robot that was lost and comes back."""
+        self._delays.clear()
+        self._runs.clear()
+        data = deepcopy(self._first_data)
+        self._instance = Instance(self._actor.machine, self, data=data, servers=Servers())
+        self._trace.watch(self._instance, self._actor)
+        return self._instance
 
     def _end_delay(self, name: str) -> str:
         found = next((each for each in self._delays if _event_of(each.action) == name), None)

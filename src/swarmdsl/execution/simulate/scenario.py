@@ -112,12 +112,21 @@ class Message:
 
 @dataclass(frozen=True)
 class Fault:
-    """Loss of a robot, or of answers of a function, temporary or permanent."""
+    """Loss of a robot, of answers of a function, or of the contact between groups of robots.
+
+    Without `lasts` it is permanent.
+    """
 
     at: Length
     of: tuple[str, ...] | None = None
     function: str | None = None
     lasts: int | None = None
+    apart: tuple[tuple[str, ...], ...] = ()
+
+    @property
+    def is_loss(self) -> bool:
+        """Return True if robots are lost."""
+        return self.function is None and not self.apart
 
 
 @dataclass(frozen=True)

@@ -203,24 +203,43 @@ class _Reader:
 
     def fault(self, table: Table) -> Fault | None:
         """Read a fault."""
-        table.check_keys(("at", "lost", "silent", "of", "lasts"), "a fault")
+        table.check_keys(("at", "lost", "apart", "silent", "of", "lasts"), "a fault")
         if not self.needs(table, "at"):
             return None
         at = table.length("at")
+        lasts = table.duration("lasts") if "lasts" in table else None
+        kinds = {"lost": "a lost member", "apart": "members apart"}
+        for kind in kinds:
+            if kind in table:
+                for key in ("silent", "of", *(other for other in kinds if other != kind)):
+                    if key in table:
+                        table.wrong((key,), f"no such key for {kinds[kind]}", table.values[key])
         if "lost" in table:
-            for key in ("silent", "of", "lasts"):
-                if key in table:
-                    table.wrong((key,), "no such key for a lost member", table.values[key])
             of = table.names("lost", self.members, "member")
-            return Fault(at, of) if at is not None else None
+            return Fault(at, of, lasts=lasts) if at is not None else None
+        if "apart" in table:
+            groups = self.groups(table)
+            return Fault(at, lasts=lasts, apart=groups) if at is not None and groups else None
         if "silent" not in table:
-            help_ = "use `lost` to remove a member, `silent` for a function that does not answer"
+            help_ = (
+                "use `lost` to remove a member, `apart` for members that do not reach each other, "
+                "`silent` for a function that does not answer"
+            )
             self.report.report("missing-key", table.value_place(()), name="lost", help=help_)
             return None
         function = table.name("silent", self.known_functions(), "function")
         to = table.names("of", self.members, "member") if "of" in table else None
-        lasts = table.duration("lasts") if "lasts" in table else None
         return Fault(at, to, function, lasts) if at is not None and function else None
+
+    def groups(self, table: Table) -> tuple[tuple[str, ...], ...]:
+        """Read groups of members that do not reach one another."""
+        given = table.values["apart"]
+        if not isinstance(given, list) or len(given) < 2:
+            table.wrong(("apart",), "two groups of members or more", given)
+            return ()
+        return tuple(
+            table.names_at(("apart", i), self.members, "member") for i in range(len(given))
+        )
 
     def needs(self, table: Table, *keys: str) -> bool:
         """Return True if a table has the keys; report a missing one."""

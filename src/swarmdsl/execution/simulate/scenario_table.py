@@ -137,11 +137,17 @@ class Table:
 
     def names(self, key: str, known: Iterable[str], what: str) -> tuple[str, ...]:
         """Read one or several known names."""
-        value = self.values[key]
+        return self.names_at((key,), known, what)
+
+    def names_at(self, way: Way, known: Iterable[str], what: str) -> tuple[str, ...]:
+        """Read one or several known names in a list of such groups."""
+        value: Any = self.values
+        for key in way:
+            value = value[key]
         if not isinstance(value, list):
-            found = self._name((key,), value, known, what)
+            found = self._name(way, value, known, what)
             return (found,) if found is not None else ()
-        each = [self._name((key, i), name, known, what) for i, name in enumerate(value)]
+        each = [self._name((*way, i), name, known, what) for i, name in enumerate(value)]
         return tuple(name for name in each if name is not None)
 
     def _name(self, way: Way, name: Any, known: Iterable[str], what: str) -> str | None:

@@ -58,6 +58,7 @@ class Life(Observer):
     """
 
     __slots__ = (
+        "_began",
         "_busy",
         "_clock",
         "_count",
@@ -79,6 +80,7 @@ class Life(Observer):
         self._whole = whole
         self._counted = whole.of(actor.machine)
         self._entries: dict[str, int] = {}
+        self._began = 0
         self._busy = -1
         self._count = 0
 
@@ -103,13 +105,21 @@ class Life(Observer):
             self._counted.times[state] += now - entered
         self._entries.clear()
         if not self.is_over:
-            self._counted.running += now
+            self._counted.running += now - self._began
 
     def lose(self) -> None:
         """Record that the robot is lost."""
         self.close()
         self.lost = True
         self.since = self._clock.now
+
+    def revive(self, instance: Instance) -> None:
+        """Go on with another instance, after a loss."""
+        if not self.is_over:
+            self.close()
+        self.instance = instance
+        self.lost = False
+        self.since = self._began = self._clock.now
 
     @property
     def is_over(self) -> bool:
@@ -140,7 +150,7 @@ class Life(Observer):
         if self.instance.final is None:
             self.since = now
         elif state.id == self.instance.final:
-            self._counted.running += now
+            self._counted.running += now - self._began
 
     def taken(self, instance: InstanceLike, transition: Transition) -> None:
         """Record it."""

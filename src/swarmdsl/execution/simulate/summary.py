@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from swarmdsl.base.diagnostics.render import counted
@@ -39,8 +40,7 @@ class Summary:
         yield from _table(("member", "in the end", "since"), self._members(), left=2)
         yield from _table(("state", "time", "entered"), self._states())
         yield from _table(("function", "called", *_OUTCOMES, "unfinished"), self._functions())
-        nobody = ("to nobody",) if world.nobody else ()
-        yield from _table(("event", "sent", "heard", "lost", *nobody), self._events())
+        yield from _table(("event", "sent", *_counts(world)), self._events())
         yield from _table(("ignored event", "in state", "times"), self._ignored_events(), left=2)
         yield from self._unseen()
 
@@ -84,11 +84,8 @@ class Summary:
             yield function, str(called), *(str(count or "-") for count in counts)
 
     def _events(self) -> Iterator[Row]:
-        world = self._world
         for event, sent in self._statistics.sent.items():
-            counts = [sent, world.delivered[event], world.lost[event]]
-            if world.nobody:
-                counts.append(world.nobody[event])
+            counts = (sent, *(found[event] for found in _counts(self._world).values()))
             yield event, *(str(count or "-") for count in counts)
 
     def _ignored_events(self) -> Iterator[Row]:
@@ -121,6 +118,20 @@ def _place(life: Life) -> str:
     if life.lost:
         return "lost"
     return life.instance.final or ", ".join(life.instance.configuration.innermost)
+
+
+def _counts(world: World) -> dict[str, Counter[str]]:
+    """Return the numbers of swarm events by column; rare ones have a column if there are any."""
+    network = world.network
+    rare = {
+        "to nobody": world.nobody,
+        "sent again": network.repeated,
+        "too old": network.expired,
+        "waiting": network.waiting,
+        "late": network.late,
+    }
+    found = {name: counts for name, counts in rare.items() if counts}
+    return {"heard": network.delivered, "lost": network.lost, **found}
 
 
 def _table(head: Row, rows: Iterable[Row], left: int = 1) -> Iterator[str]:

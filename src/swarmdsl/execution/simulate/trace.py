@@ -71,6 +71,12 @@ class Trace(Observer):
         self.lives[instance] = Life(instance, actor, self._clock, self.statistics)
         instance.observer = self
 
+    def replace(self, instance: Instance, by: Instance) -> None:
+        """Observe the instance of a machine that starts anew instead of the one before."""
+        life = self.lives[by] = self.lives.pop(instance)
+        life.revive(by)
+        by.observer = self if self.is_heard else life
+
     def open(self) -> None:
         """Begin the trace; there are no more listeners to come."""
         if not self.is_heard:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from copy import deepcopy
 from typing import Any
 
-from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.default_values import default_result
 from swarmdsl.execution.engine import (
     NO_ENVELOPE,
@@ -19,8 +19,9 @@ from swarmdsl.execution.engine import (
 )
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
-from swarmdsl.execution.simulate.durations import Fixed, draw
+from swarmdsl.execution.simulate.durations import draw
 from swarmdsl.execution.simulate.headers import signed
+from swarmdsl.execution.simulate.network import Network
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import (
     EVERY_FUNCTION,
@@ -37,20 +38,6 @@ from swarmdsl.ir import System
 
 _OF_ACTIVITIES = "do."
 """Prefix of activity events, in tables of models and in our SCXML."""
-
-
-@dataclass(frozen=True)
-class Transmission:
-    """Swarm event in transit between two robots; `arrives` is False if it is lost."""
-
-    event: str
-    source: Robot
-    target: Robot
-    sent: int
-    due: int
-    arrives: bool
-    to: str | None = None
-    """Address, None for all others."""
 
 
 class World:
@@ -74,26 +61,20 @@ class World:
         """Failures of guards and effects, by machine and reason."""
         self.outcomes: Counter[tuple[str, str]] = Counter()
         """Outcomes of activities, by function and outcome."""
-        self.delivered: Counter[str] = Counter()
-        self.lost: Counter[str] = Counter()
-        """Numbers of swarm events delivered to and lost on the way to other robots."""
         self.nobody: Counter[str] = Counter()
         """Numbers of swarm events with an address that no other robot has."""
-        self.transmitted: Callable[[Transmission], None] | None = None
-        """Callback for swarm events in transit."""
         self._system = system
         self._scenario = scenario
         self._chance = RandomSource(seed)
-        self._latency = (
-            scenario.latency.length
-            if scenario.loss == 0 and isinstance(scenario.latency, Fixed)
-            else None
+        self.network = Network(
+            self.clock,
+            scenario,
+            self._chance,
+            lambda event, robot: self._deliver(event, self.listeners(event.name, robot)),
+            lambda event, robot: bool(self.listeners(event, robot)),
+            self._miss,
         )
-        """Latency of all events, if it is the same and none is lost."""
         self._calls: Counter[tuple[str | None, str]] = Counter()
-        self._transmissions: Counter[tuple[str | None, str | None]] = Counter()
-        self._last_arrival: dict[tuple[Robot, Robot, str], int] = {}
-        """Time at which the last event on a topic arrives, by sender, receiver and topic."""
         self._ends: dict[Run, Alarm | None] = {}
         self._listeners: dict[tuple[str, str | None], list[Actor]] = {}
         self._silent: Counter[tuple[Robot, str]] = Counter()
@@ -103,7 +84,8 @@ class World:
         """Robots that listen to an event, with the instances that do."""
         self._blanks: dict[str, Mapping[str, Any]] = {}
         self._unheard: list[Run] = []
-        self._gone: set[Robot] = set()
+        self._returning = 0
+        """Number of lost robots that will come back."""
         self._instances: dict[Actor, Instance] = {}
         self._actors: dict[InstanceLike, Actor] = {}
         self._one: Instance | None = None
@@ -118,6 +100,10 @@ class World:
             self._instances[actor] = instance
             self._actors[instance] = actor
         self.robots = list(servers)
+        comes_back = any(each.lasts is not None and each.is_loss for each in scenario.faults)
+        self._first_data = {
+            actor: deepcopy(actor.data) for actor in (self._instances if comes_back else ())
+        }
 
     # ---- called by a run
 
@@ -138,6 +124,10 @@ class World:
                     )
                     self.clock.schedule(message.at.draw(chance), self._message(message, robot))
         for number, fault in enumerate(self._scenario.faults):
+            if fault.apart:
+                chance = self._chance.stream("fault", number)
+                self.clock.schedule(fault.at.draw(chance), self._partition(fault))
+                continue
             for robot in self.robots:
                 if is_selected(robot, fault.of):
                     chance = self._chance.stream(robot.name, "fault", number)
@@ -145,11 +135,11 @@ class World:
 
     @property
     def over(self) -> bool:
-        """True if no machine is running."""
+        """True if no machine is running, and no robot comes back."""
         if self._one is None or not self._one.running:
             running = (instance for instance in self._instances.values() if instance.running)
             self._one = next(running, None)
-        return self._one is None
+        return self._one is None and not self._returning
 
     def step(self) -> None:
         """Execute the next scheduled action, if any."""
@@ -253,22 +243,20 @@ class World:
             return
         envelope = Envelope(robot.name or "", self.clock.now, to)
         arriving = Event(event.name, data, envelope=envelope)
-        if to is None and self._latency is not None and not self._gone and not self.transmitted:
-            self._send_to_all(robot, arriving, self._latency)
+        if to is None and sent.delivery is None and self.network.latency is not None:
+            self._send_to_all(robot, arriving, self.network.latency)
             return
         others = [other for other in self.robots if other is not robot and other.is_meant_by(to)]
         if not others and to is not None and robot.name is not None:
             self.nobody[event.name] += 1
             self.trace.reaches_nobody()
-        for other in others:
-            if self.listeners(event.name, other):
-                self._transmit(arriving, sent.topic, robot, other)
+        self.network.send(arriving, sent, robot, others)
 
     def _send_to_all(self, robot: Robot, event: Event, latency: int) -> None:
         """Send an event to all other robots, which get it at the same time."""
         audience = self._audience(event.name)
         others = len(audience) - any(other is robot for other, _ in audience)
-        self.delivered[event.name] += others
+        self.network.delivered[event.name] += others
         heard = self.trace.is_heard
 
         def arrive() -> None:
@@ -296,35 +284,11 @@ class World:
             found = self._audiences[event] = [pair for pair in pairs if pair[1]]
         return found
 
-    def _transmit(self, event: Event, topic: str, robot: Robot, other: Robot) -> None:
-        """Send an event to another robot; draw whether and when it arrives."""
-        self._transmissions[robot.name, other.name] += 1
-        count = self._transmissions[robot.name, other.name]
-        chance = self._chance.stream(robot.name, "to", other.name, count)
-        arrives = chance.random() >= self._scenario.loss and other not in self._gone
-        now = self.clock.now
-        due = now + self._scenario.latency.draw(chance)
-        if arrives:
-            due = self._in_order(due, (robot, other, topic))
-        if self.transmitted is not None:
-            to = event.envelope.to
-            self.transmitted(Transmission(event.name, robot, other, now, due, arrives, to))
-        if not arrives:
-            self.lost[event.name] += 1
-            return
-        self.delivered[event.name] += 1
-        self._later(due - now, event, other)
-
     def failed(self, instance: InstanceLike, error: Exception) -> None:
         """Count the failure."""
         self.failures[instance.machine.name, str(error)] += 1
 
     # ---- internal
-
-    def _in_order(self, due: int, channel: tuple[Robot, Robot, str]) -> int:
-        """Return the time of arrival of an event that does not overtake others on its topic."""
-        self._last_arrival[channel] = due = max(due, self._last_arrival.get(channel, 0))
-        return due
 
     def _is_silent(self, robot: Robot, function: str) -> bool:
         return bool(self._silent) and any(
@@ -383,7 +347,7 @@ class World:
 
     def _message(self, message: Message, robot: Robot) -> Callable[[], None]:
         def arrive() -> None:
-            if message.every is not None and robot not in self._gone:
+            if message.every is not None and robot not in self.network.gone:
                 self.clock.schedule(message.every, arrive)
             self.deliver(message.event, message.data, self.listeners(message.event, robot))
 
@@ -393,6 +357,9 @@ class World:
         def strike() -> None:
             if fault.function is None:
                 self.lose(robot)
+                if fault.lasts is not None:
+                    self._returning += 1
+                    self.clock.schedule(fault.lasts, lambda: self._return(robot))
                 return
             self._silent[robot, fault.function] += 1
             for run, alarm in self._ends.items():
@@ -420,7 +387,7 @@ class World:
 
     def lose(self, robot: Robot) -> None:
         """Remove a robot, without executing exit effects."""
-        self._gone.add(robot)
+        self.network.leave(robot)
         for actor, instance in self._instances.items():
             if actor.robot is robot and instance.running:
                 self.trace.begin(instance, LOST)
@@ -432,6 +399,42 @@ class World:
             if alarm is not None:
                 self.clock.unschedule(alarm)
 
+    def _return(self, robot: Robot) -> None:
+        """Start the machines of a lost robot anew."""
+        self._returning -= 1
+        if robot not in self.network.gone:
+            return
+        servers = Servers()
+        for actor, data in self._first_data.items():
+            if actor.robot is robot:
+                instance = Instance(actor.machine, self, data=deepcopy(data), servers=servers)
+                self.trace.replace(self._instances[actor], instance)
+                self._instances[actor] = instance
+                self._actors[instance] = actor
+                self.trace.begin(instance, None)
+                instance.start()
+                self.trace.flush()
+        self.network.join(robot, self.robots)
+
+    def _partition(self, fault: Fault) -> Callable[[], None]:
+        def strike() -> None:
+            self.network.part(fault.apart)
+            if fault.lasts is not None:
+                self.clock.schedule(
+                    fault.lasts, lambda: self.network.heal(fault.apart, self.robots)
+                )
+
+        return strike
+
+    def _miss(self, event: str, robot: Robot) -> None:
+        """Trace a missed deadline, once for all machines of the robot that wait for the event."""
+        for actor in self.listeners(event, robot)[:1]:
+            if self._instances[actor].running:
+                self.trace.begin(self._instances[actor], f"{LATE}{event}")
+                self.trace.flush()
+
 
 LOST = "fault.lost"
 """Trace event of a lost robot; no model event has such a name."""
+LATE = "fault.late."
+"""Trace event of a missed deadline, before the name of the event."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.analysis.event_topics import topic_of
 from swarmdsl.base.naming import snake_case
+from swarmdsl.base.source import Span
 from swarmdsl.importing.update.merging import Merge, doc_comment, node_text, of_class
 from swarmdsl.importing.update.values import default_change
 from swarmdsl.syntax.ast import (
@@ -33,6 +34,31 @@ def merge_event(merge: Merge, old: Event, new: Event) -> None:
         merge.edits.insert(old.span.start, "swarm ")
     elif old.swarm and not new.swarm:
         merge.word_at(old.span.start, "")
+    _merge_delivery(merge, old, new)
+
+
+def _merge_delivery(merge: Merge, old: Event, new: Event) -> None:
+    """Update the settings of a delivery whose value or kind differs."""
+    if _settings(merge, old) == _settings(merge, new):
+        return
+    block = ", ".join(each.span.text for each in new.delivery)
+    if not old.delivery:
+        if old.span.text.endswith("}"):  # an empty block
+            merge.edits.insert(old.span.end - 1, f"{block} ")
+        else:
+            merge.edits.insert(old.span.end, f" {{ {block} }}")
+        return
+    first, last = old.delivery[0].span, old.delivery[-1].span
+    merge.edits.replace(Span(first.source, first.start, last.end), block)
+
+
+def _settings(merge: Merge, event: Event) -> dict[str, object]:
+    return {
+        each.kind: merge.folding.value(each.value.tree)
+        if each.value is not None and each.value.tree is not None
+        else None
+        for each in event.delivery
+    }
 
 
 def merge_function(merge: Merge, old: Function, new: Function) -> None:

@@ -6,7 +6,7 @@ from typing import Literal
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast.nodes import Documented, TopLevel, TypeRef, Word
-from swarmdsl.syntax.ast.values import Constant, Param
+from swarmdsl.syntax.ast.values import Constant, Expression, Param
 
 
 @dataclass(slots=True, eq=False)
@@ -62,13 +62,25 @@ class ActionType(TopLevel):
 
 
 @dataclass(slots=True, eq=False)
+class DeliverySetting(Documented):
+    """`reliable`, `best effort`, `latest`, `keep 5`, `lifespan 5 s` or `deadline 1 s`.
+
+    The last three have a value.
+    """
+
+    kind: Literal["reliable", "best", "latest", "keep", "lifespan", "deadline"]
+    value: Expression | None
+
+
+@dataclass(slots=True, eq=False)
 class Event(TopLevel):
-    """`event Name : Type on "topic"`; `swarm` when it travels between members."""
+    """`event Name : Type on "topic" { ... }`; `swarm` when it travels between members."""
 
     swarm: bool
     name: Word
     type: TypeRef
     topic: Word | None
+    delivery: list[DeliverySetting]
 
 
 @dataclass(slots=True, eq=False)

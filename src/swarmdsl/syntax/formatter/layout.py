@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import zip_longest
 
 from swarmdsl.syntax.ast import (
+    DeliverySetting,
     EnumValue,
     ImportFile,
     ImportLibrary,
@@ -120,7 +121,9 @@ def _stays_on_one_line(body: Body) -> bool:
     """Return True for a body that may stay on one line: empty, with one item, or of values."""
     if len(body.tokens) == 2:
         return True
-    values = all(isinstance(item.node, (PartValue, EnumValue)) for item in body.items)
+    values = all(
+        isinstance(item.node, (PartValue, EnumValue, DeliverySetting)) for item in body.items
+    )
     few = len(body.items) <= 1 or values
     inner = (item.body for item in body.items if item.body is not None)
     return few and body.on_one_line and all(map(_stays_on_one_line, inner))

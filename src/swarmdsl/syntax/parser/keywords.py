@@ -14,13 +14,16 @@ CONTEXTUAL = {
     'as': '[A-Za-z_]',
     'at': '(?:all|least|most)\\b',
     'before': '[*A-Za-z_0-9"]',
+    'best': '(?:effort)\\b',
     'between': '[*A-Za-z_0-9"]',
     'by': '[A-Za-z_0-9"-]',
     'cancels': '[A-Za-z_]',
     'clear': '[A-Za-z_0-9"-]',
     'count': '(?:(?:of)\\b|[(])',
+    'deadline': '[A-Za-z_0-9"-]',
     'deep': '(?:history)\\b',
     'each': '[A-Za-z_]',
+    'effort': '[,;}]',
     'evaluations': '[A-Za-z_0-9"-]',
     'eventually': '[*A-Za-z_0-9"]',
     'feedback': '[{]',
@@ -28,8 +31,11 @@ CONTEXTUAL = {
     'has': '[\\[]',
     'hears': '[A-Za-z_]',
     'internal': '(?:(?:after|monitor|on)\\b|[\\[])',
+    'keep': '[A-Za-z_0-9"-]',
+    'latest': '[,;}]',
     'leads': '(?:to)\\b',
     'least': '[0-9"]',
+    'lifespan': '[A-Za-z_0-9"-]',
     'maximize': '[A-Za-z_0-9"-]',
     'minimize': '[A-Za-z_0-9"-]',
     'most': '[0-9"]',
@@ -39,6 +45,7 @@ CONTEXTUAL = {
     'only': '(?:after)\\b',
     'other': '[A-Za-z_]',
     'possible': '[*A-Za-z_0-9"]',
+    'reliable': '[,;}]',
     'remove': '[A-Za-z_0-9"-]',
     'request': '[{]',
     'response': '[{]',
@@ -52,7 +59,7 @@ CONTEXTUAL = {
     'step': '[A-Za-z_0-9"-]',
     'steps': '[A-Za-z_0-9"-]',
     'then': '[*A-Za-z_0-9"]',
-    'times': '$',
+    'times': '[,;}]',
     'to': '[*A-Za-z_0-9"-]',
     'until': '[*A-Za-z_0-9"]',
     'where': '[A-Za-z_0-9"-]',
@@ -107,7 +114,7 @@ NAMING = frozenset(['actuator', 'choice', 'communication', 'const', 'controller'
 # Keywords by what they are for, where that is more special than a declaration.
 GROUPS = {
     'include': frozenset(['import', 'package', 'ros']),
-    'statement': frozenset(['after', 'as', 'by', 'count', 'do', 'done', 'else', 'evaluations', 'gives', 'in', 'internal', 'maximize', 'minimize', 'monitor', 'of', 'on', 'seed', 'send', 'size', 'step', 'steps', 'to', 'world', 'x']),
+    'statement': frozenset(['after', 'as', 'best', 'by', 'count', 'deadline', 'do', 'done', 'effort', 'else', 'evaluations', 'gives', 'in', 'internal', 'keep', 'latest', 'lifespan', 'maximize', 'minimize', 'monitor', 'of', 'on', 'reliable', 'seed', 'send', 'size', 'step', 'steps', 'to', 'world', 'x']),
     'outcome': frozenset(['aborted', 'preempted', 'succeeded']),
     'operator': frozenset(['and', 'not', 'or']),
     'boolean': frozenset(['false', 'true']),
@@ -115,4 +122,4 @@ GROUPS = {
 # Keywords of declarations that can follow `:`, as categories.
 CATEGORIES = frozenset(['swarm'])
 # Keywords that a name can follow.
-BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'as', 'before', 'behavior', 'between', 'by', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'history', 'import', 'in', 'initial', 'inout', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'remove', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'within'])
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'as', 'before', 'behavior', 'between', 'by', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'deadline', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'remove', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'within'])

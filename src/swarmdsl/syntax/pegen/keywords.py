@@ -83,6 +83,7 @@ _GROUPS = {
         *("Transition", "Branch", "Activity", "Send", "Objective", "Goal", "Setting"),
         *("SettingName", "CountRange", "ParamRange", "World", "Size"),
         *("DoneTrigger", "TimeTrigger", "MonitorTrigger"),
+        *("DeliverySetting", "DeliveryFlag", "BestEffort", "DeliveryLimit"),
     ),
     "outcome": ("Outcome",),
     "operator": ("OPERATOR", "PREFIX"),
@@ -170,6 +171,8 @@ class Keywords:
         symbols += "".join(
             f"\\{mark}" if mark == "[" else mark for mark in "[-" if mark in after.tokens
         )
+        if not symbols and not words:
+            symbols = ",;}"  # the word is a whole item of a block
         found = [dialect.group(sorted(words)) + dialect.word_end] if words else []
         if symbols:
             found.append(f"[{symbols}]")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeVar
 
+from swarmdsl.codegen.swarm_printer.delivery import delivery_settings
 from swarmdsl.ir import (
     Action,
     Component,
@@ -107,7 +108,10 @@ def _field(each: Field, kind: str) -> Element:
 
 def _event(event: Event) -> Element:
     values = properties(
-        type=type_value(event.type), topic=event.topic, reach="swarm" if event.swarm else "member"
+        type=type_value(event.type),
+        topic=event.topic,
+        reach="swarm" if event.swarm else "member",
+        delivery=", ".join(delivery_settings(event.delivery)),
     )
     element = Element(
         "event", (event.name,), values, ref=Ref("event", event.name), origin=event.origin

@@ -106,6 +106,7 @@ def event(element: Element, builder: EntryBuilder) -> Entry:
         ("message", builder.type(node.type, element)),
         ("sent on", (Code(((topic, None),)),)),
         ("received on", (Code(((incoming, None),)),) if incoming != topic else ()),
+        ("delivery", ", ".join(" ".join(each.span.text.split()) for each in node.delivery)),
         ("sent by", _states(builder.traffic.sent.get(name, {})) or ("no state machine",)),
         ("handled by", _states(builder.traffic.handled.get(name, {})) or ("no state machine",)),
     ]

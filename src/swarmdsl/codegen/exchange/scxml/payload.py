@@ -18,8 +18,10 @@ from swarmdsl.codegen.exchange.scxml.interfaces import describe_interfaces
 from swarmdsl.codegen.exchange.scxml.xml import add_doc, add_payload
 from swarmdsl.codegen.shared.constants import params_by_name
 from swarmdsl.codegen.shared.identity import uses_self
+from swarmdsl.codegen.swarm_printer.expressions import duration
 from swarmdsl.ir import (
     Activity,
+    Delivery,
     EventTrigger,
     Param,
     Send,
@@ -56,6 +58,7 @@ def describe_machine(
             type=str(event.type),
             topic=event.topic,
             swarm="true" if event.swarm else "false",
+            **_delivery(event.delivery),
         )
         add_doc(element, event.doc)
     called = {state.activity.function for state in machine.walk() if state.activity is not None}
@@ -85,6 +88,19 @@ def describe_machine(
             )
             add_doc(element, item.doc)
     describe_interfaces(root, types, system)
+
+
+def _delivery(delivery: Delivery | None) -> dict[str, str | None]:
+    """Return the attributes of a delivery; times are in microseconds or a longer unit."""
+    if delivery is None:
+        return {}
+    times = {"lifespan": delivery.lifespan, "deadline": delivery.deadline}
+    return {
+        "reliability": {True: "reliable", False: "best-effort", None: None}[delivery.reliable],
+        "latest": "true" if delivery.latest else None,
+        "keep": str(delivery.keep) if delivery.keep is not None else None,
+        **{name: duration(time) for name, time in times.items() if time is not None},
+    }
 
 
 def describe_state(

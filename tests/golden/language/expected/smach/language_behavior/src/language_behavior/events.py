@@ -10,15 +10,15 @@ from swarmros.msg import SimpleEvent
 from language_behavior.states import Event
 
 # model.swarm:39
-X = Event('X', M, 'bridge/events/x', 'x', envelope=XEnvelope)
-
-# model.swarm:40
-E = Event('E', M, 'e', 'e')
-
-# model.swarm:72
-CHARGE = Event('Charge', Level, 'battery', 'battery')
+X = Event('X', M, 'bridge/events/x', 'x', envelope=XEnvelope, latch=True, queue_size=3)
 
 # model.swarm:41
+E = Event('E', M, 'e', 'e')
+
+# model.swarm:73
+CHARGE = Event('Charge', Level, 'battery', 'battery')
+
+# model.swarm:42
 F = Event('F', Empty, 'f', 'f')
 
 # events.swarm:16
