@@ -332,4 +332,5 @@ CODES: dict[str, Code] = {
     "impossible-fact": Code("SW1603", "warning", "this can never hold: {reason}"),
     "misplaced-robots": Code("SW1604", "error", "`{name}` {fault}"),
     "bad-chance": Code("SW1605", "error", "{text} is not a probability"),
+    "violated-property": Code("SW1606", "error", "property `{name}` is violated{who} at {time}"),
 }

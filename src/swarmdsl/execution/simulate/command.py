@@ -30,14 +30,16 @@ from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader
+from swarmdsl.execution.simulate.properties import ViolatedError, Watch, watchable
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.subject import Document, Subject, choose
-from swarmdsl.execution.simulate.summary import Summary
+from swarmdsl.execution.simulate.summary import Summary, property_table
 from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line, as_json, as_text
+from swarmdsl.execution.simulate.verdicts import Recording, report_violations
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.ir import System
 from swarmdsl.project.read_source import read_source
@@ -72,6 +74,8 @@ class Request:
     until: int | None = None
     real_time: bool = False
     replay: tuple[Path, ...] = ()
+    properties: bool = True
+    stop_on_violation: bool = False
 
 
 def simulate(request: Request, tell: Tell) -> bool | None:
@@ -182,11 +186,17 @@ class _Play:
             source = read_source(path, None, report, "a trace", MOST_RECORDED)
             if source is None:
                 continue
-            found = replay(source, self._subject, self._cast, report)
+            recording = Recording(self._subject, self._cast)
+            seen = recording.see if self._request.properties else None
+            found = replay(source, self._subject, self._cast, report, seen)
+            results = recording.results()
+            report_violations(results, report)
             which = f"{printable(str(path))}: " if several else ""
             lines = f"{found.lines} line{'s' if found.lines != 1 else ''}"
             members = f"{found.members} member{'s' if found.members != 1 else ''}"
             click.echo(f"{which}{lines} of {members} as in the model", err=True)
+            for line in property_table(results):
+                click.echo(line, err=True)
         tell(report)
         return not report.has_errors
 
@@ -197,6 +207,9 @@ class _Play:
         interrupted = False
         ending = "until an endless loop"
         summary = Summary(self._subject, self._world)
+        watched = watchable(self._subject) if self._request.properties else []
+        stops = self._request.stop_on_violation
+        watch = Watch(watched, self._cast, self._world.data, stops=stops)
         try:
             with ExitStack() as stack:
                 stream = self._stream(stack, report)
@@ -208,8 +221,12 @@ class _Play:
                     self._listeners.append(self._writer(stream))
                 if stream is None or not stream.isatty():
                     self._show_board(stack)
+                if watched:
+                    self._listeners.append(watch.see)  # the last one: it can end the run
                 try:
                     ending = _ENDINGS[self._run(tell)]
+                except ViolatedError:
+                    ending = "until a property was violated"
                 except LoopError as error:
                     self._report_loop(error, report)
                 except KeyboardInterrupt:
@@ -224,8 +241,10 @@ class _Play:
         for (machine, reason), count in self._world.failures.items():
             times = "once" if count == 1 else f"{count} times"
             report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
+        results = watch.results(self._world.clock.now, ended=ending == _ENDINGS["ended"])
+        report_violations(results, report)
         tell(report)
-        for line in summary.text(ending):
+        for line in summary.text(ending, results):
             click.echo(line, err=True)
         request = self._request
         unplayed = request.events is None and request.scenario is None

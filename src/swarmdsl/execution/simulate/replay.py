@@ -59,10 +59,21 @@ class Replayed:
     members: int
 
 
+Seen = Callable[[Line, Mapping[str, Any]], None]
+"""Listener to a line of the model and the data of its machine after it."""
+
+
 def replay(
-    source: Source, subject: Subject, cast: Sequence[Actor], report: Diagnostics
+    source: Source,
+    subject: Subject,
+    cast: Sequence[Actor],
+    report: Diagnostics,
+    seen: Seen | None = None,
 ) -> Replayed:
-    """Replay a trace; report the first difference of each member."""
+    """Replay a trace; report the first difference of each member.
+
+    Listener `seen` gets the lines as in the model, those of one member after the other.
+    """
     by_member: dict[str | None, list[_Record]] = {}
     for start, end in zip(source.line_starts, [*source.line_starts[1:], None], strict=True):
         place = Span(source, start, len(source.text) if end is None else end - 1)
@@ -80,7 +91,7 @@ def replay(
         if actor is None:
             _report_member(member, records[0].place, actors, report)
             continue
-        followed += _Replay(actor, subject, report).replay(records)
+        followed += _Replay(actor, subject, report, seen).replay(records)
     return Replayed(followed, len(by_member))
 
 
@@ -122,7 +133,10 @@ class _Delay:
 class _Replay:
     """`World` of a single machine that reproduces the events of a trace."""
 
-    def __init__(self, actor: Actor, subject: Subject, report: Diagnostics) -> None:
+    def __init__(
+        self, actor: Actor, subject: Subject, report: Diagnostics, seen: Seen | None
+    ) -> None:
+        self._seen = seen
         self._actor = actor
         self._subject = subject
         self._report = report
@@ -155,6 +169,8 @@ class _Replay:
                 self._report_difference(record, wrong)
                 return number
             self._last = line.configuration
+            if self._seen is not None:
+                self._seen(line, self._instance.data)
         return len(records)
 
     # ---- called by the engine

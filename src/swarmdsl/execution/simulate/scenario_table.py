@@ -161,7 +161,9 @@ class Table:
 
     def unknown(self, place: Span, name: str, known: Iterable[str], what: str) -> None:
         """Report an unknown name."""
-        help_ = suggest(name, known, f"{what}s")
+        help_ = suggest(
+            name, known, f"{what.removesuffix('y')}ies" if what.endswith("y") else f"{what}s"
+        )
         self.report.report("unresolved-name", place, kind=what, name=name, help=help_)
 
     def fitted(self, fit: Callable[[Any, Way], T], *way: str | int) -> T | None:

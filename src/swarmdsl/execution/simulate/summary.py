@@ -9,8 +9,10 @@ from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.execution.simulate.coverage import Coverage
 from swarmdsl.execution.simulate.durations import format_duration
+from swarmdsl.execution.simulate.properties import PropertyResult
 from swarmdsl.execution.simulate.statistics import Life
 from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.verdicts import rows
 from swarmdsl.execution.simulate.world import World
 
 _MOST = 20
@@ -27,7 +29,7 @@ class Summary:
         self._statistics = world.trace.statistics
         self._lives = list(world.trace.lives.values())
 
-    def text(self, ending: str) -> Iterator[str]:
+    def text(self, ending: str, properties: Iterable[PropertyResult] = ()) -> Iterator[str]:
         """Yield the lines of the summary; the run is over."""
         world = self._world
         now = world.clock.now
@@ -42,6 +44,7 @@ class Summary:
         yield from _table(("function", "called", *_OUTCOMES, "unfinished"), self._functions())
         yield from _table(("event", "sent", *_counts(world)), self._events())
         yield from _table(("ignored event", "in state", "times"), self._ignored_events(), left=2)
+        yield from property_table(properties)
         yield from self._unseen()
 
     @property
@@ -132,6 +135,11 @@ def _counts(world: World) -> dict[str, Counter[str]]:
     }
     found = {name: counts for name, counts in rare.items() if counts}
     return {"heard": network.delivered, "lost": network.lost, **found}
+
+
+def property_table(results: Iterable[PropertyResult]) -> Iterator[str]:
+    """Format the verdicts on properties."""
+    yield from _table(("property", "verdict", "where"), rows(results), left=3)
 
 
 def _table(head: Row, rows: Iterable[Row], left: int = 1) -> Iterator[str]:

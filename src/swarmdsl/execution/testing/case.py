@@ -13,6 +13,7 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.ir import Property
 
 ActionKind = Literal["sends", "starts", "cancels"]
 """Kind of action of a machine in a step, in contrast to its state."""
@@ -117,7 +118,10 @@ Step = Send | End | Pass | Lose | Expect
 
 @dataclass(frozen=True)
 class Case:
-    """A test. It passes if at least the share `passing` of its runs does."""
+    """A test. It passes if at least the share `passing` of its runs does.
+
+    In each run, no one of `properties` may be violated, and all of `violates` must be.
+    """
 
     name: str
     place: Span
@@ -127,6 +131,8 @@ class Case:
     always: tuple[Claim, ...] = ()
     seeds: tuple[int, ...] = (0,)
     passing: float = 1.0
+    properties: tuple[tuple[Property, Span], ...] = ()
+    violates: tuple[tuple[Property, Span], ...] = ()
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +12,7 @@ from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config.toml import Document, Keys, Place, parse_toml
 from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.scenario_table import Table
@@ -20,11 +21,12 @@ from swarmdsl.execution.testing.case import Case, End, InvalidTest, Step, TestFi
 from swarmdsl.execution.testing.models import Model, Models
 from swarmdsl.execution.testing.names import Names
 from swarmdsl.execution.testing.steps import StepReader
+from swarmdsl.ir import Property
 from swarmdsl.project.read_source import read_source
 
-_SHARED = ("swarm", "machine", "scenario", "seeds", "passing")
+_SHARED = ("swarm", "machine", "scenario", "seeds", "passing", "properties")
 _FILE = ("model", *_SHARED, "test")
-_TEST = ("name", *_SHARED, "steps", "always")
+_TEST = ("name", *_SHARED, "steps", "always", "violates")
 _NEVER = {"aborted": 0.0, "preempted": 0.0, "never": 1.0}
 # Upper limit that is reasonable for a test.
 _MOST_SEEDS = 10_000
@@ -125,7 +127,32 @@ class _Reader:
             tuple(claim for claim in always if claim is not None),
             tuple(range(scenario.seed, scenario.seed + count)),
             share,
+            *self._properties(table, subject),
         )
+
+    def _properties(
+        self, table: Table, subject: Subject
+    ) -> tuple[tuple[tuple[Property, Span], ...], tuple[tuple[Property, Span], ...]]:
+        """Read the properties that must hold, and those that must be violated.
+
+        Of properties that the file names for all tests, a test has those about its subject.
+        """
+        known = {each.name: each for each in watchable(subject)}
+        violated = _named_properties(table, "violates", known)
+        holder = self._holder(table, "properties")
+        if holder.values.get("properties") == "all":
+            place = holder.value_place(("properties",))
+            names = {each.name for each, _ in violated}
+            return tuple(
+                (each, place) for each in known.values() if each.name not in names
+            ), violated
+        system = subject.system
+        if holder is self._top and system is not None:
+            named = _named_properties(
+                holder, "properties", {each.name: each for each in system.properties}
+            )
+            return tuple(each for each in named if each[0].name in known), violated
+        return _named_properties(holder, "properties", known), violated
 
     def _steps(self, table: Table, reader: StepReader) -> list[Step]:
         if not table.values.get("steps", True) or "steps" not in table:
@@ -196,6 +223,23 @@ def _part(table: Table, key: str) -> Document:
         if way[: len(keys)] == keys
     }
     return Document(table.document.source, table.values[key], inside)
+
+
+def _named_properties(
+    table: Table, key: str, known: Mapping[str, Property]
+) -> tuple[tuple[Property, Span], ...]:
+    """Read names of properties, each with its place."""
+    if key not in table:
+        return ()
+    names = table.names(key, known, "property")
+    several = isinstance(table.values[key], list)
+    return tuple(
+        (
+            known[name],
+            table.value_place((key, table.values[key].index(name)) if several else (key,)),
+        )
+        for name in names
+    )
 
 
 def _with_ends(scenario: Scenario, steps: list[Step], cast: list[Actor]) -> Scenario:

@@ -8,9 +8,12 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import LoopError
+from swarmdsl.execution.monitor import FALSE
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.durations import format_duration
+from swarmdsl.execution.simulate.properties import Violation, Watch
 from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.verdicts import violation_fields
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.execution.testing.case import Case, Claim, End, Expect, Lose, Pass, Send, Step
 from swarmdsl.execution.testing.recorder import Recorder
@@ -46,6 +49,15 @@ class _FailedError(Exception):
         self.actual = actual
 
 
+class _ViolatedError(Exception):
+    """A property is violated that must hold."""
+
+    def __init__(self, place: Span, violation: Violation) -> None:
+        super().__init__(violation.property.name)
+        self.place = place
+        self.violation = violation
+
+
 def run_case(case: Case, seed: int, listener: Callable[[Line], None]) -> RunResult:
     """Run a test until its end or first failure."""
     return _CaseRun(case, seed, listener).run_case()
@@ -59,6 +71,11 @@ class _CaseRun:
         self._cast = actors(case.subject, robots, case.scenario, Diagnostics())
         self._recorder = Recorder(self._cast, lambda actor: self._world.data(actor))
         listeners = [self._recorder.see, listener]
+        watched = [each for each, _ in (*case.properties, *case.violates)]
+        self._watch: Watch | None = None
+        if watched:
+            self._watch = Watch(watched, self._cast, lambda actor: self._world.data(actor))
+            listeners.append(self._watch.see)
         self._world = World(case.subject.system, self._cast, case.scenario, seed, listeners)
 
     def run_case(self) -> RunResult:
@@ -73,6 +90,7 @@ class _CaseRun:
             for step in self._case.steps:
                 place = step.place
                 self._do(step)
+            self._judge_properties()
         except _FailedError as failed:
             now = self._world.clock.now
             when = f"after {format_duration(now)}" if now else "at the start"
@@ -80,9 +98,44 @@ class _CaseRun:
             label = f"{when}: {failed.actual}"
             self._world.trace.flush()
             return self._failure("failed-expectation", failed.place, fields, label)
+        except _ViolatedError as violated:
+            return self._violation(violated.place, violated.violation)
         except LoopError as error:
             return self._loop(error, place)
         return None
+
+    def _check_properties(self) -> None:
+        """Fail when a property is violated that must hold."""
+        if self._watch is not None and self._watch.violations:
+            places = {id(each): place for each, place in self._case.properties}
+            for violation in self._watch.violations:
+                if id(violation.property) in places:
+                    raise _ViolatedError(places[id(violation.property)], violation)
+
+    def _judge_properties(self) -> None:
+        """Check the verdicts at the end."""
+        if self._watch is None:
+            return
+        self._world.trace.flush()
+        results = self._watch.results(self._world.clock.now, ended=self._world.over)
+        self._check_properties()
+        verdicts = {id(each.property): each.verdict for each in results}
+        for each, place in self._case.violates:
+            if verdicts[id(each)] != FALSE:
+                raise _FailedError(
+                    place,
+                    f"property `{each.name}` to be violated",
+                    f"its verdict is {verdicts[id(each)]}",
+                )
+
+    def _violation(self, place: Span, violation: Violation) -> Failure:
+        self._world.trace.flush()
+        origin = violation.property.origin
+        related = (Label(origin, "the property"),) if origin is not None else ()
+        label = "this property must hold"
+        return self._failure(
+            "violated-property", place, violation_fields(violation), label, related
+        )
 
     def _do(self, step: Step) -> None:
         if isinstance(step, Expect):
@@ -147,6 +200,7 @@ class _CaseRun:
             raise _FailedError(claim.place, claim.text, self._recorder.describe_actual(claim))
 
     def _check_always(self) -> None:
+        self._check_properties()
         for claim in self._case.always:
             if not self._recorder.holds(claim):
                 raise _FailedError(

@@ -1,0 +1,98 @@
+"""Verdicts on properties, as diagnostics and as rows of a summary."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.execution.monitor import FALSE
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.durations import format_duration
+from swarmdsl.execution.simulate.properties import (
+    PropertyResult,
+    Violation,
+    Watch,
+    watchable,
+)
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace import Line, as_text
+
+_SHOWN = 4
+"""Number of trace lines and robots that are shown."""
+
+
+def report_violations(results: Iterable[PropertyResult], report: Diagnostics) -> None:
+    """Report the first violation of each property; one run does not refute a chance."""
+    for result in results:
+        if result.property.chance is None and result.violations:
+            violation = result.violations[0]
+            fields: dict[str, Any] = {**violation_fields(violation)}
+            report.report(
+                "violated-property",
+                violation.property.origin,
+                notes=tuple(_notes(result)),
+                **fields,
+            )
+
+
+def violation_fields(violation: Violation) -> dict[str, str]:
+    """Return the fields of the diagnostic of a violation."""
+    return {
+        "name": violation.property.name,
+        "who": f" by `{violation.robot}`" if violation.robot is not None else "",
+        "time": format_duration(violation.time),
+    }
+
+
+def _notes(result: PropertyResult) -> Iterator[str]:
+    others = [f"`{each.robot}`" for each in result.violations[1:]]
+    if others:
+        more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
+        yield f"likewise by {', '.join(others[:_SHOWN])}{more}"
+    lines = [as_text(line).strip() for line in result.violations[0].last[-_SHOWN:]]
+    for line in lines:
+        yield f"before: {line}"
+
+
+def rows(results: Iterable[PropertyResult]) -> Iterator[tuple[str, str, str]]:
+    """Yield the properties with their verdicts, and the robots of the worst one."""
+    for result in results:
+        first = result.violations[0] if result.violations else None
+        where = ", ".join(result.robots[:_SHOWN])
+        if len(result.robots) > _SHOWN:
+            where += f" and {len(result.robots) - _SHOWN} more"
+        when = f"at {format_duration(first.time)}" if first is not None else ""
+        worst = where if result.property.each is not None and result.verdict != "true" else ""
+        by_chance = result.verdict == FALSE and result.property.chance is not None
+        verdict = "false in this run" if by_chance else result.verdict
+        yield result.property.name, verdict, " ".join(filter(None, (worst, when)))
+
+
+class Recording:
+    """Lines of replayed traces, watched in the order of time when all are known."""
+
+    def __init__(self, subject: Subject, cast: Sequence[Actor]) -> None:
+        self._properties = watchable(subject)
+        self._cast = cast
+        self._lines: list[tuple[Line, dict[str, Any]]] = []
+
+    def see(self, line: Line, data: Mapping[str, Any] | None) -> None:
+        """Keep a line with the data of its machine."""
+        if self._properties:
+            self._lines.append((line, dict(data or {})))
+
+    def results(self) -> list[PropertyResult]:
+        """Return the verdicts on the traces; a log can end at any time."""
+        if not self._lines:
+            return []
+        known: dict[Actor, Mapping[str, Any]] = {}
+        cast = [
+            actor for actor in self._cast if any(line.actor is actor for line, _ in self._lines)
+        ]
+        watch = Watch(self._properties, cast, lambda actor: known[actor])
+        ordered = sorted(self._lines, key=lambda each: (each[0].time, each[0].event is not None))
+        for line, data in ordered:
+            known[line.actor] = data
+            watch.see(line)
+        return watch.results(ordered[-1][0].time, ended=False)

@@ -1,0 +1,152 @@
+"""Properties are watched in simulations and in replayed traces."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from swarmdsl.cli import run
+
+from .conftest import Ran, Simulate
+
+MODEL = """
+endless statemachine Work {
+  var tries : int32 = 0
+  initial Idle
+  state Idle { on Start -> Busy }
+  state Busy {
+    initial Going
+    on Stop -> Idle
+    state Going {
+      do go(speed = 1.0)
+      on succeeded / tries = tries + 1, send Found(id = "a", level = tries) -> Resting
+      on aborted -> Resting
+    }
+    state Resting {
+      after 4 s [tries < 3] -> Going
+      on Found -> Resting
+    }
+  }
+}
+member Robot { behavior Work }
+swarm Crew { robot : Robot[3] }
+"""
+EVENTS = [
+    {"event": "Start", "member": "robot[0]", "after": 1000},
+    {"event": "Start", "member": "robot[1]", "after": 500},
+]
+
+
+def verdicts(ran: Ran) -> dict[str, tuple[str, str]]:
+    """Return the verdicts in a summary, with the robots and times."""
+    rows = re.search(r"^property .*\n((?:\S.*\n)+)", ran.err, re.MULTILINE)
+    assert rows is not None, ran.err
+    found = {}
+    for line in rows[1].splitlines():
+        name, verdict, *where = re.split(r"\s{2,}", line.strip())
+        found[name] = (verdict, where[0] if where else "")
+    return found
+
+
+@pytest.mark.parametrize(
+    ("sentence", "verdict", "where"),
+    [
+        # Machines start at once: at the first step all of them are in their first state.
+        ("all robot in Idle at all times", "false", "at 1 s"),
+        ("before Start, all robot in Idle at all times", "true", ""),
+        ("never count(robot in Going) > 1", "false", "at 1.5 s"),
+        ("never count(robot in Busy.Going) > 2", "true", ""),
+        ("never robot[2] in Busy", "true", ""),
+        ("eventually robot[2] in Busy", "open", ""),
+        ("robot[2] in Busy within 5 s", "false", "at 5 s"),
+        ("each robot : in Busy within 2 s", "false", "robot[2] at 2 s"),
+        ("each robot : eventually in Busy", "open", "robot[2]"),
+        ("each robot : in Busy only after Start", "true", ""),
+        ("each robot : in Going leads to sends Found within 1 s", "true", ""),
+        ("each robot : in Going leads to sends Found within 999 ms", "false", None),
+        ("each robot : starts go at most 3 times", "true", ""),
+        ("each robot : starts go at most 2 times", "false", "robot[0], robot[1] at 11.5 s"),
+        ("each robot : never has [tries > 2]", "false", "robot[0], robot[1] at 12.5 s"),
+        ("each robot : never has [tries > 3]", "true", ""),
+        ("each robot : sends Found leads to some other robot in Idle", "true", ""),
+        ("each robot : never hears Found and in Idle", "false", None),
+        ("some robot sends Found only after some robot starts go", "true", ""),
+        ("2..* robot in Busy then no robot in Going", "true", ""),
+        ("again and again no robot in Going", "true", ""),
+        ("always possible all robot in Busy", "open", ""),
+        ("all robot in Busy within 5 s at least 0.9", "false in this run", "at 5 s"),
+    ],
+)
+def test_verdicts(simulate: Simulate, sentence: str, verdict: str, where: str | None) -> None:
+    model = f"{MODEL}\nproperty P of Crew : {sentence}\n"
+    ran = simulate(model, "--trace", "none", "--until", "1min", events=EVENTS)
+    found, said = verdicts(ran)["P"]
+    assert found == verdict, ran.err
+    assert where is None or said == where
+    assert ran.code == (1 if verdict == "false" else 0)
+    assert ("error[SW1606]" in ran.err) == (verdict == "false")
+
+
+def test_a_violation_is_told_with_robots_time_and_lines(simulate: Simulate) -> None:
+    model = f"{MODEL}\nproperty Quiet of Crew : each robot : never sends Found\n"
+    ran = simulate(model, "--trace", "none", events=EVENTS)
+    assert "error[SW1606]: property `Quiet` is violated by `robot[0]` at 2 s" in ran.err
+    assert "likewise by `robot[1]`" in ran.err
+    assert "send Found" in ran.err
+
+
+def test_a_run_can_end_with_the_violation(simulate: Simulate) -> None:
+    model = f"{MODEL}\nproperty Quiet of Crew : each robot : never sends Found\n"
+    ran = simulate(model, "--trace", "json", "--stop-on-violation", events=EVENTS)
+    assert ran.code == 1
+    assert "2 s of virtual time, until a property was violated" in ran.err
+    assert ran.trace[-1]["sent"] == ["Found"]
+
+
+def test_properties_can_be_left_out(simulate: Simulate) -> None:
+    model = f"{MODEL}\nproperty Quiet of Crew : never some robot sends Found\n"
+    ran = simulate(model, "--trace", "none", "--no-properties", events=EVENTS)
+    assert ran.code == 0
+    assert "Quiet" not in ran.err
+    ran = simulate(model, "--no-properties", "--stop-on-violation")
+    assert ran.code == 2
+
+
+def test_a_property_is_watched_in_runs_of_its_subject_only(simulate: Simulate) -> None:
+    model = f"""{MODEL}
+property P of Work : never in Busy
+property Q of Crew : no robot in Busy at all times
+"""
+    start = [{"event": "Start"}]
+    alone = simulate(model, "--trace", "none", "--machine", "Work", events=start)
+    assert verdicts(alone).keys() == {"P"}
+    assert "error[SW1606]: property `P` is violated at 0 ms" in alone.err
+    crew = simulate(model, "--trace", "none", events=start)
+    assert verdicts(crew).keys() == {"Q"}
+
+
+def test_a_trace_of_robots_has_verdicts(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    sentence = "each robot : never has [tries > 2]"
+    model = f"{MODEL}\nproperty Few of Crew : {sentence}\n"
+    ran = simulate(model, "--trace-file", "trace.jsonl", "--until", "1min", events=EVENTS)
+    assert verdicts(ran)["Few"] == ("false", "robot[0], robot[1] at 12.5 s")
+    words = ["simulate", "model.swarm", "--replay", "trace.jsonl"]
+    again = Ran(run(words), "", capsys.readouterr().err)
+    assert verdicts(again)["Few"] == ("false", "robot[0], robot[1] at 12.5 s")
+    assert again.code == 1
+    assert run([*words, "--no-properties"]) == 0
+    assert "Few" not in capsys.readouterr().err
+
+
+def test_a_lost_robot_is_nowhere(simulate: Simulate) -> None:
+    model = f"""{MODEL}
+property All of Crew : after Start, all robot in Busy within 5 s
+property Three of Crew : after Start, 3 robot in Busy within 5 s
+"""
+    scenario = '[[faults]]\nlost = "robot[2]"\nat = "500 ms"\n'
+    ran = simulate(model, "--trace", "none", "--until", "1min", events=EVENTS, scenario=scenario)
+    assert verdicts(ran)["All"] == ("true", "")
+    assert verdicts(ran)["Three"][0] == "false"

@@ -1,0 +1,67 @@
+"""Tests claim properties of the model, or that a fault breaks them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from .conftest import MODEL, Ran
+
+PROPERTIES = """
+property Dark of Lamps : never count(lamp in Bright) > 2
+property Lit of Lamps : after Start, some lamp in On within 1 s
+property Out of Lamps : each lamp : eventually in Gone
+property Off of Blinking : in Off at all times
+"""
+Run = Callable[..., Ran]
+
+
+@pytest.fixture
+def run(folder: Path, ran: Run) -> Run:
+    """Run tests of the model with properties."""
+    (folder / "lamps.swarm").write_text(MODEL + PROPERTIES, encoding="utf-8")
+    return ran
+
+
+def test_a_property_that_is_violated_fails_a_test(run: Run) -> None:
+    test = '[[test]]\nname = "t"\nproperties = ["Dark"]\nsteps = [{ send = "Start" }]\n'
+    ran = run(f'swarm = "Lamps"\n{test}')
+    assert ran.code == 1
+    assert "error[SW1606]: property `Dark` is violated at 0 ms" in ran.out + ran.err
+    assert 'properties = ["Dark"]' in ran.out + ran.err
+
+
+def test_all_properties_but_one_that_the_test_breaks(run: Run) -> None:
+    test = '[[test]]\nname = "t"\nviolates = ["Dark"]\nsteps = [{ send = "Start" }]\n'
+    assert run(f'swarm = "Lamps"\nproperties = "all"\n{test}').code == 0
+
+
+def test_a_property_that_is_open_fails_no_test(run: Run) -> None:
+    test = '[[test]]\nname = "t"\nproperties = "Out"\nsteps = [{ pass = "1 min" }]\n'
+    assert run(f'swarm = "Lamps"\n{test}').code == 0
+
+
+def test_a_property_that_holds_is_not_violated(run: Run) -> None:
+    test = '[[test]]\nname = "t"\nviolates = "Lit"\nsteps = [{ send = "Start" }]\n'
+    ran = run(f'swarm = "Lamps"\n{test}')
+    assert ran.code == 1
+    assert "expected property `Lit` to be violated" in ran.out + ran.err
+    assert "its verdict is true" in ran.out + ran.err
+
+
+def test_properties_of_a_file_are_those_of_the_subject(run: Run) -> None:
+    test = '[[test]]\nname = "t"\nmachine = "Blinking"\nsteps = [{ send = "Start" }]\n'
+    ran = run(f'properties = ["Dark", "Off"]\n{test}')
+    assert ran.code == 1
+    assert "property `Off` is violated" in ran.out + ran.err
+    assert run(f'properties = ["Dark"]\n{test}').code == 0
+
+
+def test_an_unknown_property_is_reported(run: Run) -> None:
+    test = '[[test]]\nname = "t"\nproperties = ["Drk"]\nsteps = [{ send = "Start" }]\n'
+    ran = run(f'swarm = "Lamps"\n{test}')
+    assert ran.code == 1
+    assert "error[SW0202]: no property called `Drk`" in ran.out + ran.err
+    assert "did you mean `Dark`?" in ran.out + ran.err
