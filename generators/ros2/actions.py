@@ -124,9 +124,10 @@ def _values(effects: Iterable[Effect]) -> Iterator[Expression]:
         match effect:
             case Assignment(value=value):
                 yield value
-            case Send(arguments=arguments, to=to):
+            case Send(arguments=arguments, to=to, delay=delay):
                 yield from (value for _, value in arguments)
                 yield from to.values if to is not None else ()
+                yield from (delay,) if delay is not None else ()
 
 
 def _unsupported(construct: str, event: Event, report: Diagnostics) -> None:

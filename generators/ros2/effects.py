@@ -7,7 +7,7 @@ from keyword import iskeyword
 
 from swarmdsl.codegen.python import Call, Source, layout
 from swarmdsl.codegen.shared import python_address
-from swarmdsl.ir import Assignment, Effect, Expression, Named, Send
+from swarmdsl.ir import Assignment, Cancel, Effect, Expression, Literal, Named, Send
 
 from .expressions import DATA, attribute, python_expression, stored
 from .imports import WIDTH
@@ -25,7 +25,9 @@ def _effect(effect: Effect, module: Module) -> list[str]:
     match effect:
         case Assignment(variable=variable, path=path, value=value):
             return [_store(variable, path, value, module)]
-        case Send(event=name, arguments=arguments, to=to):
+        case Cancel(event=name):
+            return [f"{STEP}machine.cancel({f'send.{name}'!r})"]
+        case Send(event=name, arguments=arguments, to=to, delay=delay):
             type_ = module.system.event(name).type
             assert isinstance(type_, Named)
             message = filled(module.imports.interface(type_, "msg"), arguments, module)
@@ -35,8 +37,20 @@ def _effect(effect: Effect, module: Module) -> list[str]:
                 module.imports.own("engine", "Envelope")
                 address = python_address(to, lambda each: python_expression(each, module.imports))
                 keywords = (("envelope", Call("Envelope", (), (("to", Source(address)),))),)
-            call = Call("machine.emit", (Call("Event", (name, message), keywords),))
+            event = Call("Event", (name, message), keywords)
+            call = Call("machine.emit", (event,))
+            if delay is not None:
+                call = Call("machine.emit_after", (event, Source(whole_delay(delay, module))))
             return [layout(call, 1, STEP, width=WIDTH)]
+
+
+def whole_delay(delay: Expression, module: Module) -> str:
+    """Return the expression of a delay in whole nanoseconds."""
+    length = python_expression(delay, module.imports)
+    if isinstance(delay, Literal):
+        return length
+    module.imports.module("math")
+    return f"math.ceil({length})"
 
 
 def _store(variable: str, path: tuple[str, ...], value: Expression, module: Module) -> str:

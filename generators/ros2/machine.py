@@ -10,7 +10,6 @@ from swarmdsl.codegen.shared import Events, delays, entered_region, region_trans
 from swarmdsl.ir import (
     Binary,
     Expression,
-    Literal,
     State,
     StateKind,
     StateMachine,
@@ -18,7 +17,7 @@ from swarmdsl.ir import (
 )
 
 from .activities import activity_of
-from .effects import effects_of
+from .effects import effects_of, whole_delay
 from .expressions import python_expression
 from .imports import WIDTH
 from .module import BOTH, STEP, Module
@@ -84,6 +83,8 @@ class Table:
             keywords.append(("exit", tuple(leave)))
         if state.activity is not None:
             keywords.append(("activity", activity_of(state, state.activity, self._module)))
+        if state.deferred:
+            keywords.append(("deferred", tuple(trigger.event for trigger in state.deferred)))
         return Call("State", tuple(arguments), tuple(keywords))
 
     def _on_entry(self, state: State, around: State | None) -> list[Source]:
@@ -100,11 +101,7 @@ class Table:
             lines = []
             for delay in timed:
                 name = self._events.timer(state, delay)
-                length = python_expression(delay, self._module.imports)
-                whole = length
-                if not isinstance(delay, Literal):
-                    self._module.imports.module("math")
-                    whole = f"math.ceil({length})"
+                whole = whole_delay(delay, self._module)
                 call = Call(
                     "machine.send_after",
                     (Source(self._module.new_event(name)), Source(whole), name),

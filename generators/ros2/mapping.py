@@ -56,6 +56,12 @@ MAPPING = tuple(
         ),
         ("param that is a message", _REJECTED, "not a type of ROS parameters (SW0903)"),
         ("sent event", _EXACT, "published reliably: `machine.emit(`, with `sent=True`"),
+        ("deferred event", _EXACT, "kept by the engine: `deferred=`"),
+        (
+            "delayed sending, cancel",
+            _EXACT,
+            "timer of the engine in the time of the node: `machine.emit_after(`, `machine.cancel(`",
+        ),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
         ("initial state of a machine that is final", _EXACT, "the node ends at once: `Kind.FINAL`"),
         ("name that Python cannot have", _REJECTED, "not a valid identifier (SW0905)"),

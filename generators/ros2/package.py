@@ -12,6 +12,8 @@ def heard_events(machine: StateMachine) -> list[str]:
     """Return the names of the events that trigger transitions of a machine."""
     found: dict[str, None] = {}
     for state in machine.walk():
+        for deferred in state.deferred:
+            found.setdefault(deferred.event)
         for transition in state.transitions:
             for trigger in transition.triggers:
                 if isinstance(trigger, EventTrigger):

@@ -56,6 +56,12 @@ def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, 
         ("identity of the robot", _EXACT, f"key of the {memory}: `self.self = parameters['self']`"),
         ("param", _EXACT, f"ROS parameter, `Parameter(`, and key of the {memory}"),
         ("sent event", _EXACT, "published by the chart: `machine.emit(`"),
+        ("deferred event", _EMULATED, "kept by the chart: `deferred=`"),
+        (
+            "delayed sending, cancel",
+            _EMULATED,
+            "timer of the chart: `machine.emit_after(`, `machine.cancel(`",
+        ),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
         ("delivery of a swarm event", _EXACT, "quality of service: `delivery=Delivery(`"),
         (

@@ -62,6 +62,12 @@ MAPPING = tuple(
         ("sent event", _EXACT, "published: `.send(`"),
         ("latest, keep of an event", _EXACT, "`latch=True`, `queue_size=` of its publisher"),
         ("lifespan, deadline of an event", _REJECTED, "ROS 1 has neither (SW0903)"),
+        ("deferred event", _EMULATED, "kept by the chart: `defer=`"),
+        (
+            "delayed sending, cancel",
+            _EMULATED,
+            "timer of the chart: `.send_after(`, `.cancel()`",
+        ),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `<remap from=`"),
         (
             "initial state of a machine that is final",

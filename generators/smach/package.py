@@ -6,16 +6,16 @@ from collections.abc import Iterable, Iterator
 
 from swarmdsl.codegen.ros import named_types
 from swarmdsl.codegen.shared import envelopes_of
-from swarmdsl.ir import EventTrigger, Named, Send, StateMachine, System
+from swarmdsl.ir import Cancel, EventTrigger, Named, Send, StateMachine, System
 
 
-def used_items(machine: StateMachine) -> Iterator[EventTrigger | Send]:
+def used_items(machine: StateMachine) -> Iterator[EventTrigger | Send | Cancel]:
     """Yield the triggers and effects of machines that use an event."""
     for state in machine.walk():
         triggers = (t for transition in state.transitions for t in transition.triggers)
         effects = (e for transition in state.transitions for e in transition.effects)
-        for item in (*state.entry, *triggers, *effects, *state.exit):
-            if isinstance(item, (EventTrigger, Send)):
+        for item in (*state.deferred, *state.entry, *triggers, *effects, *state.exit):
+            if isinstance(item, (EventTrigger, Send, Cancel)):
                 yield item
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from swarmdsl.codegen import PYTHON_ARRAY_FUNCTIONS
 from swarmdsl.codegen.python import Call, Source, layout
 from swarmdsl.codegen.shared import field_type, python_address
-from swarmdsl.ir import Array, Assignment, Effect, Expression, Named, Send, Type, bound_of
+from swarmdsl.ir import Array, Assignment, Cancel, Effect, Expression, Named, Send, Type, bound_of
 from swarmdsl.ir import Call as IrCall
 
 from .expressions import USERDATA, field_name, python_expression
@@ -24,6 +24,8 @@ def effect_lines(effects: Iterable[Effect], depth: int, module: Module) -> list[
             case Assignment(variable=variable, path=path, value=value):
                 text = kept(value, module.held(variable, path), module)
                 lines += assign(variable, path, text, depth, module)
+            case Cancel(event=event):
+                lines.append(f"{STEP * depth}{module.event(event)}.cancel()")
             case Send():
                 lines.append(_send(effect, depth, module))
     return lines
@@ -90,4 +92,8 @@ def _send(send: Send, depth: int, module: Module) -> str:
     if send.to is not None:
         text = python_address(send.to, lambda value: python_expression(value, module.imports))
         arguments = (message, Source(text))
-    return layout(Call(f"{module.event(send.event)}.send", arguments), depth, STEP * depth)
+    method = "send"
+    if send.delay is not None:
+        method = "send_after"
+        arguments = (Source(python_expression(send.delay, module.imports)), *arguments)
+    return layout(Call(f"{module.event(send.event)}.{method}", arguments), depth, STEP * depth)

@@ -163,6 +163,9 @@ class _Structure:
             keywords.append(("outcomes", outcomes))
         if transitions.after:
             keywords.append(("after", dict(transitions.after)))
+        if state.deferred:
+            events = [Source(self.module.event(trigger.event)) for trigger in state.deferred]
+            keywords.append(("defer", events))
         for word, effects in (("entry", state.entry), ("exit", state.exit)):
             if effects:
                 lines = effect_lines(effects, 1, self.module)

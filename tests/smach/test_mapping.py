@@ -122,6 +122,9 @@ MODELS = {
     "sent event": "state A { on Go / send Stop() -> End }",
     "latest, keep of an event": "state A { on Go / send Kept -> End }",
     "lifespan, deadline of an event": "state A { on Go / send Brief -> End }",
+    "deferred event": "state A { defer Stop; on Go -> B }  state B { on Stop -> End }",
+    "delayed sending, cancel": """
+        state A { on Go / send Call after 3 s; on Stop / cancel Call -> End }""",
     "connector": "state A { on Go -> End }",
     "initial state of a machine that is final": "final A",
     "name that Python cannot have": """

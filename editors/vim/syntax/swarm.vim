@@ -37,11 +37,13 @@ syn match swarmDeclaration #\<before\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmStatement #\<best\>\ze[ \t]*\%(effort\)\>#
 syn match swarmDeclaration #\<between\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<cancel\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<cancels\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<clear\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<count\>\ze[ \t]*\%(\%(of\)\>\|[(]\)#
 syn match swarmStatement #\<deadline\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#
+syn match swarmDeclaration #\<defer\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<each\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<effort\>\ze[ \t]*[,;}]#
 syn match swarmStatement #\<evaluations\>\ze[ \t]*[A-Za-z_0-9"-]#

@@ -74,6 +74,32 @@ class Trace(Observer):
         if self._line is not None:
             self._line['ignored'] = True
 
+    def deferred(self, instance, event):
+        """Note that the event is kept."""
+        if self._line is not None:
+            self._line['deferred'] = True
+
+    def dropped(self, instance, event):
+        """Note a kept event that was forgotten because there are too many."""
+        if self._line is not None:
+            self._line.setdefault('dropped', []).append(event.name)
+
+    def recalled(self, instance, event):
+        """Begin a line for a kept event that is processed now."""
+        self.begin(instance, event)
+        self._line['recalled'] = True
+
+    def scheduled(self, instance, event, delay):
+        """Note an event that will be sent."""
+        if self._line is not None:
+            sent = {'event': event.name, 'to': event.envelope.to, 'after': delay // 1_000_000}
+            self._line.setdefault('scheduled', []).append(sent)
+
+    def withdrawn(self, instance, event):
+        """Note an event that will not be sent any more."""
+        if self._line is not None:
+            self._line.setdefault('withdrawn', []).append(event.name)
+
     def entered(self, instance, state):
         """Note an entered state."""
         self._note('entered', state.id)

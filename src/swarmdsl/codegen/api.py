@@ -36,6 +36,8 @@ class Feature(Enum):
     GUARD = "a guard"
     ASSIGNMENT = "an assignment"
     SEND = "the sending of an event"
+    DELAYED_SEND = "the delayed sending of an event"
+    DEFER = "a deferred event"
     TIMEOUT = "a transition after a time"
     VARIABLE = "a variable"
     PARAM = "a param of a state machine"

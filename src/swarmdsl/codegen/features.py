@@ -14,6 +14,7 @@ from swarmdsl.ir import (
     Assignment,
     Binary,
     Call,
+    Cancel,
     Construction,
     Effect,
     EnvelopeField,
@@ -101,6 +102,8 @@ def _uses_in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use
         yield Feature.INTO_STATE, state.origin
     if state.activity is not None:
         yield from _uses_in_activity(state.activity)
+    for deferred in state.deferred:
+        yield Feature.DEFER, deferred.origin
     for feature, effects in ((Feature.ENTRY, state.entry), (Feature.EXIT, state.exit)):
         for effect in effects:
             yield feature, effect.origin
@@ -155,8 +158,13 @@ def _uses_in_effect(effect: Effect) -> Iterator[Use]:
         case Assignment(value=value):
             yield Feature.ASSIGNMENT, effect.origin
             yield from _uses_in_expression(value)
-        case Send(arguments=arguments, to=to):
+        case Cancel():
+            yield Feature.DELAYED_SEND, effect.origin
+        case Send(arguments=arguments, to=to, delay=delay):
             yield Feature.SEND, effect.origin
+            if delay is not None:
+                yield Feature.DELAYED_SEND, delay.origin or effect.origin
+                yield from _uses_in_expression(delay)
             for _, value in arguments:
                 yield from _uses_in_expression(value)
             if to is not None:

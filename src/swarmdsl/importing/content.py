@@ -11,6 +11,7 @@ from swarmdsl.codegen.exchange.scxml.portable import SEND_TYPE
 from swarmdsl.execution.scxml.document import SCXML, Document, Node
 from swarmdsl.execution.scxml.session import PROCESSOR
 from swarmdsl.importing.data import MachineData, written_value
+from swarmdsl.importing.delays import read_delay
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.expressions import UnsupportedError, path
 from swarmdsl.importing.names import is_plain
@@ -18,6 +19,7 @@ from swarmdsl.ir import (
     Address,
     Assignment,
     Binary,
+    Cancel,
     Effect,
     Event,
     Expression,
@@ -34,9 +36,11 @@ _UNSUPPORTED = {
     "script": "a model has no scripts",
     "foreach": "a model has no loops",
     "if": "only transitions have conditions in a model",
-    "cancel": "a model cancels delays only when their state is left",
 }
 _SENT = {"event", "id", "type", "target"}
+_DELAY = {"delay", "delayexpr"}
+# Id of a delayed send in the portable profile.
+_SENDID = re.compile(r"send\.(.+)\.[0-9]+")
 # Other strings are ids: a role has no keyword as its name, and no robot a longer number.
 _ROBOT = re.compile(r"([A-Za-z_]\w*)(?:\[([0-9]{1,9})\])?", re.ASCII)
 # Types and targets of a <send> to the machine itself (SCXML 6.2.4, C.1).
@@ -59,13 +63,23 @@ class ExecutableContent:
         self.events = events
         self.data = data
         self.report = report
+        self._delayed: dict[str, set[str]] = {}
+        """Ids of the delayed sends of each event, as it is called in the document."""
+        for node in document.root.walk():
+            if node.name == "send" and _DELAY & set(node.attributes):
+                self._delayed.setdefault(node.get("event", ""), set()).add(node.get("id", ""))
 
     def effects(self, nodes: Iterable[Node], event: Type | None = None) -> tuple[Effect, ...]:
         """Effects of elements; `event` is the type of the current message."""
         made: list[Effect] = []
+        nodes = list(nodes)
+        cancelled = {node.get("sendid", "") for node in nodes if node.name == "cancel"}
         for node in nodes:
             try:
-                made.append(self._effect(node, event))
+                effect = self._effect(node, event, cancelled)
+                # The portable profile cancels each delayed send of an event.
+                if not (isinstance(effect, Cancel) and made and made[-1] == effect):
+                    made.append(effect)
             except UnsupportedError as fault:
                 self.left_out(node, f"`<{node.name}>`", fault.reason)
         return tuple(made)
@@ -133,7 +147,7 @@ class ExecutableContent:
         if guard is not None:
             yield None, []
 
-    def _effect(self, node: Node, event: Type | None) -> Effect:
+    def _effect(self, node: Node, event: Type | None, cancelled: set[str]) -> Effect:
         if node.namespace != SCXML:
             raise UnsupportedError("it is not SCXML")
         if node.name == "assign":
@@ -144,14 +158,35 @@ class ExecutableContent:
             return Assignment(self.data.variable(location, value), location[1:], value)
         if node.name in ("send", "raise"):
             return self._send(node, event)
+        if node.name == "cancel":
+            return self._cancel(node.get("sendid", ""), cancelled)
         raise UnsupportedError(_UNSUPPORTED.get(node.name, "a model has no such effect"))
+
+    def _cancel(self, sendid: str, cancelled: set[str]) -> Cancel:
+        """Return the cancellation of an event, all of whose delayed sends are cancelled together.
+
+        Raises UnsupportedError.
+        """
+        named = _SENDID.fullmatch(sendid)
+        of = [text for text, ids in self._delayed.items() if sendid in ids and text]
+        if not of and named is not None and named[1] in self.events.known:
+            of = [named[1]]
+        if not sendid or len(of) != 1:
+            raise UnsupportedError("no delayed event has this id")
+        if not self._delayed.get(of[0], set()) <= cancelled:
+            raise UnsupportedError(f"other delayed sends of `{of[0]}` go on")
+        event = self.events.known.get(of[0])
+        if event is None:
+            raise UnsupportedError("its event is computed at run time")
+        return Cancel(event.name)
 
     def _send(self, node: Node, event: Type | None) -> Effect:
         sent_event = self.events.known.get(node.get("event", ""))
         if sent_event is None:
             raise UnsupportedError("its event is computed at run time")
         away = node.get("type", "") == SEND_TYPE
-        more = set(node.attributes) - _SENT - ({"targetexpr"} if away else set())
+        delayed = bool(_DELAY & set(node.attributes))
+        more = set(node.attributes) - _SENT - _DELAY - ({"targetexpr"} if away else set())
         if more:
             raise UnsupportedError(f"`{min(more)}` has no equivalent in a model")
         is_own = node.get("type", "") in _OWN_TYPES and node.get("target", "") in _OWN_TARGETS
@@ -166,6 +201,7 @@ class ExecutableContent:
             sent_event.name,
             tuple(self._argument(each, sent_event, event) for each in node.children),
             self._address(node, event) if "targetexpr" in node.attributes else None,
+            read_delay(node, self.data, event) if delayed else None,
         )
 
     def _address(self, node: Node, event: Type | None) -> Address:

@@ -20,6 +20,7 @@ from swarmdsl.importing.triggers import Triggers
 from swarmdsl.ir import (
     Activity,
     Assignment,
+    EventTrigger,
     Expression,
     Literal,
     OutcomeTrigger,
@@ -117,6 +118,7 @@ class MachineBuilder:
         """Return True if a state has more than a region can have."""
         plain = draft.kind is StateKind.COMPOSITE and draft not in self.targets
         does = draft.edges or draft.entry or draft.exit or draft in self.data.active
+        does = does or draft.payload_node("defer") is not None
         return not plain or bool(does)
 
     def _states(self, outer: PartialState, path: str) -> tuple[State, ...]:
@@ -164,11 +166,23 @@ class MachineBuilder:
             activity=self._activity(draft),
             entry=entry,
             exit=exit_,
+            deferred=self._deferred(draft),
             submachine=submachine.get("name") if submachine is not None else None,
             deep=draft.node.get("type") == "deep",
             doc=doc_of(draft.payload) or comment_of(draft.node),
             docs=docs_of(draft),
         )
+
+    def _deferred(self, draft: PartialState) -> tuple[EventTrigger, ...]:
+        """Return the events that a state defers, as the portable profile describes."""
+        found = []
+        for node in draft.payload:
+            for name in node.get("event", "").split() if node.name == "defer" else ():
+                if name in self.events.known:
+                    found.append(EventTrigger(self.events.known[name].name))
+                else:
+                    self.content.left_out(node, f"deferred event `{name}`", "it is unknown")
+        return tuple(found)
 
     def _activity(self, draft: PartialState) -> Activity | None:
         if isinstance(draft.call, Call):

@@ -206,8 +206,10 @@ def docs_of(draft: PartialState) -> Docs:
     """Documentation of blocks in a state, by the keyword of the block."""
     first = draft.payload_node("first")
     docs = [(word, comment_of(nodes[0].parent)) for word, nodes in _blocks(draft)]
+    deferred = [doc_of(node.children) for node in draft.payload if node.name == "defer"]
+    docs.append(("defer", "\n".join(filter(None, deferred))))
     docs.append(("initial", doc_of(first.children) if first is not None else ""))
-    return tuple((word, text) for word, text in docs if text)
+    return tuple(sorted((word, text) for word, text in docs if text))
 
 
 def _blocks(draft: PartialState) -> Iterator[tuple[str, list[Node]]]:

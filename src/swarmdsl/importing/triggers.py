@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 
-from swarmdsl.execution.scxml.attributes import delay_of
 from swarmdsl.execution.scxml.document import Node
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.data import MachineData
+from swarmdsl.importing.delays import read_delay
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.expressions import UnsupportedError
 from swarmdsl.importing.partial_states import OUTCOMES, Edge, PartialState
 from swarmdsl.importing.scxml_patterns import FinalEvents
 from swarmdsl.ir import (
-    Binary,
     DoneTrigger,
     EventTrigger,
-    Expression,
-    Literal,
     Named,
     OutcomeTrigger,
     StateKind,
@@ -26,12 +22,7 @@ from swarmdsl.ir import (
     Trigger,
     Type,
 )
-from swarmdsl.syntax.types import DURATION, INT
 
-# Computed delays in the portable profile and in other documents.
-_COMPUTED = re.compile(r'Math\.max\(0, Math\.ceil\((.*)\)\) \+ "ms"')
-_WITH_UNIT = re.compile(r"""(.*)\+\s*(["'])(ms|s)\2\s*""")
-_TEXT = re.compile(r"""\s*(["'])([^"']*)\1\s*""")
 _EMPTY = Named("std_msgs", "Empty")
 
 
@@ -80,7 +71,7 @@ class Triggers:
             if isinstance(draft.call, Call):
                 yield OutcomeTrigger(path, event)
         elif event in draft.timers:
-            yield TimeTrigger(self._delay(draft.timers[event]))
+            yield TimeTrigger(read_delay(draft.timers[event], self.data))
         elif event in self.ends:
             for final in self.ends[event]:
                 owner = final.parent
@@ -147,24 +138,6 @@ class Triggers:
             has_activity = draft.payload_node("activity") is not None
             self._alike[draft] = has_activity and _has_equal_ways(draft)
         return self._alike[draft]
-
-    def _delay(self, node: Node) -> Expression:
-        written = node.get("delay")
-        text = _TEXT.fullmatch(node.get("delayexpr", ""))
-        if written is not None or text is not None:
-            length = delay_of(written if written is not None else text[2] if text else "")
-            if length is None:
-                raise UnsupportedError(f"`{written}` is not a delay")
-            return Literal(length, DURATION)
-        computed = _COMPUTED.fullmatch(node.get("delayexpr", ""))
-        if computed is not None:
-            return self.data.read(node, "delayexpr", computed[1], DURATION)
-        with_unit = _WITH_UNIT.fullmatch(node.get("delayexpr", ""))
-        if with_unit is None:
-            raise UnsupportedError(f"`{node.get('delayexpr')}` is not a duration")
-        unit = Literal(1_000_000 if with_unit[3] == "ms" else 1_000_000_000, DURATION)
-        number = self.data.read(node, "delayexpr", with_unit[1], INT)
-        return Binary("*", number, unit, DURATION)
 
 
 def _has_equal_ways(draft: PartialState) -> bool:

@@ -86,6 +86,7 @@ if TYPE_CHECKING:
         Activity,
         Address,
         Assignment,
+        Cancel,
         DoneTrigger,
         Effect,
         EventTrigger,
@@ -142,8 +143,8 @@ else:
             "swarmdsl.ir.optimization": "CountRange Fitness Optimization ParamRange",
             "swarmdsl.ir.properties": "Chance Claim Count Fact Junction Property Robots Scope",
             "swarmdsl.ir.statemachine": (
-                "Activity Address Assignment DoneTrigger Effect EventTrigger OutcomeTrigger Policy "
-                "ResultMapping Send State StateKind StateMachine TimeTrigger Transition "
+                "Activity Address Assignment Cancel DoneTrigger Effect EventTrigger OutcomeTrigger "
+                "Policy ResultMapping Send State StateKind StateMachine TimeTrigger Transition "
                 "Trigger Variable"
             ),
             "swarmdsl.ir.system": "System",
@@ -171,6 +172,7 @@ __all__ = [
     "Assignment",
     "Binary",
     "Call",
+    "Cancel",
     "Chance",
     "Claim",
     "Communication",

@@ -103,16 +103,26 @@ class Address:
 class Send:
     """Sending of an event with fields of its message; others keep their defaults.
 
-    Without an address, a swarm event is for all other robots.
+    Without an address, a swarm event is for all other robots. With a delay, a duration, it is
+    sent later, with the values and the address of now.
     """
 
     event: str
     arguments: tuple[tuple[str, Expression], ...]
     to: Address | None = None
+    delay: Expression | None = None
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
-Effect = Assignment | Send
+@dataclass(frozen=True, slots=True)
+class Cancel:
+    """Cancellation of the delayed sends of an event that are pending."""
+
+    event: str
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+
+Effect = Assignment | Send | Cancel
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +191,8 @@ class Activity:
 class State:
     """Vertex of the machine, with its content.
 
-    `initial` is the id of the child entered first (composite state, region).
+    `initial` is the id of the child entered first (composite state, region). While the state is
+    active, the events of `deferred` are kept, unless it or a state inside it handles them.
     `submachine` names the machine that is expanded here. `deep` is for a history.
     """
 
@@ -194,6 +205,7 @@ class State:
     activity: Activity | None = None
     entry: tuple[Effect, ...] = ()
     exit: tuple[Effect, ...] = ()
+    deferred: tuple[EventTrigger, ...] = ()
     submachine: str | None = None
     deep: bool = False
     doc: str = ""

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from swarmdsl import ir
 from swarmdsl.syntax.ast import (
     BehaviorUse,
+    Defer,
     Documented,
     Entry,
     EnvironmentUse,
@@ -23,6 +24,7 @@ from swarmdsl.syntax.ast import (
 
 _ATTRIBUTES: dict[type[Node], str] = {
     BehaviorUse: "behavior",
+    Defer: "defer",
     Entry: "entry",
     EnvironmentUse: "environment",
     Exit: "exit",
@@ -42,7 +44,7 @@ def lower_docs(items: Iterable[Node]) -> ir.Docs:
             case PartValue() | Setting():
                 found.setdefault(str(item.name), []).append(item.doc)
             case Documented() if type(item) in _ATTRIBUTES:
-                # Effects on entry may be on several lines.
+                # Effects on entry and deferred events may be on several lines.
                 found.setdefault(_ATTRIBUTES[type(item)], []).append(item.doc)
     joined = {name: "\n".join(filter(None, docs)) for name, docs in sorted(found.items())}
     return tuple((name, doc) for name, doc in joined.items() if doc)

@@ -18,6 +18,7 @@ from swarmdsl.lowering.transitions import (
     Frame,
     lower_activity,
     lower_branch,
+    lower_deferred,
     lower_effects,
     lower_transitions,
 )
@@ -128,6 +129,7 @@ class _Builder:
                     transitions=lower_transitions(state, frame),
                     entry=lower_effects(state, Entry, frame),
                     exit=lower_effects(state, Exit, frame),
+                    deferred=lower_deferred(state, frame),
                     docs=lower_docs(state.items),
                 )
             case State():
@@ -135,6 +137,7 @@ class _Builder:
                     made,
                     transitions=lower_transitions(state, frame),
                     exit=lower_effects(state, Exit, frame),
+                    deferred=lower_deferred(state, frame),
                     docs=lower_docs(state.items),
                 )
                 entry = lower_effects(state, Entry, frame)

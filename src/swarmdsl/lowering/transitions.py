@@ -20,6 +20,8 @@ from swarmdsl.syntax.ast import (
     Address,
     Argument,
     Branch,
+    Cancel,
+    Defer,
     DoneTrigger,
     Effect,
     Entry,
@@ -56,6 +58,16 @@ def lower_effects(
         for item in state.items
         if isinstance(item, kind)
         for effect in item.effects
+    )
+
+
+def lower_deferred(state: State | Parallel, frame: Frame) -> tuple[ir.EventTrigger, ...]:
+    """Lower the events that a state defers."""
+    return tuple(
+        ir.EventTrigger(frame.context.name(deferred.event), deferred.span)
+        for item in state.items
+        if isinstance(item, Defer)
+        for deferred in item.events
     )
 
 
@@ -158,8 +170,11 @@ def _effect(effect: Effect, context: Context) -> ir.Effect:
                 context.name(effect.event),
                 _arguments(effect.arguments, context),
                 _address(effect.to, context) if effect.to is not None else None,
+                lower_optional(effect.delay, context),
                 effect.span,
             )
+        case Cancel():
+            return ir.Cancel(context.name(effect.event), effect.span)
     return lower_store(effect, context)
 
 

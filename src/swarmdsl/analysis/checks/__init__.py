@@ -42,6 +42,7 @@ from swarmdsl.analysis.checks.optimization import (
     check_optimizations,
 )
 from swarmdsl.analysis.checks.properties import check_property, check_subjects
+from swarmdsl.analysis.checks.putting_off import check_putting_off
 from swarmdsl.analysis.checks.reachability import check_reachability
 from swarmdsl.analysis.checks.robot_values import check_robot_values
 from swarmdsl.analysis.checks.shadowed_transitions import check_shadowed_transitions
@@ -96,6 +97,7 @@ STATE_MACHINE_PASSES: Sequence[Callable[[StateMachine, Context], None]] = (
     check_shadowed_transitions,
     check_reachability,
     check_activities,
+    check_putting_off,
     check_guards,
     check_variables,
     check_conflicts,

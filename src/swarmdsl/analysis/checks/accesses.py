@@ -12,6 +12,7 @@ from swarmdsl.syntax.ast import (
     Activity,
     Append,
     Assignment,
+    Cancel,
     Effect,
     Entry,
     Exit,
@@ -107,10 +108,13 @@ def effect_accesses(effects: list[Effect]) -> list[Access]:
     found: list[Access] = []
     for effect in effects:
         match effect:
-            case Send(arguments=arguments, to=to):
+            case Send(arguments=arguments, to=to, delay=delay):
+                found += reads(delay)
                 found += [read for argument in arguments for read in reads(argument.value)]
                 if to is not None:
                     found += reads(to.id)
+            case Cancel():
+                pass
             case _:
                 value = effect.value if isinstance(effect, Assignment | Append) else None
                 name = stored_name(effect.target.tree)

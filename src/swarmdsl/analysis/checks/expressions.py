@@ -54,7 +54,7 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
         context.check_default(variable, variable.initial)
         check_first_value(variable, context)
     for time in nodes_of(machine, TimeTrigger):
-        _check_delay(time.delay, context)
+        _check_delay(time.delay, context.typing, context)
     for monitor in nodes_of(machine, MonitorTrigger):
         check_graph_name(monitor.topic, "a topic", context)
         context.check_kind(monitor.type, MessageType)
@@ -83,11 +83,11 @@ def _check_guard(item: Transition | Branch, typing: Typing, context: Context) ->
         context.conditions[item] = guard_condition(tree, typing)
 
 
-def _check_delay(delay: Expression, context: Context) -> None:
-    context.expect(delay, DURATION, context.typing)
-    if delay.tree is not None and _negative(delay.tree, context.typing):
+def _check_delay(delay: Expression, typing: Typing, context: Context) -> None:
+    context.expect(delay, DURATION, typing)
+    if delay.tree is not None and _negative(delay.tree, typing):
         context.report.report("negative-delay", delay.span)
-    elif delay.tree is not None and _zero(delay.tree, context.typing):
+    elif delay.tree is not None and _zero(delay.tree, typing):
         context.report.report(
             "zero-delay",
             delay.span,
@@ -123,6 +123,8 @@ def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> N
                 check_arguments(effect.arguments, fields, f"`{type_}`", typing)
                 if effect.to is not None:
                     _check_address(effect.to, event, typing)
+                if effect.delay is not None:
+                    _check_delay(effect.delay, typing, context)
 
 
 def _check_address(address: Address, event: Event | None, typing: Typing) -> None:

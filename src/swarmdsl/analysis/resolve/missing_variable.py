@@ -27,6 +27,7 @@ from swarmdsl.syntax.ast import (
     OperatorUse,
     Param,
     Parameter,
+    Send,
     ServiceType,
     StateMachine,
     TimeTrigger,
@@ -128,7 +129,11 @@ def _expected_type(
     )
     if any(node.guard is within for node in guarded):
         return BOOL
-    if any(trigger.delay is within for trigger in nodes_of(machine, TimeTrigger)):
+    waiting: tuple[TimeTrigger | Send, ...] = (
+        *nodes_of(machine, TimeTrigger),
+        *nodes_of(machine, Send),
+    )
+    if any(node.delay is within for node in waiting):
         return DURATION
     for assignment in nodes_of(machine, Assignment):
         if assignment.target is within:

@@ -145,6 +145,8 @@ CODES: dict[str, Code] = {
         "`{state}` calls `{function}` again and again while it is aborted",
         silent=True,
     ),
+    "needless-defer": Code("SW0531", "warning", "event `{name}` is never deferred by `{state}`"),
+    "nothing-to-cancel": Code("SW0532", "warning", "no delayed sending of `{name}` to cancel"),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "missing value for {fields} in {owner}"),

@@ -45,7 +45,7 @@ def effects_label(effects: tuple[Effect, ...]) -> tuple[str, ...]:
 
 
 def behaviour_lines(state: State, entry: tuple[Effect, ...]) -> tuple[str, ...]:
-    """Return entry effects, activity, exit effects and internal transitions."""
+    """Return entry effects, activity, exit effects, deferred events and internal transitions."""
     lines = []
     if entry:
         lines.append(f"entry {' '.join(effects_label(entry))}")
@@ -53,6 +53,7 @@ def behaviour_lines(state: State, entry: tuple[Effect, ...]) -> tuple[str, ...]:
         lines.append(f"do / {activity_text(with_names(state.activity), state.activity.function)}")
     if state.exit:
         lines.append(f"exit {' '.join(effects_label(state.exit))}")
+    lines += (f"{trigger.event} / defer" for trigger in state.deferred)
     for _, each in internal_transitions(state):
         lines.append(" ".join(transition_label(each, state)))
     return tuple(lines)

@@ -13,6 +13,7 @@ from swarmdsl.base.naming import FreshNames, camel_case, snake_case
 from swarmdsl.ir import (
     Address,
     Assignment,
+    Cancel,
     Effect,
     EnvelopeField,
     EventTrigger,
@@ -75,9 +76,12 @@ def _values(content: Iterable[Expression | Effect]) -> Iterator[Expression]:
         match each:
             case Assignment(value=value):
                 yield value
-            case Send(arguments=arguments, to=to):
+            case Send(arguments=arguments, to=to, delay=delay):
                 yield from (value for _, value in arguments)
                 yield from to.values if to is not None else ()
+                yield from (delay,) if delay is not None else ()
+            case Cancel():
+                pass
             case _:
                 yield each
 

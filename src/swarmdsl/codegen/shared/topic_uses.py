@@ -52,6 +52,9 @@ def _of_machine(machine: StateMachine, system: System) -> Iterator[Use]:
             for port in system.function(state.activity.function).ports:
                 yield Use(port.topic, port.type, port.direction == "in", port.origin)
         yield from _of_effects((*state.entry, *state.exit), system)
+        for deferred in state.deferred:
+            event = system.event(deferred.event)
+            yield Use(event.incoming_topic, event.type, True, event.origin)
         for transition in state.transitions:
             for trigger in transition.triggers:
                 if isinstance(trigger, EventTrigger):

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.codegen.swarm_printer.expressions import expression
-from swarmdsl.ir import Activity, Address, Assignment, Call, Effect, Expression, Send
+from swarmdsl.codegen.swarm_printer.expressions import delay, expression
+from swarmdsl.ir import Activity, Address, Assignment, Call, Cancel, Effect, Expression, Send
 
 
 def effect_text(effect: Effect) -> str:
-    """Return `x = 1` or `send Found(id = 7)`."""
+    """Return `x = 1`, `send Found(id = 7) to uav after 5 s` or `cancel Found`."""
     match effect:
         case Assignment(variable=variable, path=path, value=value):
             return store_text(".".join((variable, *path)), value)
-        case Send(event=event, arguments=values, to=to):
+        case Send(event=event, arguments=values, to=to, delay=length):
             given = f"({arguments(values)})" if values else ""
-            return f"send {event}{given}" + (f" to {address_text(to)}" if to is not None else "")
+            given += f" to {address_text(to)}" if to is not None else ""
+            given += f" after {delay(length)}" if length is not None else ""
+            return f"send {event}{given}"
+        case Cancel(event=event):
+            return f"cancel {event}"
 
 
 def store_text(target: str, value: Expression) -> str:

@@ -123,12 +123,15 @@ class _Printer:
         return _initial(state, initial), inside
 
     def _own(self, state: State) -> list[str]:
-        """Return the activity and the effects on entry and exit of a state."""
+        """Return the activity, the deferred events and the effects on entry and exit."""
         lines = []
         if state.activity is not None:
             function = self.names.function(state.activity.function)
             text = f"do {activity_text(state.activity, function)}"
             lines += documented(state.activity.doc, [text])
+        if state.deferred:
+            events = ", ".join(trigger.event for trigger in state.deferred)
+            lines += documented(doc_of(state.docs, "defer"), [f"defer {events}"])
         for word, effects in (("entry", state.entry), ("exit", state.exit)):
             if effects:
                 lines += documented(doc_of(state.docs, word), [f"{word} / {_effects(effects)}"])

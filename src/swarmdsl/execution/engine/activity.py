@@ -10,15 +10,19 @@ from .table import Activity, Event, InstanceLike
 class Timer:
     """Delayed event of an instance.
 
-    It is `over` when it was cancelled or processed. `handle` identifies it in the world.
+    It is `over` when it was cancelled or processed. `handle` identifies it in the world. If it
+    has a `message`, that is sent to the world when the event is processed.
     """
 
-    __slots__ = ("event", "handle", "id", "instance", "over")
+    __slots__ = ("event", "handle", "id", "instance", "message", "over")
 
-    def __init__(self, instance: InstanceLike, event: Event, id_: str) -> None:
+    def __init__(
+        self, instance: InstanceLike, event: Event, id_: str, message: Event | None = None
+    ) -> None:
         self.instance = instance
         self.event = Event(event.name, event.data, self)
         self.id = id_
+        self.message = message
         self.handle: Any = None
         self.over = False
 

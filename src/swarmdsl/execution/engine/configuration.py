@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from .step import Microstep, MicrostepBuilder, ObserverCall
-from .table import Edge, Event, InstanceLike, Machine, members
+from .table import Edge, Event, InstanceLike, Machine, matches, members
 
 _CACHE_SIZE = 20_000
 """Number of decisions that a machine caches; configurations are unlimited."""
@@ -38,20 +38,28 @@ class Step:
 class Decision:
     """Step that an event leads to: a fixed one, or one that guards select.
 
-    `candidates` are the transitions to try for each atomic active state.
+    `candidates` are the transitions to try for each atomic active state, each with the state that
+    defers the event if none of them is enabled, or 0.
     """
 
     __slots__ = ("candidates", "step")
 
-    def __init__(self, step: Step | None, candidates: tuple[tuple[Edge, ...], ...] = ()) -> None:
+    def __init__(
+        self, step: Step | None, candidates: tuple[tuple[tuple[Edge, ...], int], ...] = ()
+    ) -> None:
         self.step = step
         self.candidates = candidates
 
-    def choose(self, instance: InstanceLike, event: Event) -> list[Edge]:
-        """Return the enabled transitions: the first of each path whose guard holds."""
+    def choose(self, instance: InstanceLike, event: Event) -> tuple[list[Edge], bool]:
+        """Return the enabled transitions, and True if there are none and the event is deferred.
+
+        Of each path, the first transition is enabled whose guard holds. A deferral precedes the
+        transitions of the states around it.
+        """
         enabled: list[Edge] = []
         refused: list[Edge] = []
-        for path in self.candidates:
+        deferring = 0
+        for path, holder in self.candidates:
             for edge in path:
                 if edge in enabled:
                     break
@@ -61,7 +69,13 @@ class Decision:
                     enabled.append(edge)
                     break
                 refused.append(edge)
-        return enabled
+            else:
+                if holder:
+                    deferring |= 1 << holder
+        if deferring:
+            inside = instance.machine.inside
+            enabled = [edge for edge in enabled if not inside[edge.source] & deferring]
+        return enabled, bool(deferring and not enabled)
 
 
 _NOTHING = Decision(None)
@@ -107,19 +121,24 @@ class Configuration:
         machine = self.machine
         candidates = []
         for leaf in self._leaves():
-            path = []
+            path: list[Edge] = []
+            holder = 0
             for number in (leaf, *machine.ancestors(leaf)):
                 path += [edge for edge in machine.edges[number] if edge.matches(name)]
+                if name and matches(machine.states[number].deferred, name):
+                    holder = number
+                    break
             without = next((i for i, edge in enumerate(path) if edge.guard is None), len(path))
-            if path:
-                candidates.append(tuple(path[: without + 1]))
+            if path or holder:
+                always = without < len(path)
+                candidates.append((tuple(path[: without + 1]), 0 if always else holder))
         self._remember()
         if not candidates:
             decision = _NOTHING
-        elif any(path[0].guard is not None for path in candidates):
+        elif any(holder or path[0].guard is not None for path, holder in candidates):
             decision = Decision(None, tuple(candidates))
         else:
-            decision = Decision(self.step(dict.fromkeys(path[0] for path in candidates)))
+            decision = Decision(self.step(dict.fromkeys(path[0] for path, _ in candidates)))
         self._by_event[name] = decision
         return decision
 

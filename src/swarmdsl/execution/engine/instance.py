@@ -26,9 +26,11 @@ class Instance:
 
     __slots__ = (
         "_busy",
+        "_deferred",
         "_during",
         "_external",
         "_internal",
+        "_is_deferred",
         "_pending",
         "_runs",
         "_timers",
@@ -63,6 +65,9 @@ class Instance:
         # Active states during a step.
         self._during: int | None = None
         self._external: deque[Event] | None = None
+        self._deferred: deque[Event] | None = None
+        # True if the last selection found that the event is deferred.
+        self._is_deferred = False
         self._internal: deque[Event] | None = None
         self._pending: list[int] | None = None
         self._runs: dict[int, Run] | None = None
@@ -130,19 +135,21 @@ class Instance:
 
     def send_after(self, event: Event, delay: int, id_: str = "") -> None:
         """Send an event to this instance after a delay in nanoseconds."""
-        timer = Timer(self, event, id_)
-        if self._timers is None:
-            self._timers = []
-        self._timers.append(timer)
-        if delay > 0:
-            timer.handle = self.world.schedule(delay, timer.fire)
-        else:
-            self.receive(timer.event)
+        self._begin_timer(Timer(self, event, id_), delay)
+
+    def emit_after(self, event: Event, delay: int, id_: str = "") -> None:
+        """Send an event to the world after a delay in nanoseconds; its id is `send.<name>`."""
+        name = f"send.{event.name}"
+        if self.observer is not None:
+            self.observer.scheduled(self, event, max(delay, 0))
+        self._begin_timer(Timer(self, Event(name), id_ or name, event), delay)
 
     def cancel(self, id_: str) -> None:
         """Cancel the delayed events with an id."""
         for timer in [each for each in self._timers or () if each.id == id_]:
             self._unschedule(timer)
+            if timer.message is not None and self.observer is not None:
+                self.observer.withdrawn(self, timer.message)
 
     def fail(self, error: Exception) -> None:
         """Report an error to the world and raise `error.execution`."""
@@ -172,19 +179,71 @@ class Instance:
 
     def _run(self, event: Event) -> None:
         """Run the macrostep of an event from outside."""
-        if event.origin is not None and not self._accept(event.origin, event):
+        origin = event.origin
+        if origin is not None and not self._accept(origin, event):
             return
+        if self.observer is not None:
+            self.observer.received(self, event)
+        if isinstance(origin, Timer) and origin.message is not None:
+            self._do(_emission(origin.message), event)
+            if self._internal:
+                self._settle(event)
+            return
+        before = self.configuration
         step = self._select(event.name, event)
+        if step is None and self._is_deferred:
+            self._defer(event)
+        self._finish(step, event)
+        if self._deferred and self.configuration is not before:
+            self._recall()
+
+    def _finish(self, step: Step | None, event: Event) -> None:
+        """Finish the macrostep of an event, given the step that it enables."""
         if step is not None:
             self._take(step, event)
             if step.quiet and self.running and not self._internal:
                 return
         else:
-            if self.observer is not None:
+            if not self._is_deferred and self.observer is not None:
                 self.observer.ignored(self, event)
             if self.running and not self._internal and not self.configuration.restless:
                 return
         self._settle(event)
+
+    def _defer(self, event: Event) -> None:
+        """Keep an event that the active states defer; forget the oldest of too many."""
+        if self._deferred is None:
+            self._deferred = deque()
+        if len(self._deferred) >= self.machine.most_deferred:
+            oldest = self._deferred.popleft()
+            if self.observer is not None:
+                self.observer.dropped(self, oldest)
+        self._deferred.append(event)
+        if self.observer is not None:
+            self.observer.deferred(self, event)
+
+    def _recall(self) -> None:
+        """Process the events that are no longer deferred, in order of arrival.
+
+        After one that changed the configuration, the examination begins again.
+        """
+        number = 0
+        while self.running and self._deferred and number < len(self._deferred):
+            before, event = self.configuration, self._deferred[number]
+            step = self._select(event.name, event)
+            if step is None and self._is_deferred:
+                number += 1
+                # A guard that failed has raised an error.
+                if self._internal:
+                    self._settle(event)
+            else:
+                del self._deferred[number]
+                if self.observer is not None:
+                    self.observer.recalled(self, event)
+                    self.observer.received(self, event)
+                self._finish(step, event)
+            if self.configuration is not before:
+                number = 0
 
     def _settle(self, event: Event) -> None:
         """Take steps without an event or with an internal one, until none is enabled."""
@@ -200,6 +259,8 @@ class Instance:
             if step is None:
                 if self._internal:
                     event = self._internal.popleft()
+                    if self.observer is not None:
+                        self.observer.received(self, event)
                     step = self._select(event.name, event)
                 elif self._pending:
                     self._start_activities()
@@ -211,12 +272,11 @@ class Instance:
 
     def _select(self, name: str, event: Event) -> Step | None:
         """selectTransitions: return the step that an event, or no event, enables."""
-        if self.observer is not None and name:
-            self.observer.received(self, event)
+        self._is_deferred = False
         decision = self.configuration.decide(name)
         if not decision.candidates:
             return decision.step
-        enabled = decision.choose(self, event)
+        enabled, self._is_deferred = decision.choose(self, event)
         return self.configuration.step(enabled) if enabled else None
 
     def holds(self, guard: Guard, event: Event) -> bool:
@@ -303,6 +363,15 @@ class Instance:
                 self._run(event)
         self._external = None
 
+    def _begin_timer(self, timer: Timer, delay: int) -> None:
+        if self._timers is None:
+            self._timers = []
+        self._timers.append(timer)
+        if delay > 0:
+            timer.handle = self.world.schedule(delay, timer.fire)
+        else:
+            self.receive(timer.event)
+
     def _unschedule(self, timer: Timer) -> None:
         assert self._timers is not None
         self._timers.remove(timer)
@@ -319,7 +388,7 @@ class Instance:
         """Drop all pending events of an ended machine."""
         for timer in list(self._timers or ()):
             self._unschedule(timer)
-        self._internal = self._external = self._pending = None
+        self._internal = self._external = self._deferred = self._pending = None
 
     def _give_up(self, passed: list[Configuration]) -> None:
         """End a machine in an endless loop, without the exit effects."""
@@ -332,3 +401,8 @@ class Instance:
             state for each in sets for state in each if not all(state in other for other in sets)
         } or set(passed[-1].innermost)
         raise LoopError(self.machine.name, sorted(states, key=self.machine.numbers.__getitem__))
+
+
+def _emission(message: Event) -> Effect:
+    """Return the effect that sends an event to the world."""
+    return lambda instance, event: instance.emit(message)

@@ -105,6 +105,9 @@ class InstanceLike(Protocol):
     def send_after(self, event: Event, delay: int, id_: str = "") -> None:
         """Send an event to this instance after a delay in nanoseconds."""
 
+    def emit_after(self, event: Event, delay: int, id_: str = "") -> None:
+        """Send an event to the world after a delay in nanoseconds."""
+
     def cancel(self, id_: str) -> None:
         """Cancel the delayed events with an id."""
 
@@ -177,7 +180,8 @@ class State(NamedTuple):
 
     `initial` has the ids to enter by default in a compound state, or is a transition with an
     effect; the first child by default. A history has one transition, to its default. `donedata`
-    creates the data of the `done.state` event of a final state.
+    creates the data of the `done.state` event of a final state. Events of `deferred`, which are
+    written like those of a transition, are kept until a state that does not defer them.
     """
 
     id: str
@@ -190,6 +194,7 @@ class State(NamedTuple):
     activity: Activity | None = None
     donedata: Callable[[InstanceLike, Event], Any] | None = None
     origin: object = None
+    deferred: tuple[str, ...] = ()
 
 
 class TableError(ValueError):
@@ -216,9 +221,14 @@ class Edge:
         """Return True if an event name triggers it; the empty name means no event."""
         if not name or not self.events:
             return not name and not self.events
-        return name in self.events or any(
-            f"{name}.".startswith(event[:-1]) for event in self.events if event[-1] == "*"
-        )
+        return matches(self.events, name)
+
+
+def matches(events: tuple[str, ...], name: str) -> bool:
+    """Return True if an event name is among exact names, `a.b`, and prefixes, `a.b.*`."""
+    return name in events or any(
+        f"{name}.".startswith(event[:-1]) for event in events if event[-1] == "*"
+    )
 
 
 class Machine:
@@ -228,7 +238,8 @@ class Machine:
     one bit per state. `data` creates the initial data of an instance, `setup` initializes them at
     the start.
 
-    `limit` is the number of steps per event that counts as an endless loop.
+    `limit` is the number of steps per event that counts as an endless loop, `most_deferred` the
+    number of deferred events that an instance keeps.
 
     Raises TableError for invalid states.
     """
@@ -242,11 +253,13 @@ class Machine:
         data: Callable[[], Any] = dict,
         setup: tuple[Effect, ...] = (),
         limit: int = 10_000,
+        most_deferred: int = 100,
     ) -> None:
         self.name = name
         self.data = data
         self.setup = setup
         self.limit = limit
+        self.most_deferred = most_deferred
         root = State("", Kind.STATE, tuple(states), initial)
         self.states: list[State] = []
         self.parents: list[int] = []

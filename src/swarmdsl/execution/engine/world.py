@@ -79,6 +79,15 @@ class Observer:
     def ignored(self, instance: InstanceLike, event: Event) -> None:
         """Handle an event from outside that enables no transition."""
 
+    def deferred(self, instance: InstanceLike, event: Event) -> None:
+        """Handle an event that is kept until a state that does not defer it."""
+
+    def dropped(self, instance: InstanceLike, event: Event) -> None:
+        """Handle the oldest deferred event, which is forgotten because there are too many."""
+
+    def recalled(self, instance: InstanceLike, event: Event) -> None:
+        """Handle a deferred event that is about to be processed."""
+
     def exited(self, instance: InstanceLike, state: State) -> None:
         """Handle the exit of a state."""
 
@@ -96,6 +105,12 @@ class Observer:
 
     def sent(self, instance: InstanceLike, event: Event) -> None:
         """Handle an event that was sent to others."""
+
+    def scheduled(self, instance: InstanceLike, event: Event, delay: int) -> None:
+        """Handle an event that will be sent to others after a delay in nanoseconds."""
+
+    def withdrawn(self, instance: InstanceLike, event: Event) -> None:
+        """Handle an event whose delayed sending was cancelled."""
 
     def logged(self, instance: InstanceLike, text: str) -> None:
         """Handle a line that an effect has written."""

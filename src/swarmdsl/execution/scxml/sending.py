@@ -61,11 +61,15 @@ def send(node: Node, attributes: Attributes) -> Effect:
             content = copied(data(instance, event)) if data is not None else None
             length = delay(instance, event) if delay is not None else 0
             place, type_ = target(instance, event), kind(instance, event)
-            if length > 0 and (type_ == SWARM_EVENT or place == _INTERNAL):
+            if length > 0 and place == _INTERNAL:
                 raise ExecutionError(f"`{named}` has a target of its own: it cannot be delayed")
             if type_ == SWARM_EVENT:
                 address = Envelope(to=place if is_addressed else None)
-                instance.emit(Event(named, content, envelope=address))
+                made = Event(named, content, envelope=address)
+                if delay is None:
+                    instance.emit(made)
+                else:
+                    instance.emit_after(made, length, sendid)
             elif type_ not in _HERE:
                 raise ExecutionError(f"no event can be sent with the type `{type_}`")
             elif not place or place == _own_location(instance, place):

@@ -188,6 +188,7 @@ class _Reader:
             self._activity(id_, node.ours) if node.ours else None,
             donedata,
             node.line,
+            _deferred(node.ours),
         )
 
     def initial(self, node: Node) -> Transition | tuple[str, ...]:
@@ -299,6 +300,12 @@ class _Reader:
             {outcome: f"do.{id_}.{outcome}" for outcome in _OUTCOMES},
             goal,
         )
+
+
+def _deferred(about: Sequence[Node]) -> tuple[str, ...]:
+    """Return the events that a state defers, from the elements of swarmdsl."""
+    found = (each.get("event", "") for each in about if each.name == "defer")
+    return tuple(word for events in found for word in events.split())
 
 
 def _pattern(word: str) -> str:

@@ -223,7 +223,7 @@ class _Replay:
                     instance.running = False
                 else:
                     instance.stop()
-            elif name.startswith("after."):
+            elif name.startswith(("after.", "send.")):
                 return self._end_delay(name)
             elif name.startswith("do."):
                 return self._end_run(name, record.data)

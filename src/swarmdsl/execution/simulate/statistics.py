@@ -138,6 +138,15 @@ class Life(Observer):
         where = f"{instance.machine.name}: {', '.join(instance.configuration.innermost)}"
         self._whole.ignored[event.name, where] += 1
 
+    def dropped(self, instance: InstanceLike, event: Event) -> None:
+        """Count it."""
+        where = f"{instance.machine.name}: (more than {instance.machine.most_deferred} deferred)"
+        self._whole.ignored[event.name, where] += 1
+
+    def recalled(self, instance: InstanceLike, event: Event) -> None:
+        """Count it like an event from outside."""
+        self.arrives()
+
     def entered(self, instance: InstanceLike, state: State) -> None:
         """Begin the time in a state."""
         self.since = self._entries[state.id] = self._clock.now

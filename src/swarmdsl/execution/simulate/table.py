@@ -35,6 +35,7 @@ from swarmdsl.ir import (
     Array,
     Assignment,
     Call,
+    Cancel,
     Construction,
     Expression,
     Primitive,
@@ -133,6 +134,7 @@ class _Maker:
             tuple(leave),
             self.activity(state, state.activity) if state.activity is not None else None,
             origin=state,
+            deferred=tuple(e for t in state.deferred for e in self.events.of_trigger(t, state)),
         )
 
     def transition(self, transition: ir.Transition, state: ir.State) -> Transition:
@@ -216,7 +218,9 @@ class _Maker:
                     _store(instance.data, variable, path, value(instance.data, event))
 
                 return assign
-            case Send(event=name, arguments=arguments, to=to):
+            case Cancel(event=name):
+                return lambda instance, event: instance.cancel(f"send.{name}")
+            case Send(event=name, arguments=arguments, to=to, delay=delay):
                 type_ = self.system.event(name).type
                 fields = [
                     (field, stored(value, field_type(type_, (field,), self.system), self.system))
@@ -224,13 +228,18 @@ class _Maker:
                 ]
 
                 address = _address(to) if to is not None else None
+                wait = function_of(delay) if delay is not None else None
 
                 def send(instance: InstanceLike, event: Event) -> None:
                     message = default_value(type_, self.system)
                     for field, value in fields:
                         message[field] = value(instance.data, event)
                     receiver = address(instance.data, event) if address is not None else None
-                    instance.emit(Event(name, message, envelope=Envelope(to=receiver)))
+                    made = Event(name, message, envelope=Envelope(to=receiver))
+                    if wait is None:
+                        instance.emit(made)
+                    else:
+                        instance.emit_after(made, math.ceil(wait(instance.data, event)))
 
                 return send
 

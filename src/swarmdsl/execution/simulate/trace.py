@@ -29,7 +29,10 @@ from swarmdsl.execution.simulate.trace_line import named_numbers
 class Line:
     """Effects of one event; `event` is None for the start, states are given as ids.
 
-    `ignored` is True for an event that enables no transition.
+    `ignored` is True for an event that enables no transition, `deferred` for one that is kept, and
+    `recalled` when a kept one is processed; `dropped` are deferred events that were forgotten.
+    `scheduled` has the events that will be sent, with address and delay, `withdrawn` the cancelled
+    ones.
 
     `data` and `envelope` belong to the event, `messages` and `addresses` to the events in
     `sent`; `nobody` are the indices of those whose address no other robot has.
@@ -49,6 +52,11 @@ class Line:
     nobody: list[int] = field(default_factory=list)
     taken: list[Transition] = field(default_factory=list)
     ignored: bool = False
+    deferred: bool = False
+    recalled: bool = False
+    dropped: list[str] = field(default_factory=list)
+    scheduled: list[tuple[str, str | None, int]] = field(default_factory=list)
+    withdrawn: list[str] = field(default_factory=list)
     data: Any = None
     envelope: Envelope = NO_ENVELOPE
 
@@ -138,6 +146,33 @@ class Trace(Observer):
         assert self._line is not None
         self._line.ignored = True
 
+    def deferred(self, instance: InstanceLike, event: Event) -> None:
+        """Record it."""
+        assert self._line is not None
+        self._line.deferred = True
+
+    def dropped(self, instance: InstanceLike, event: Event) -> None:
+        """Record it."""
+        self.lives[instance].dropped(instance, event)
+        assert self._line is not None
+        self._line.dropped.append(event.name)
+
+    def recalled(self, instance: InstanceLike, event: Event) -> None:
+        """Begin a line for the event."""
+        self.begin(instance, event.name, event.data, event.envelope)
+        assert self._line is not None
+        self._line.recalled = True
+
+    def scheduled(self, instance: InstanceLike, event: Event, delay: int) -> None:
+        """Record it."""
+        assert self._line is not None
+        self._line.scheduled.append((event.name, event.envelope.to, delay))
+
+    def withdrawn(self, instance: InstanceLike, event: Event) -> None:
+        """Record it."""
+        assert self._line is not None
+        self._line.withdrawn.append(event.name)
+
     def entered(self, instance: InstanceLike, state: State) -> None:
         """Record it."""
         self.lives[instance].entered(instance, state)
@@ -197,8 +232,18 @@ def as_json(line: Line) -> str:
         "cancelled": line.cancelled,
         "sent": line.sent,
     }
-    if line.ignored:
-        values["ignored"] = True
+    for key in ("ignored", "deferred", "recalled"):
+        if getattr(line, key):
+            values[key] = True
+    if line.dropped:
+        values["dropped"] = line.dropped
+    if line.scheduled:
+        values["scheduled"] = [
+            {"event": name, "to": to, "after": delay // MILLISECOND}
+            for name, to, delay in line.scheduled
+        ]
+    if line.withdrawn:
+        values["withdrawn"] = line.withdrawn
     if line.data:
         values["data"] = named_numbers(line.data)
     if line.envelope.sender:
@@ -213,29 +258,48 @@ def as_json(line: Line) -> str:
 def as_text(line: Line, width: int = 0) -> str:
     """Format a line as text: time, member, event, new states and actions.
 
-    An event that enables no transition is `(ignored)`.
-
+    The event may be `(ignored)`, because it enables no transition, `(deferred)` or `(recalled)`.
     Member names are padded to `width`.
     """
     who = f"{line.actor.name:<{width}}  " if line.actor.name is not None else ""
     head = f"{line.time / SECOND:>10.3f}  {who}{line.event or '(start)'}"
-    if line.entered or line.exited:
+    changed = bool(line.entered or line.exited)
+    fates = {
+        "recalled": line.recalled,
+        "deferred": line.deferred,
+        "ignored": line.ignored and not changed,
+    }
+    if any(fates.values()):
+        head += f" ({', '.join(word for word, is_so in fates.items() if is_so)})"
+    if changed:
         head += f" -> {', '.join(line.configuration)}"
-    elif line.ignored:
-        head += " (ignored)"
     sent = [_sent(line, number) for number in range(len(line.sent))]
-    done = (("start", line.started), ("cancel", line.cancelled), ("send", sent))
+    sent += [f"{_addressed(name, to)} after {_time(wait)}" for name, to, wait in line.scheduled]
+    cancelled = [*line.cancelled, *(f"send {name}" for name in line.withdrawn)]
+    done = (
+        ("start", line.started),
+        ("cancel", cancelled),
+        ("send", sent),
+        ("drop", line.dropped),
+    )
     words = [f"{word} {', '.join(names)}" for word, names in done if names]
     return "; ".join([head, *words])
+
+
+def _time(delay: int) -> str:
+    """Return a delay in seconds: `2.5 s`."""
+    return f"{delay / SECOND:g} s"
+
+
+def _addressed(name: str, address: str | None) -> str:
+    return name if address is None else f"{name} to {address or EMPTY}"
 
 
 def _sent(line: Line, number: int) -> str:
     """Describe a sent event, with its address."""
     name, address = line.sent[number], line.addresses[number]
-    if address is None:
-        return name
     nobody = " (nobody)" if number in line.nobody else ""
-    return f"{name} to {address or EMPTY}{nobody}"
+    return f"{_addressed(name, address)}{nobody}"
 
 
 EMPTY = '""'

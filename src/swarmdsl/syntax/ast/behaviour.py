@@ -118,11 +118,19 @@ class Address(Node):
 
 @dataclass(slots=True, eq=False)
 class Send(Node):
-    """`send Event(...)` or `send Event(...) to address`."""
+    """`send Event(...)`, `send Event(...) to address`, either with `after delay`."""
 
     event: Ref[Event]
     arguments: list[Argument]
     to: Address | None
+    delay: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Cancel(Node):
+    """`cancel Event`."""
+
+    event: Ref[Event]
 
 
 @dataclass(slots=True, eq=False)
@@ -156,7 +164,7 @@ class Clear(Node):
 
 
 Store = Assignment | Append | Remove | Clear
-Effect = Send | Store
+Effect = Send | Cancel | Store
 
 
 @dataclass(slots=True, eq=False)
@@ -168,6 +176,20 @@ class Transition(Documented):
     guard: Expression | None
     effects: list[Effect]
     target: Ref[Vertex] | None
+
+
+@dataclass(slots=True, eq=False)
+class DeferredEvent(Node):
+    """The name of an event in `defer`."""
+
+    event: Ref[Event]
+
+
+@dataclass(slots=True, eq=False)
+class Defer(Documented):
+    """`defer Event, ...`."""
+
+    events: list[DeferredEvent]
 
 
 @dataclass(slots=True, eq=False)
@@ -226,7 +248,7 @@ class State(Documented):
     name: Word
     machine: Ref[StateMachine] | None
     bindings: list[Argument]
-    items: list[Activity | Entry | Exit | Transition | Initial | Vertex]
+    items: list[Activity | Defer | Entry | Exit | Transition | Initial | Vertex]
 
 
 @dataclass(slots=True, eq=False)
@@ -242,7 +264,7 @@ class Parallel(Documented):
     """`parallel state Name { ... }`."""
 
     name: Word
-    items: list[Region | Entry | Exit | Transition]
+    items: list[Region | Defer | Entry | Exit | Transition]
 
 
 @dataclass(slots=True, eq=False)

@@ -7,10 +7,8 @@ _ACTIVITY = "write `do` on a line of its own: the activity starts on entry"
 _COMPARED = r"(?:[=!<>]=|<|(?<!-)>)"
 START = r"(?:^|[{;]) *"
 _DELAY = r"\d+(?:\.\d+)? *(?:us|ms|s|min|h)"
-_KEEP = (
-    r"no event is kept: declare `var pending : bool`, write `on \1 / pending = true` here, and "
-    "later `[pending] / pending = false -> Target`"
-)
+_KEEP = r"write `defer \1` on a line of its own: it is no effect"
+_RAISED = "succeeded|aborted|preempted|done|after|monitor"
 _BEFORE_EFFECTS = r"(?:\b(?:entry|exit) *|\b(?:on|after) [^/]*)"
 
 # As in foreign_statements.
@@ -67,7 +65,7 @@ TRANSITIONS = (
     ),
     (rf"(?:{START}|\bon +)@timeout\b", "", "write a delay as `after 5 s -> Target`"),
     (r"\bon timeout *@[\d(]", "", "write a delay as `after 5 s -> Target`"),
-    (rf"{START}@defer +(\w[\w.]*)", "", _KEEP),
+    (rf"{START}defer +@(?:{_RAISED})\b", "", "only events can be deferred"),
     (r"\bon +(\w[\w.]*) */ *defer@", "", _KEEP),
     (rf"{START}@(\w[\w.]*) */ *defer\b", "", _KEEP),
     (

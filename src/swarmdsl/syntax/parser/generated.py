@@ -8,10 +8,10 @@ import re
 from swarmdsl.syntax.parser.expressions import ExpressionParser, TooDeepError
 from swarmdsl.syntax.parser.literals import Language, unquoted
 from swarmdsl.base.source import Source, Span
-from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Append, Argument, Assignment, BehaviorUse, Branch, Chance, Choice, Claim, Clear, Communication, CommunicationSettings, Component, Conjunction, Connector, Constant, CountRange, DeliverySetting, DoneTrigger, Each, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Fact, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Pattern, Port, PortRef, Property, PropertyScope, Region, Remove, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, Term, TimeTrigger, Transition, TypeRef, Variable, Who, World
+from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Append, Argument, Assignment, BehaviorUse, Branch, Cancel, Chance, Choice, Claim, Clear, Communication, CommunicationSettings, Component, Conjunction, Connector, Constant, CountRange, Defer, DeferredEvent, DeliverySetting, DoneTrigger, Each, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Fact, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Pattern, Port, PortRef, Property, PropertyScope, Region, Remove, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, Term, TimeTrigger, Transition, TypeRef, Variable, Who, World
 from swarmdsl.syntax.parser.lexer import Lexer
 
-GRAMMAR = 265751111
+GRAMMAR = 3365271795
 new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
@@ -109,6 +109,12 @@ def REGEX14(text, at):
     REGEX14 = re.compile('==|!=|<=|>=|<|>', re.MULTILINE).match
     return REGEX14(text, at)
 
+
+def REGEX15(text, at):
+    global REGEX15
+    REGEX15 = re.compile('(?:(?<=[^\\s;{}][ \\t])|(?<=[^\\s;{}][ \\t]{2})|(?<=[^\\s;{}][ \\t]{3})|(?<=[^\\s;{}][ \\t]{4})|(?<=\\)))after\\b', re.MULTILINE).match
+    return REGEX15(text, at)
+
 SET0 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'optimize', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET2 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
@@ -131,8 +137,8 @@ SET18 = frozenset(['!', '#', '$', '%', '&', "'", ')', '+', ',', '-', '.', '/', '
 SET19 = frozenset(['least', 'most'])
 SET20 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
 SET21 = frozenset(['in', 'out'])
-SET22 = frozenset(['[', 'after', 'choice', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state'])
-SET23 = frozenset(['[', 'after', 'entry', 'exit', 'internal', 'monitor', 'on', 'region'])
+SET22 = frozenset(['[', 'after', 'choice', 'deep', 'defer', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state'])
+SET23 = frozenset(['[', 'after', 'defer', 'entry', 'exit', 'internal', 'monitor', 'on', 'region'])
 SET24 = frozenset(['[', 'else'])
 SET25 = frozenset(['hears', 'sends'])
 SET26 = frozenset(['cancels', 'starts'])
@@ -287,6 +293,7 @@ TERMINALS = (
     ('[A-Za-z_][A-Za-z0-9_]*\\b(?=[ \\t]*(?:->|[:;}\\r\\n]|\\/[\\/*]|$))', 'PORTWORD', ''),
     ('do\\b', '', 'do'),
     ('gives\\b', '', 'gives'),
+    ('defer\\b', '', 'defer'),
     ('entry\\b', '', 'entry'),
     ('exit\\b', '', 'exit'),
     ('internal\\b', '', 'internal'),
@@ -301,6 +308,7 @@ TERMINALS = (
     ('monitor\\b', '', 'monitor'),
     ('as\\b', '', 'as'),
     ('send\\b', '', 'send'),
+    ('cancel\\b', '', 'cancel'),
     ('append\\b', '', 'append'),
     ('remove\\b', '', 'remove'),
     ('clear\\b', '', 'clear'),
@@ -308,6 +316,7 @@ TERMINALS = (
     ('succeeded\\b', '', 'succeeded'),
     ('aborted\\b', '', 'aborted'),
     ('preempted\\b', '', 'preempted'),
+    ('(?:(?<=[^\\s;{}][ \\t])|(?<=[^\\s;{}][ \\t]{2})|(?<=[^\\s;{}][ \\t]{3})|(?<=[^\\s;{}][ \\t]{4})|(?<=\\)))after\\b', 'LATER', ''),
 )
 PROGRAM = (
     (3, 3),
@@ -1329,7 +1338,7 @@ PROGRAM = (
     (3, 420),
     (0, 4),
     (1, 1024),
-    (3, 1185),
+    (3, 1188),
     (1, 1023),
     (0, 1),
     (2, 1023),
@@ -1340,7 +1349,7 @@ PROGRAM = (
     (3, 420),
     (0, 4),
     (1, 1035),
-    (3, 1196),
+    (3, 1202),
     (1, 1034),
     (0, 1),
     (2, 1034),
@@ -1360,10 +1369,10 @@ PROGRAM = (
     (0, 123),
     (3, 420),
     (4, 0),
-    (3, 1213),
+    (3, 1219),
     (1, 1055),
     (0, 66),
-    (3, 1213),
+    (3, 1219),
     (2, 1055),
     (4, 0),
     (0, 124),
@@ -1386,7 +1395,7 @@ PROGRAM = (
     (0, 37),
     (3, 404),
     (0, 84),
-    (3, 1215),
+    (3, 1221),
     (3, 884),
     (2, 1117),
     (1, 1083),
@@ -1400,15 +1409,15 @@ PROGRAM = (
     (0, 92),
     (2, 1117),
     (1, 1093),
-    (3, 1232),
+    (3, 1238),
     (3, 404),
     (2, 1117),
     (1, 1097),
-    (3, 1237),
+    (3, 1243),
     (3, 404),
     (2, 1117),
     (1, 1116),
-    (3, 1242),
+    (3, 1248),
     (1, 1103),
     (0, 37),
     (3, 404),
@@ -1420,17 +1429,17 @@ PROGRAM = (
     (0, 92),
     (2, 1115),
     (1, 1113),
-    (3, 1232),
+    (3, 1238),
     (3, 404),
     (2, 1115),
-    (3, 1237),
+    (3, 1243),
     (3, 404),
     (2, 1117),
     (3, 404),
     (4, 0),
     (3, 905),
     (1, 1123),
-    (3, 1264),
+    (3, 1270),
     (3, 905),
     (2, 1119),
     (4, 0),
@@ -1440,7 +1449,7 @@ PROGRAM = (
     (3, 1157),
     (4, 0),
     (1, 1132),
-    (3, 1272),
+    (3, 1278),
     (2, 1156),
     (1, 1135),
     (3, 658),
@@ -1452,16 +1461,16 @@ PROGRAM = (
     (0, 129),
     (2, 1156),
     (1, 1144),
-    (3, 1274),
+    (3, 1280),
     (2, 1156),
     (1, 1147),
-    (3, 1289),
+    (3, 1295),
     (2, 1156),
     (1, 1150),
-    (3, 1301),
+    (3, 1307),
     (2, 1156),
     (1, 1153),
-    (3, 1312),
+    (3, 1318),
     (2, 1156),
     (0, 83),
     (3, 673),
@@ -1472,114 +1481,120 @@ PROGRAM = (
     (1, 1162),
     (3, 633),
     (2, 1163),
-    (3, 1321),
+    (3, 1327),
     (4, 0),
     (3, 660),
     (0, 13),
     (3, 444),
     (4, 0),
     (1, 1171),
-    (3, 1323),
-    (2, 1184),
+    (3, 1329),
+    (2, 1187),
     (1, 1174),
-    (3, 1355),
-    (2, 1184),
+    (3, 1361),
+    (2, 1187),
     (1, 1177),
-    (3, 1363),
-    (2, 1184),
+    (3, 1368),
+    (2, 1187),
     (1, 1180),
-    (3, 1371),
-    (2, 1184),
+    (3, 1376),
+    (2, 1187),
     (1, 1183),
+    (3, 1384),
+    (2, 1187),
+    (1, 1186),
     (3, 785),
-    (2, 1184),
+    (2, 1187),
     (3, 788),
     (4, 0),
-    (1, 1188),
-    (3, 1437),
-    (2, 1195),
     (1, 1191),
-    (3, 1355),
-    (2, 1195),
+    (3, 1450),
+    (2, 1201),
     (1, 1194),
-    (3, 1363),
-    (2, 1195),
-    (3, 1371),
+    (3, 1361),
+    (2, 1201),
+    (1, 1197),
+    (3, 1368),
+    (2, 1201),
+    (1, 1200),
+    (3, 1376),
+    (2, 1201),
+    (3, 1384),
     (4, 0),
-    (1, 1201),
+    (1, 1207),
     (0, 91),
     (3, 444),
     (0, 92),
-    (2, 1202),
+    (2, 1208),
     (0, 131),
-    (1, 1210),
+    (1, 1216),
     (0, 114),
-    (3, 1448),
-    (1, 1209),
+    (3, 1461),
+    (1, 1215),
     (0, 9),
-    (3, 1448),
-    (2, 1205),
-    (2, 1210),
+    (3, 1461),
+    (2, 1211),
+    (2, 1216),
     (0, 88),
     (3, 404),
     (4, 0),
     (0, 132),
     (4, 0),
-    (1, 1218),
-    (0, 106),
-    (2, 1231),
-    (1, 1221),
-    (0, 107),
-    (2, 1231),
     (1, 1224),
-    (0, 108),
-    (2, 1231),
+    (0, 106),
+    (2, 1237),
     (1, 1227),
-    (0, 109),
-    (2, 1231),
+    (0, 107),
+    (2, 1237),
     (1, 1230),
+    (0, 108),
+    (2, 1237),
+    (1, 1233),
+    (0, 109),
+    (2, 1237),
+    (1, 1236),
     (0, 110),
-    (2, 1231),
+    (2, 1237),
     (0, 111),
     (4, 0),
-    (1, 1235),
+    (1, 1241),
     (0, 133),
-    (2, 1236),
+    (2, 1242),
     (0, 134),
     (4, 0),
-    (1, 1240),
+    (1, 1246),
     (0, 135),
-    (2, 1241),
+    (2, 1247),
     (0, 136),
     (4, 0),
-    (1, 1249),
-    (3, 1462),
-    (1, 1247),
-    (0, 137),
-    (2, 1247),
-    (3, 633),
-    (2, 1263),
-    (1, 1257),
-    (3, 1213),
     (1, 1255),
-    (0, 66),
-    (3, 1213),
-    (2, 1255),
+    (3, 1478),
+    (1, 1253),
+    (0, 137),
+    (2, 1253),
     (3, 633),
-    (2, 1263),
-    (3, 633),
+    (2, 1269),
     (1, 1263),
+    (3, 1219),
+    (1, 1261),
+    (0, 66),
+    (3, 1219),
+    (2, 1261),
+    (3, 633),
+    (2, 1269),
+    (3, 633),
+    (1, 1269),
     (0, 91),
     (3, 884),
     (0, 92),
-    (2, 1263),
+    (2, 1269),
     (4, 0),
-    (1, 1267),
+    (1, 1273),
     (0, 112),
-    (2, 1271),
-    (1, 1270),
+    (2, 1277),
+    (1, 1276),
     (3, 1157),
-    (2, 1271),
+    (2, 1277),
     (0, 113),
     (4, 0),
     (0, 138),
@@ -1589,304 +1604,325 @@ PROGRAM = (
     (3, 633),
     (0, 37),
     (3, 673),
-    (1, 1283),
+    (1, 1289),
     (0, 139),
     (3, 673),
-    (2, 1283),
-    (1, 1287),
+    (2, 1289),
+    (1, 1293),
     (0, 140),
     (3, 673),
-    (2, 1287),
-    (0, 84),
-    (4, 0),
-    (3, 633),
-    (1, 1293),
-    (3, 1470),
     (2, 1293),
-    (0, 83),
-    (3, 1473),
+    (0, 84),
+    (4, 0),
+    (3, 633),
     (1, 1299),
+    (3, 1486),
+    (2, 1299),
+    (0, 83),
+    (3, 1489),
+    (1, 1305),
     (0, 9),
-    (3, 1473),
-    (2, 1295),
+    (3, 1489),
+    (2, 1301),
     (0, 84),
     (4, 0),
     (3, 633),
     (0, 83),
-    (1, 1310),
+    (1, 1316),
     (3, 673),
-    (1, 1309),
+    (1, 1315),
     (0, 9),
     (3, 673),
-    (2, 1305),
-    (2, 1310),
+    (2, 1311),
+    (2, 1316),
     (0, 84),
     (4, 0),
-    (3, 1477),
-    (1, 1320),
-    (1, 1318),
+    (3, 1493),
+    (1, 1326),
+    (1, 1324),
     (0, 67),
     (3, 901),
+    (2, 1325),
+    (3, 1501),
     (2, 1319),
-    (3, 1485),
-    (2, 1313),
     (4, 0),
     (0, 141),
     (4, 0),
     (0, 142),
     (3, 404),
-    (1, 1340),
-    (0, 83),
-    (1, 1331),
-    (0, 140),
-    (3, 420),
-    (2, 1338),
-    (1, 1338),
-    (3, 1164),
-    (1, 1337),
-    (0, 9),
-    (3, 1164),
-    (2, 1333),
-    (2, 1338),
-    (0, 84),
-    (2, 1340),
-    (1, 1354),
-    (0, 143),
     (1, 1346),
+    (0, 83),
+    (1, 1337),
     (0, 140),
     (3, 420),
-    (2, 1353),
-    (0, 83),
-    (3, 1490),
-    (1, 1352),
+    (2, 1344),
+    (1, 1344),
+    (3, 1164),
+    (1, 1343),
     (0, 9),
-    (3, 1490),
-    (2, 1348),
+    (3, 1164),
+    (2, 1339),
+    (2, 1344),
     (0, 84),
+    (2, 1346),
+    (1, 1360),
+    (0, 143),
+    (1, 1352),
+    (0, 140),
+    (3, 420),
+    (2, 1359),
+    (0, 83),
+    (3, 1506),
+    (1, 1358),
+    (0, 9),
+    (3, 1506),
     (2, 1354),
+    (0, 84),
+    (2, 1360),
     (4, 0),
     (0, 144),
-    (0, 114),
-    (3, 1448),
-    (1, 1362),
+    (3, 1510),
+    (1, 1367),
     (0, 9),
-    (3, 1448),
-    (2, 1358),
+    (3, 1510),
+    (2, 1363),
     (4, 0),
     (0, 145),
     (0, 114),
-    (3, 1448),
-    (1, 1370),
+    (3, 1461),
+    (1, 1375),
     (0, 9),
-    (3, 1448),
-    (2, 1366),
+    (3, 1461),
+    (2, 1371),
     (4, 0),
-    (1, 1374),
     (0, 146),
-    (2, 1374),
-    (1, 1415),
+    (0, 114),
+    (3, 1461),
     (1, 1383),
+    (0, 9),
+    (3, 1461),
+    (2, 1379),
+    (4, 0),
+    (1, 1387),
+    (0, 147),
+    (2, 1387),
+    (1, 1428),
+    (1, 1396),
     (0, 25),
-    (3, 1494),
-    (1, 1382),
-    (0, 9),
-    (3, 1494),
-    (2, 1378),
-    (2, 1395),
-    (1, 1390),
-    (3, 1502),
-    (1, 1389),
-    (0, 9),
-    (3, 1502),
-    (2, 1385),
-    (2, 1395),
-    (3, 1505),
+    (3, 1512),
     (1, 1395),
     (0, 9),
-    (3, 1505),
+    (3, 1512),
     (2, 1391),
-    (1, 1400),
+    (2, 1408),
+    (1, 1403),
+    (3, 1520),
+    (1, 1402),
+    (0, 9),
+    (3, 1520),
+    (2, 1398),
+    (2, 1408),
+    (3, 1523),
+    (1, 1408),
+    (0, 9),
+    (3, 1523),
+    (2, 1404),
+    (1, 1413),
     (0, 91),
     (3, 444),
     (0, 92),
-    (2, 1400),
-    (1, 1412),
+    (2, 1413),
+    (1, 1425),
     (0, 114),
-    (3, 1448),
-    (1, 1407),
+    (3, 1461),
+    (1, 1420),
     (0, 9),
-    (3, 1448),
-    (2, 1403),
-    (1, 1411),
+    (3, 1461),
+    (2, 1416),
+    (1, 1424),
     (0, 88),
     (3, 404),
-    (2, 1411),
-    (2, 1414),
+    (2, 1424),
+    (2, 1427),
     (0, 88),
     (3, 404),
-    (2, 1436),
-    (1, 1423),
+    (2, 1449),
+    (1, 1436),
     (0, 25),
-    (3, 1514),
-    (1, 1422),
+    (3, 1532),
+    (1, 1435),
     (0, 9),
-    (3, 1514),
-    (2, 1418),
-    (2, 1436),
+    (3, 1532),
+    (2, 1431),
+    (2, 1449),
     (0, 91),
     (3, 444),
     (0, 92),
-    (1, 1434),
+    (1, 1447),
     (0, 114),
-    (3, 1448),
-    (1, 1433),
+    (3, 1461),
+    (1, 1446),
     (0, 9),
-    (3, 1448),
-    (2, 1429),
-    (2, 1434),
+    (3, 1461),
+    (2, 1442),
+    (2, 1447),
     (0, 88),
     (3, 404),
     (4, 0),
-    (0, 147),
+    (0, 148),
     (3, 420),
     (0, 4),
-    (1, 1446),
-    (3, 1516),
-    (1, 1445),
+    (1, 1459),
+    (3, 1534),
+    (1, 1458),
     (0, 1),
-    (2, 1445),
-    (2, 1440),
+    (2, 1458),
+    (2, 1453),
     (0, 5),
     (4, 0),
-    (1, 1451),
-    (3, 1521),
-    (2, 1461),
-    (1, 1454),
+    (1, 1464),
     (3, 1539),
-    (2, 1461),
-    (1, 1457),
-    (3, 1544),
-    (2, 1461),
-    (1, 1460),
-    (3, 1547),
-    (2, 1461),
-    (3, 1550),
+    (2, 1477),
+    (1, 1467),
+    (3, 1561),
+    (2, 1477),
+    (1, 1470),
+    (3, 1564),
+    (2, 1477),
+    (1, 1473),
+    (3, 1569),
+    (2, 1477),
+    (1, 1476),
+    (3, 1572),
+    (2, 1477),
+    (3, 1575),
     (4, 0),
-    (1, 1465),
+    (1, 1481),
     (0, 57),
-    (2, 1469),
-    (1, 1468),
-    (0, 148),
-    (2, 1469),
+    (2, 1485),
+    (1, 1484),
     (0, 149),
-    (4, 0),
+    (2, 1485),
     (0, 150),
+    (4, 0),
     (0, 151),
+    (0, 152),
     (4, 0),
     (3, 901),
     (0, 13),
     (3, 673),
     (4, 0),
-    (1, 1480),
+    (1, 1496),
     (0, 24),
-    (2, 1484),
-    (1, 1483),
-    (0, 152),
-    (2, 1484),
+    (2, 1500),
+    (1, 1499),
+    (0, 153),
+    (2, 1500),
     (3, 633),
     (4, 0),
-    (0, 153),
+    (0, 154),
     (0, 91),
     (3, 673),
     (0, 92),
     (4, 0),
     (3, 660),
-    (0, 154),
-    (3, 1554),
+    (0, 155),
+    (3, 1579),
     (4, 0),
-    (1, 1497),
-    (3, 1514),
-    (2, 1501),
-    (1, 1500),
-    (3, 1556),
-    (2, 1501),
-    (3, 1566),
+    (3, 404),
+    (4, 0),
+    (1, 1515),
+    (3, 1532),
+    (2, 1519),
+    (1, 1518),
+    (3, 1581),
+    (2, 1519),
+    (3, 1591),
     (4, 0),
     (0, 45),
     (3, 882),
     (4, 0),
-    (0, 155),
+    (0, 156),
     (3, 415),
     (0, 11),
     (3, 426),
-    (1, 1513),
-    (0, 156),
+    (1, 1531),
+    (0, 157),
     (3, 420),
-    (2, 1513),
+    (2, 1531),
     (4, 0),
-    (3, 1568),
+    (3, 1593),
     (4, 0),
-    (1, 1519),
+    (1, 1537),
     (3, 785),
-    (2, 1520),
+    (2, 1538),
     (3, 788),
     (4, 0),
-    (0, 157),
+    (0, 158),
     (3, 404),
-    (1, 1534),
+    (1, 1552),
     (0, 83),
-    (1, 1532),
+    (1, 1550),
     (3, 1164),
-    (1, 1531),
+    (1, 1549),
     (0, 9),
     (3, 1164),
-    (2, 1527),
-    (2, 1532),
+    (2, 1545),
+    (2, 1550),
     (0, 84),
-    (2, 1534),
-    (1, 1538),
+    (2, 1552),
+    (1, 1556),
     (0, 61),
-    (3, 1576),
-    (2, 1538),
-    (4, 0),
-    (0, 158),
-    (3, 444),
-    (0, 61),
-    (3, 1554),
+    (3, 1601),
+    (2, 1556),
+    (1, 1560),
+    (3, 1603),
+    (3, 882),
+    (2, 1560),
     (4, 0),
     (0, 159),
-    (3, 1554),
+    (3, 404),
     (4, 0),
     (0, 160),
-    (3, 1554),
+    (3, 444),
+    (0, 61),
+    (3, 1579),
     (4, 0),
-    (3, 1554),
+    (0, 161),
+    (3, 1579),
+    (4, 0),
+    (0, 162),
+    (3, 1579),
+    (4, 0),
+    (3, 1579),
     (0, 13),
     (3, 444),
     (4, 0),
     (3, 905),
     (4, 0),
-    (1, 1560),
+    (1, 1585),
     (3, 633),
     (0, 67),
-    (2, 1560),
-    (0, 161),
-    (1, 1565),
+    (2, 1585),
+    (0, 163),
+    (1, 1590),
     (0, 67),
     (3, 633),
-    (2, 1565),
+    (2, 1590),
     (4, 0),
     (3, 404),
     (4, 0),
-    (1, 1571),
-    (0, 162),
-    (2, 1575),
-    (1, 1574),
-    (0, 163),
-    (2, 1575),
+    (1, 1596),
     (0, 164),
+    (2, 1600),
+    (1, 1599),
+    (0, 165),
+    (2, 1600),
+    (0, 166),
     (4, 0),
     (3, 444),
+    (4, 0),
+    (0, 167),
     (4, 0),
 )
 
@@ -5206,6 +5242,27 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.owner = None
         return made
 
+    def r_Defer():
+        nonlocal at, token
+        start = ends[at + 1] - 5
+        if find('\n', ends[at], start) < 0: inline[at] = ';'
+        events_ = []
+        at += 1; token = tokens[at]
+        value = r_DeferredEvent()
+        if value is None: return None
+        events_.append(value)
+        while token == ',':
+            before1 = at
+            at += 1; token = tokens[at]
+            value = r_DeferredEvent()
+            if value is None: at = before1; token = tokens[at]; break
+            events_.append(value)
+        made = new_node(Defer)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.events = events_
+        made.doc = docs.pop(start) if start in docs else ''
+        return made
+
     def r_Entry():
         nonlocal at, token
         start = ends[at + 1] - 5
@@ -5525,6 +5582,33 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.target = target_
         return made
 
+    def r_DeferredEvent():
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
+        event_ = None
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
+        if token == '.':
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Event'
+        value.span = new_span(Span, (source, first, first + len(text1)))
+        value.target = None
+        event_ = value
+        made = new_node(DeferredEvent)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.event = event_
+        return made
+
     def r_TimeTrigger():
         nonlocal at, token
         start = ends[at + 1] - 5
@@ -5596,6 +5680,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         event_ = None
         arguments_ = []
         to_ = None
+        delay_ = None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -5645,11 +5730,55 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 if value is None: at = before8; token = tokens[at]; to_ = before9; break
                 to_ = value
                 break
+        if token == 'after':
+            before10 = at
+            before11 = delay_
+            while True:
+                match12 = REGEX15(text, ends[at + 1] - len(token))
+                if match12 is None: at = before10; token = tokens[at]; delay_ = before11; break
+                end = match12.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before10; token = tokens[at]; delay_ = before11; break
+                token = tokens[at]
+                found = delay(at)
+                if found is None: at = before10; token = tokens[at]; delay_ = before11; break
+                value, at = found; token = tokens[at]
+                delay_ = value
+                break
         made = new_node(Send)
         made.span = new_span(Span, (source, start, ends[at]))
         made.event = event_
         made.arguments = arguments_
         made.to = to_
+        made.delay = delay_
+        return made
+
+    def r_Cancel():
+        nonlocal at, token
+        start = ends[at + 1] - 6
+        event_ = None
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
+        if token == '.':
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Event'
+        value.span = new_span(Span, (source, first, first + len(text1)))
+        value.target = None
+        event_ = value
+        made = new_node(Cancel)
+        made.span = new_span(Span, (source, start, ends[at]))
+        made.event = event_
         return made
 
     def r_Append():
@@ -5855,6 +5984,14 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         at = before; token = tokens[at]
         return r_Assignment()
 
+    def try_Cancel_Assignment():
+        nonlocal at, token
+        before = at
+        made = r_Cancel()
+        if made is not None: return made
+        at = before; token = tokens[at]
+        return r_Assignment()
+
     def try_Clear_Assignment():
         nonlocal at, token
         before = at
@@ -5889,9 +6026,9 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
     SwarmItem_RULES = {'environment': r_EnvironmentUse, 'fitness': r_FitnessUse}
     EnvironmentItem_RULES = {'size': r_Size, 'world': r_World}
     FitnessItem_RULES = {'in': r_FitnessInput, 'maximize': r_Objective, 'minimize': r_Objective, 'param': r_Param}
-    StateItem_RULES = {'[': r_Transition, 'after': r_Transition, 'choice': r_Choice, 'deep': r_History, 'do': r_Activity, 'entry': r_Entry, 'exit': r_Exit, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'parallel': r_Parallel, 'state': r_State}
-    ParallelItem_RULES = {'[': r_Transition, 'after': r_Transition, 'entry': r_Entry, 'exit': r_Exit, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'region': r_Region}
-    Effect_RULES = {'(': r_Assignment, '-': r_Assignment, 'append': try_Append_Assignment, 'clear': try_Clear_Assignment, 'event': r_Assignment, 'false': r_Assignment, 'not': r_Assignment, 'remove': try_Remove_Assignment, 'self': r_Assignment, 'send': r_Send, 'true': r_Assignment}
+    StateItem_RULES = {'[': r_Transition, 'after': r_Transition, 'choice': r_Choice, 'deep': r_History, 'defer': r_Defer, 'do': r_Activity, 'entry': r_Entry, 'exit': r_Exit, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'parallel': r_Parallel, 'state': r_State}
+    ParallelItem_RULES = {'[': r_Transition, 'after': r_Transition, 'defer': r_Defer, 'entry': r_Entry, 'exit': r_Exit, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'region': r_Region}
+    Effect_RULES = {'(': r_Assignment, '-': r_Assignment, 'append': try_Append_Assignment, 'cancel': try_Cancel_Assignment, 'clear': try_Clear_Assignment, 'event': r_Assignment, 'false': r_Assignment, 'not': r_Assignment, 'remove': try_Remove_Assignment, 'self': r_Assignment, 'send': r_Send, 'true': r_Assignment}
     Trigger_RULES = {'aborted': r_OutcomeTrigger, 'done': r_DoneTrigger, 'preempted': r_OutcomeTrigger, 'succeeded': r_OutcomeTrigger}
     RegionItem_RULES = {'choice': r_Choice, 'deep': r_History, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'parallel': r_Parallel, 'state': r_State}
 
@@ -5907,7 +6044,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return model, len(expressions.faults)
     finally:
         # They refer to each other: so they are gone at once, without the garbage collector.
-        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Property = r_Field = r_TypeRef = r_EnumValue = r_DeliverySetting = r_Each = r_PropertyScope = r_Pattern = r_Chance = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Claim = r_Term = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Conjunction = r_Fact = r_Argument = r_Branch = r_Who = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_OutcomeTrigger = r_Send = r_Append = r_Remove = r_Clear = r_Assignment = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_Append_Assignment = try_Clear_Assignment = try_Remove_Assignment = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
+        r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Property = r_Field = r_TypeRef = r_EnumValue = r_DeliverySetting = r_Each = r_PropertyScope = r_Pattern = r_Chance = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_RobotValues = r_World = r_Size = r_FitnessInput = r_Objective = r_Claim = r_Term = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Conjunction = r_Fact = r_Argument = r_Branch = r_Who = r_Activity = r_Defer = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_DeferredEvent = r_TimeTrigger = r_MonitorTrigger = r_OutcomeTrigger = r_Send = r_Cancel = r_Append = r_Remove = r_Clear = r_Assignment = r_DoneTrigger = r_EventTrigger = r_Address = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_Role_RobotValues = try_Append_Assignment = try_Cancel_Assignment = try_Clear_Assignment = try_Remove_Assignment = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
 
 LANGUAGE = Language(LEXER, RESERVED)
 # An item may stand after them on one line; the last one is the start of the file.

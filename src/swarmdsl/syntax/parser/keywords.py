@@ -17,11 +17,13 @@ CONTEXTUAL = {
     'best': '(?:effort)\\b',
     'between': '[*A-Za-z_0-9"]',
     'by': '[A-Za-z_0-9"-]',
+    'cancel': '[A-Za-z_]',
     'cancels': '[A-Za-z_]',
     'clear': '[A-Za-z_0-9"-]',
     'count': '(?:(?:of)\\b|[(])',
     'deadline': '[A-Za-z_0-9"-]',
     'deep': '(?:history)\\b',
+    'defer': '[A-Za-z_]',
     'each': '[A-Za-z_]',
     'effort': '[,;}]',
     'evaluations': '[A-Za-z_0-9"-]',
@@ -71,7 +73,7 @@ CONTEXTUAL = {
 FIRST = {
     'ComponentItem': frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param']),
     'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
-    'Effect': frozenset(['append', 'clear', 'event', 'false', 'not', 'remove', 'self', 'send', 'true']),
+    'Effect': frozenset(['append', 'cancel', 'clear', 'event', 'false', 'not', 'remove', 'self', 'send', 'true']),
     'EnvironmentItem': frozenset(['size', 'world']),
     'FitnessItem': frozenset(['in', 'maximize', 'minimize', 'param']),
     'FunctionItem': frozenset(['action', 'in', 'out', 'param', 'service']),
@@ -81,10 +83,10 @@ FIRST = {
     'Optimization': frozenset(['optimize']),
     'OptimizationItem': frozenset(['count', 'evaluations', 'seed', 'steps']),
     'Package': frozenset(['package']),
-    'ParallelItem': frozenset(['after', 'entry', 'exit', 'internal', 'monitor', 'on', 'region']),
+    'ParallelItem': frozenset(['after', 'defer', 'entry', 'exit', 'internal', 'monitor', 'on', 'region']),
     'PropertySubject': frozenset(['endless', 'statemachine', 'swarm']),
     'RegionItem': frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state']),
-    'StateItem': frozenset(['after', 'choice', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state']),
+    'StateItem': frozenset(['after', 'choice', 'deep', 'defer', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state']),
     'SwarmItem': frozenset(['environment', 'fitness']),
     'Trigger': frozenset(['aborted', 'done', 'preempted', 'succeeded']),
     'Vertex': frozenset(['choice', 'deep', 'final', 'history', 'parallel', 'state']),
@@ -103,7 +105,7 @@ MODIFIERS = {
 }
 # Keywords of optional clauses, by the first keywords of the statements that have them.
 CLAUSES = {
-    'after': frozenset(['property']),
+    'after': frozenset(['property', 'send']),
     'extends': frozenset(['actuator', 'controller', 'member', 'sensor', 'virtual']),
     'gives': frozenset(['do']),
     'in': frozenset([]),
@@ -122,4 +124,4 @@ GROUPS = {
 # Keywords of declarations that can follow `:`, as categories.
 CATEGORIES = frozenset(['swarm'])
 # Keywords that a name can follow.
-BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'as', 'before', 'behavior', 'between', 'by', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'deadline', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'remove', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'within'])
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'as', 'before', 'behavior', 'between', 'by', 'cancel', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'deadline', 'defer', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'remove', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'within'])

@@ -171,11 +171,25 @@ def _first_of_terminal(terminal: Terminal) -> First:
         return First(frozenset({terminal.literal}))
     if terminal.reserved is not None:
         return First(but=terminal.reserved)
-    characters, _ = _first_characters(sre.parse(terminal.regex))
+    items = list(sre.parse(terminal.regex))
+    if word := _whole_word(items):
+        return First(frozenset({word}))
+    characters, _ = _first_characters(items)
     tokens = characters & SYMBOLS
     if characters - SYMBOLS:
         tokens |= {""}  # also where letters go on beyond ASCII
     return First(frozenset(tokens), frozenset() if characters & _LETTERS else None)
+
+
+def _whole_word(items: list[Any]) -> str:
+    """Return the word that a regex matches under conditions, or "" if it matches more."""
+    if not items or tuple(map(str, items[-1])) != ("AT", "AT_BOUNDARY"):
+        return ""
+    word = "".join(chr(value) for operator, value in items if str(operator) == "LITERAL")
+    others = [item for item in items if str(item[0]) != "LITERAL"]
+    if all(_of_item(str(op), value) == (frozenset(), True) for op, value in others):
+        return word if word.isascii() and word.isidentifier() else ""
+    return ""
 
 
 # Represents all characters that are not ASCII.

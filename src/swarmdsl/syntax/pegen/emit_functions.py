@@ -105,6 +105,8 @@ class Emission:
                 self._repetition(expression, fail, known=known)
             case Assign():
                 self._assign(expression, fail, known=known)
+            case Use(rule) if self.look.analysis.grammar.rules[rule].kind == "text":
+                self._text(expression, fail, known=known)
             case Use(rule):
                 raise self._unsupported(f"what {rule} makes is not used")
 

@@ -14,6 +14,7 @@ from swarmdsl.ir import (
     Address,
     Assignment,
     Call,
+    Cancel,
     DoneTrigger,
     Effect,
     EventTrigger,
@@ -119,6 +120,7 @@ class _Machine:
             activity=self._activity(state.activity),
             entry_effect=self._effects(entry),
             exit_effect=self._effects(state.exit),
+            deferred=join_values((self._trigger(each, state) for each in state.deferred), ", "),
             deep=state.deep,
         )
         inner = state.states if state.submachine is None else ()
@@ -175,10 +177,16 @@ class _Machine:
                 rest = "".join(f".{name}" for name in path)
                 known = Ref(variable_kind(self.name), variable)
                 return self._store((known, rest), value)
-            case Send(event=event, arguments=arguments, to=to):
+            case Send(event=event, arguments=arguments, to=to, delay=delay):
                 given = argument_values(arguments, self.name)
                 sent: Value = ("send ", Ref("event", event), *(("(", *given, ")") if given else ()))
-                return (*sent, " to ", *self._address(to)) if to is not None else sent
+                if to is not None:
+                    sent = *sent, " to ", *self._address(to)
+                if delay is not None:
+                    sent = *sent, " after ", *expression_value(delay, self.name)
+                return sent
+            case Cancel(event=event):
+                return "cancel ", Ref("event", event)
 
     def _store(self, target: Value, value: Expression) -> Value:
         """Return an assignment, or the effect on an array that it stands for."""

@@ -9,6 +9,7 @@ from swarmdsl.syntax.ast import (
     Activity,
     Branch,
     Choice,
+    Defer,
     Effect,
     Exit,
     FinalState,
@@ -104,6 +105,8 @@ def _behaviour(
         yield "entry", (*_effects(entry.effects, element, builder), *_doc(entry.doc))
     for activity in _of_type(node.items, Activity):
         yield "activity", (*builder.code(activity, element), *_doc(activity.doc))
+    for defer in _of_type(node.items, Defer):
+        yield "defers", (*_deferred(defer, element, builder), *_doc(defer.doc))
     for exit_ in _of_type(node.items, Exit):
         yield "exit", (*_effects(exit_.effects, element, builder), *_doc(exit_.doc))
     if isinstance(node, State):
@@ -143,6 +146,14 @@ def _effects(effects: Iterable[Effect], element: Element, builder: EntryBuilder)
     for effect in effects:
         found += [", "] if found else []
         found += builder.code(effect, element)
+    return tuple(found)
+
+
+def _deferred(defer: Defer, element: Element, builder: EntryBuilder) -> Cell:
+    found: list[Inline] = []
+    for event in defer.events:
+        found += [", "] if found else []
+        found += builder.code(event, element)
     return tuple(found)
 
 

@@ -36,8 +36,22 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
             places: Places = {}
             text = document(portable(machine, system, places), places)
             yield OutputFile(f"{machine.name}.scxml", text, origin=machine.origin)
+            _report_deferred(machine, report)
         if options.profile != "portable":
             yield from _in_dialect(machine, system, options, report)
+
+
+def _report_deferred(machine: StateMachine, report: Diagnostics) -> None:
+    """Warn of deferred events, which SCXML lacks."""
+    for state in machine.walk():
+        for trigger in state.deferred:
+            report.report(
+                "no-place",
+                trigger.origin,
+                target="scxml",
+                what=f"deferred event `{trigger.event}` for other engines",
+                notes=("`<sw:defer>` is read by swarmdsl; other engines discard the event",),
+            )
 
 
 def _in_dialect(

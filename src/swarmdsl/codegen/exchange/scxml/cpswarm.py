@@ -38,6 +38,8 @@ _UNSUPPORTED = {
     Feature.GUARD,
     Feature.ASSIGNMENT,
     Feature.SEND,
+    Feature.DELAYED_SEND,
+    Feature.DEFER,
     Feature.TIMEOUT,
     Feature.HISTORY,
     Feature.ENTRY,

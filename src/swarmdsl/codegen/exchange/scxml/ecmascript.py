@@ -25,6 +25,7 @@ from swarmdsl.ir import (
     EnvelopeField,
     Expression,
     Literal,
+    Send,
     StateMachine,
     System,
     TimeTrigger,
@@ -182,11 +183,20 @@ def needs_data(machine: StateMachine) -> bool:
 
 
 def _is_computed_effect(effect: Effect) -> bool:
-    return isinstance(effect, Assignment) or bool(effect.arguments) or effect.to is not None
+    match effect:
+        case Assignment():
+            return True
+        case Send(arguments=arguments, to=to, delay=delay):
+            return bool(arguments) or to is not None or _is_not_literal(delay)
+    return False
+
+
+def _is_not_literal(delay: Expression | None) -> bool:
+    return delay is not None and not isinstance(delay, Literal)
 
 
 def _is_computed(trigger: Trigger) -> bool:
-    return isinstance(trigger, TimeTrigger) and not isinstance(trigger.delay, Literal)
+    return isinstance(trigger, TimeTrigger) and _is_not_literal(trigger.delay)
 
 
 def initial_value(type_: Type, system: System) -> str:

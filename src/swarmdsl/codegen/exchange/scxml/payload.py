@@ -21,6 +21,7 @@ from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.codegen.swarm_printer.expressions import duration
 from swarmdsl.ir import (
     Activity,
+    Cancel,
     Delivery,
     EventTrigger,
     Param,
@@ -106,7 +107,7 @@ def _delivery(delivery: Delivery | None) -> dict[str, str | None]:
 def describe_state(
     element: etree._Element, state: State, machine: StateMachine, dialect: Dialect
 ) -> None:
-    """Add the activity and docs of a state."""
+    """Add the deferred events, the activity and the docs of a state."""
     add_doc(element, state.doc)
     _add_initial(element, state.docs)
     name = state.name if state.name != element.get("id") else None
@@ -116,6 +117,9 @@ def describe_state(
         add_payload(element, "vertex", name=name, kind=kind)
     if state.submachine is not None:
         add_payload(element, "submachine", name=state.submachine)
+    if state.deferred:
+        events = " ".join(trigger.event for trigger in state.deferred)
+        add_doc(add_payload(element, "defer", event=events), doc_of(state.docs, "defer"))
     if state.activity is not None:
         _activity(element, state.activity, params_by_name(machine.params), dialect)
 
@@ -153,10 +157,11 @@ def _activity(
 
 def _events(machine: StateMachine) -> Iterator[str]:
     for state in machine.walk():
+        yield from (trigger.event for trigger in state.deferred)
         for transition in state.transitions:
             for trigger in transition.triggers:
                 if isinstance(trigger, EventTrigger):
                     yield trigger.event
     for effect in effects_of(machine):
-        if isinstance(effect, Send):
+        if isinstance(effect, (Send, Cancel)):
             yield effect.event

@@ -14,6 +14,7 @@ from itertools import accumulate
 from lxml import etree
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.exchange.scxml.delayed_sends import DelayedSends
 from swarmdsl.codegen.exchange.scxml.ecmascript import (
     SELF,
     address,
@@ -32,6 +33,7 @@ from swarmdsl.codegen.shared.parallel_transitions import entered_region, region_
 from swarmdsl.codegen.xml_tree import Places, add_comment
 from swarmdsl.ir import (
     Assignment,
+    Cancel,
     Effect,
     Expression,
     Literal,
@@ -71,9 +73,12 @@ def portable(machine: StateMachine, system: System, places: Places | None = None
     _add_data(document, machine, system, data, places)
     left_with_effects = frozenset(state.id for state in machine.walk() if state.exit)
     events = Events(machine, ids)
-    writer = _StateWriter(machine, ids, dialect(data, system), events, left_with_effects, places)
+    writer = _StateWriter(
+        machine, ids, dialect(data, system), events, left_with_effects, places, DelayedSends()
+    )
     for state in machine.states:
         writer.add_state(document, state)
+    writer.delayed.finish()
     return document
 
 
@@ -109,6 +114,7 @@ class _StateWriter:
     events: Events
     left_with_effects: frozenset[str]
     places: Places
+    delayed: DelayedSends
 
     def add_state(self, parent: etree._Element, state: State, around: State | None = None) -> None:
         """Add a state and what is in it."""
@@ -149,14 +155,16 @@ class _StateWriter:
         leave = add(element, "onexit")
         for delay in waiting:
             event = self.events.timer(state, delay)
-            # A negative delay is 0, as in the other targets.
-            length = translate(delay, self.dialect)
-            given = {"delayexpr": f'Math.max(0, Math.ceil({length})) + "ms"'}
-            if isinstance(delay, Literal):
-                # Some engines accept integers only; round up, so that none fires too early.
-                given = {"delay": f"{math.ceil(delay.milliseconds)}ms"}
-            add(entry, "send", event=event, id=event, **given)
+            add(entry, "send", event=event, id=event, **self._delay(delay))
             add(leave, "cancel", sendid=event)
+
+    def _delay(self, delay: Expression) -> dict[str, str]:
+        """Return the attribute of a `<send>` with a delay."""
+        if isinstance(delay, Literal):
+            # Some engines accept integers only; round up, so that none fires too early.
+            return {"delay": f"{math.ceil(delay.milliseconds)}ms"}
+        # A negative delay is 0, as in the other targets.
+        return {"delayexpr": f'Math.max(0, Math.ceil({translate(delay, self.dialect)})) + "ms"'}
 
     def _add_transitions(self, element: etree._Element, state: State) -> None:
         end = OutcomeTrigger(state.id, "succeeded")
@@ -233,9 +241,16 @@ class _StateWriter:
                 case Assignment(variable=variable, path=path, value=value):
                     location = self._location(variable, path)
                     add(element, "assign", location=location, expr=stored(value, self.dialect))
-                case Send(event=event, arguments=arguments, to=to):
+                case Cancel(event=event):
+                    self.delayed.cancel(element, event)
+                case Send(event=event, arguments=arguments, to=to, delay=delay):
                     target = address(to, self.dialect) if to is not None else None
-                    sending = add(element, "send", event=event, type=SEND_TYPE, targetexpr=target)
+                    wait = self._delay(delay) if delay is not None else {}
+                    sending = add(
+                        element, "send", event=event, type=SEND_TYPE, targetexpr=target, **wait
+                    )
+                    if delay is not None:
+                        self.delayed.send(sending, event)
                     for name, value in arguments:
                         add(sending, "param", name=name, expr=stored(value, self.dialect))
 

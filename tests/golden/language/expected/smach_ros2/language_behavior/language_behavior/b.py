@@ -30,70 +30,70 @@ class Data:
     def __init__(self, parameters):
         # The robot: its id, role, index and count.
         self.self = parameters['self']
-        # model.swarm:60
-        self.n = 0
         # model.swarm:61
-        self.mode = 0
+        self.n = 0
         # model.swarm:62
-        self.ok = False
+        self.mode = 0
         # model.swarm:63
-        self.here = geometry_msgs.msg.Point()
+        self.ok = False
         # model.swarm:64
+        self.here = geometry_msgs.msg.Point()
+        # model.swarm:65
         self.seen = geometry_msgs.msg.PoseStamped()
-        # model.swarm:66
+        # model.swarm:67
         # Number of the robot in its role.
         self.mine = self.self.index
-        # model.swarm:48
+        # model.swarm:49
         self.a_k = 0
 
 
 def enter_a(machine, event):
-    # model.swarm:48
+    # model.swarm:49
     machine.data.a_k = 0
 
 
 def effect_a_a(machine, event):
-    # model.swarm:52
+    # model.swarm:53
     machine.data.a_k = bounded(machine.data.a_k + 1, 'int32')
 
 
 def goal_a_a(machine):
-    # model.swarm:51
+    # model.swarm:52
     return filled(my_acts.action.Go.Goal(), h=3.0)
 
 
 def guard_d(machine, event):
-    # model.swarm:72
+    # model.swarm:75
     return event.data.mode == MODE_MANUAL
 
 
 def effect_d(machine, event):
-    # model.swarm:72
+    # model.swarm:75
     machine.data.n = 1
 
 
 def guard_d_2(machine, event):
-    # model.swarm:73
+    # model.swarm:76
     return event.data.level < 3
 
 
 def effect_d_2(machine, event):
-    # model.swarm:73
+    # model.swarm:76
     machine.data.n = 4
 
 
 def guard_d_3(machine, event):
-    # model.swarm:74
+    # model.swarm:77
     return event.data.level > 3 and event.data.header.seq > 2
 
 
 def effect_d_3(machine, event):
-    # model.swarm:74
+    # model.swarm:77
     machine.data.n = 4
 
 
 def guard_d_4(machine, event):
-    # model.swarm:75
+    # model.swarm:78
     return (
         machine.data.n > 3
         and machine.data.mine < machine.data.self.count
@@ -102,119 +102,122 @@ def guard_d_4(machine, event):
 
 
 def guard_d_5(machine, event):
-    # model.swarm:77
+    # model.swarm:80
     return event.envelope.sent > 3_000_000_000
 
 
 def effect_d_4(machine, event):
-    # model.swarm:77
+    # model.swarm:80
     machine.emit(Event('X', language.msg.M(), envelope=Envelope(to=event.envelope.sender)))
-    machine.emit(
+    machine.emit_after(
         Event(
             'X',
             language.msg.M(),
             envelope=Envelope(to='uav[{}]'.format(machine.data.self.index + 1)),
         ),
+        math.ceil(2_000_000_000 * machine.data.n),
     )
 
 
 def guard_d_6(machine, event):
-    # model.swarm:78
+    # model.swarm:81
     return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(9, 12)  # noqa: E501
 
 
 def guard_d_7(machine, event):
-    # model.swarm:89
+    # model.swarm:92
     return event.data.event_header.node != machine.data.self.role
 
 
 def enter_d(machine, event):
-    # model.swarm:70
+    # model.swarm:71
     machine.emit(Event('X', filled(language.msg.M(), mode=MODE_AUTO), envelope=Envelope(to='big')))
     machine.data.n = LIMIT
 
 
 def leave_d(machine, event):
-    # model.swarm:71
+    # model.swarm:72
     machine.data.n = bounded(min(max(machine.data.n // 2, 1), round(2.5)), 'int32')
+    machine.cancel('send.X')
 
 
 def wait_d_out(machine, event):
-    # model.swarm:85
+    # model.swarm:88
     machine.send_after(Event('after.D.Out.1'), math.ceil(2_000_000_000 * 2), 'after.D.Out.1')
     machine.send_after(Event('after.D.Out.2'), 3_000_000_000, 'after.D.Out.2')
 
 
 def stop_waiting_d_out(machine, event):
-    # model.swarm:85
+    # model.swarm:88
     machine.cancel('after.D.Out.1')
     machine.cancel('after.D.Out.2')
 
 
 def goal_d_out(machine):
-    # model.swarm:82
+    # model.swarm:85
     return filled(language.srv.BaseTake.Request(), mode=machine.data.mode)
 
 
 def result_d_out(machine, event):
-    # model.swarm:82
+    # model.swarm:85
     machine.data.ok = deepcopy(get(event.data, 'ok'))
 
 
 STATES = tree(
-    # model.swarm:68
+    # model.swarm:69
     State(
         'A',
         initial=('A.A',),
-        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:68'),),
+        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:69'),),
         entry=(enter_a,),
     ),
-    # model.swarm:50
+    # model.swarm:51
     State(
         'A.A',
         transitions=(
             Transition(
-                ('do.A.A.succeeded',), ('A.D',), effect=effect_a_a, origin='model.swarm:52'
+                ('do.A.A.succeeded',), ('A.D',), effect=effect_a_a, origin='model.swarm:53'
             ),
-            Transition(('do.A.A.aborted',), ('A.D',), origin='model.swarm:53'),
-            Transition(('do.A.A.preempted',), (), origin='model.swarm:54'),
+            Transition(('do.A.A.aborted',), ('A.D',), origin='model.swarm:54'),
+            Transition(('do.A.A.preempted',), (), origin='model.swarm:55'),
         ),
         activity=Activity('go', 'go', outcomes('A.A'), goal=goal_a_a),
     ),
-    # model.swarm:56
+    # model.swarm:57
     State('A.D', Kind.FINAL),
-    # model.swarm:69
+    # model.swarm:70
     State(
         'D',
         initial=('D.In',),
         transitions=(
-            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:72'),
+            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:75'),
             Transition(
-                ('Charge',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:73'
+                ('Charge',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:76'
             ),
             Transition(
-                ('Charge',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:74'
+                ('Charge',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:77'
             ),
-            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:75'),
-            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:76'),
-            Transition(('X',), (), guard=guard_d_5, effect=effect_d_4, origin='model.swarm:77'),
-            Transition(('X',), ('D.H',), guard=guard_d_6, origin='model.swarm:78'),
-            Transition(('MissionAbort',), ('Z',), guard=guard_d_7, origin='model.swarm:89'),
+            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:78'),
+            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:79'),
+            Transition(('X',), (), guard=guard_d_5, effect=effect_d_4, origin='model.swarm:80'),
+            Transition(('X',), ('D.H',), guard=guard_d_6, origin='model.swarm:81'),
+            Transition(('MissionAbort',), ('Z',), guard=guard_d_7, origin='model.swarm:92'),
         ),
         entry=(enter_d,),
         exit=(leave_d,),
+        deferred=('Later',),
     ),
-    # model.swarm:80
-    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:80'),)),
-    # model.swarm:81
+    # model.swarm:83
+    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:83'),)),
+    # model.swarm:84
     State(
         'D.Out',
         transitions=(
-            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:83'),
+            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:86'),
             Transition(
-                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:84'
+                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:87'
             ),
-            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.Last',), origin='model.swarm:85'),
+            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.Last',), origin='model.swarm:88'),
         ),
         entry=(wait_d_out,),
         exit=(stop_waiting_d_out,),
@@ -222,18 +225,20 @@ STATES = tree(
             'cam_take', 'cam/take', outcomes('D.Out'), goal=goal_d_out, finalize=result_d_out
         ),
     ),
-    # model.swarm:87
+    # model.swarm:90
     State('D.H', Kind.DEEP_HISTORY, transitions=(Transition((), ('D.In',)),)),
-    # model.swarm:88
-    State('D.Last', Kind.HISTORY, transitions=(Transition((), ('D.Out',)),)),
     # model.swarm:91
+    State('D.Last', Kind.HISTORY, transitions=(Transition((), ('D.Out',)),)),
+    # model.swarm:94
     State('Z', Kind.FINAL),
 )
 
 TOPICS = (
+    # model.swarm:43
+    Topic('Later', std_msgs.msg.Empty, 'later', heard=True),
     # model.swarm:41
     Topic('E', language.msg.M, 'e', heard=True),
-    # model.swarm:73
+    # model.swarm:76
     Topic('Charge', my_msgs.msg.Level, 'battery', heard=True),
     # model.swarm:42
     Topic('F', std_msgs.msg.Empty, 'f', heard=True),
@@ -254,7 +259,7 @@ TOPICS = (
 )
 
 FUNCTIONS = {
-    # model.swarm:44
+    # model.swarm:45
     'go': Action(my_acts.action.Go, 'go'),
     # model.swarm:20
     'cam_take': Service(language.srv.BaseTake, 'cam/take'),

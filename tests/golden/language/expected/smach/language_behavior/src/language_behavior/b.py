@@ -29,9 +29,9 @@ def build():
     userdata = initial_userdata()
     machine = Machine(['Z'], userdata)
     with machine:
-        # model.swarm:68
-        StateMachine.add('A', _a(), transitions={'done': 'D', 'preempted': 'preempted'})
         # model.swarm:69
+        StateMachine.add('A', _a(), transitions={'done': 'D', 'preempted': 'preempted'})
+        # model.swarm:70
         StateMachine.add(
             'D',
             _d(),
@@ -51,20 +51,20 @@ def initial_userdata():
     userdata = smach.UserData()
     # The robot: its id, role, index and count.
     userdata.self = identity()
-    # model.swarm:60
-    userdata.n = 0
     # model.swarm:61
-    userdata.mode = 0
+    userdata.n = 0
     # model.swarm:62
-    userdata.ok = False
+    userdata.mode = 0
     # model.swarm:63
-    userdata.here = Point()
+    userdata.ok = False
     # model.swarm:64
+    userdata.here = Point()
+    # model.swarm:65
     userdata.seen = PoseStamped()
-    # model.swarm:66
+    # model.swarm:67
     # Number of the robot in its role.
     userdata.mine = userdata.self.index
-    # model.swarm:48
+    # model.swarm:49
     userdata.a_k = 0
     return userdata
 
@@ -73,7 +73,7 @@ def _a():
     """Build state A."""
     machine = StateMachine(on=[On('done.state.A', 'done')], on_entry=_a_entry)
     with machine:
-        # model.swarm:50
+        # model.swarm:51
         StateMachine.add(
             'A',
             ActionState(
@@ -88,7 +88,7 @@ def _a():
             ),
             transitions={'succeeded': 'D', 'aborted': 'D', 'preempted': 'preempted'},
         )
-        # model.swarm:56
+        # model.swarm:57
         StateMachine.add('D', Final(), transitions={'preempted': 'preempted'})
     return machine
 
@@ -122,17 +122,18 @@ def _d():
                 guard=lambda userdata, event: event.eventHeader.node != userdata.self.role,
             ),
         ],
+        defer=[events.LATER],
         on_entry=_d_entry,
         on_exit=_d_exit,
     )
     with machine:
-        # model.swarm:80
+        # model.swarm:83
         StateMachine.add(
             'In',
             State(on=[On(AT_ONCE, 'Out')], outcomes=['D_F']),
             transitions={'Out': 'Out', 'D_F': 'In', 'preempted': 'preempted'},
         )
-        # model.swarm:81
+        # model.swarm:84
         StateMachine.add(
             'Out',
             ServiceState(
@@ -156,13 +157,13 @@ def _d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:87
+        # model.swarm:90
         StateMachine.add(
             'H',
             History('In', ['In', 'Out'], deep=True),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
-        # model.swarm:88
+        # model.swarm:91
         StateMachine.add(
             'Last',
             History('Out', ['In', 'Out']),
@@ -172,67 +173,70 @@ def _d():
 
 
 def _a_a_succeeded_effect(userdata, event):
-    # model.swarm:52
+    # model.swarm:53
     userdata.a_k = bounded(userdata.a_k + 1, 'int32')
 
 
 def _a_entry(userdata):
-    # model.swarm:48
+    # model.swarm:49
     userdata.a_k = 0
 
 
 def _d_e_effect(userdata, event):
-    # model.swarm:72
+    # model.swarm:75
     userdata.n = 1
 
 
 def _d_charge_effect(userdata, event):
-    # model.swarm:73
+    # model.swarm:76
     userdata.n = 4
 
 
 def _d_charge_effect_2(userdata, event):
-    # model.swarm:74
+    # model.swarm:77
     userdata.n = 4
 
 
 def _d_a_guard(userdata, event):
-    # model.swarm:75
+    # model.swarm:78
     return userdata.n > 3 and userdata.mine < userdata.self.count and userdata.self.role != userdata.self.id
 
 
 def _d_x_guard(userdata, event, envelope):
-    # model.swarm:77
+    # model.swarm:80
     return rospy.Duration(0, envelope.sent) > rospy.Duration(3.0)
 
 
 def _d_x_effect(userdata, event, envelope):
-    # model.swarm:77
+    # model.swarm:80
     events.X.send(M(), envelope.sender)
-    events.X.send(M(), 'uav[{}]'.format(userdata.self.index + 1))
+    events.X.send_after(
+        rospy.Duration(2.0) * userdata.n, M(), 'uav[{}]'.format(userdata.self.index + 1)
+    )
 
 
 def _d_x_guard_2(userdata, event):
-    # model.swarm:78
+    # model.swarm:81
     return math.hypot(userdata.here.x - userdata.seen.pose.position.x, userdata.here.y - userdata.seen.pose.position.y, userdata.here.z - userdata.seen.pose.position.z) < math.hypot(9, 12)
 
 
 def _d_out_request(userdata, request):
-    # model.swarm:82
+    # model.swarm:85
     return BaseTakeRequest(mode=userdata.mode)
 
 
 def _d_out_response(userdata, response):
-    # model.swarm:82
+    # model.swarm:85
     userdata.ok = response.ok
 
 
 def _d_entry(userdata):
-    # model.swarm:70
+    # model.swarm:71
     events.X.send(M(mode=MODE_AUTO), 'big')
     userdata.n = LIMIT
 
 
 def _d_exit(userdata):
-    # model.swarm:71
+    # model.swarm:72
     userdata.n = bounded(min(max(userdata.n // 2, 1), round(2.5)), 'int32')
+    events.X.cancel()

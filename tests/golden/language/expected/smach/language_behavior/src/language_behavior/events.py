@@ -9,13 +9,16 @@ from swarmros.msg import SimpleEvent
 
 from language_behavior.states import Event
 
+# model.swarm:43
+LATER = Event('Later', Empty, 'later', 'later')
+
 # model.swarm:39
 X = Event('X', M, 'bridge/events/x', 'x', envelope=XEnvelope, latch=True, queue_size=3)
 
 # model.swarm:41
 E = Event('E', M, 'e', 'e')
 
-# model.swarm:73
+# model.swarm:76
 CHARGE = Event('Charge', Level, 'battery', 'battery')
 
 # model.swarm:42

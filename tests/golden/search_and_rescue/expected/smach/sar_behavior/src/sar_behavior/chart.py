@@ -182,6 +182,10 @@ class Chart(engine.Observer):
         else:
             run.end('preempted')
 
+    def send(self, instance, event):
+        """Publish a delayed event, which has the function that does it; others are sent at once."""
+        event.data()
+
     def failed(self, instance, error):
         """Log a guard or an effect that could not be evaluated; the machine continues."""
         rospy.logerr('%s', error)

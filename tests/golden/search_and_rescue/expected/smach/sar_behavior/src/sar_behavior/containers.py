@@ -23,8 +23,17 @@ class StateMachine(Charted, smach.StateMachine):
     default the state that is added first.
     """
 
-    def __init__(self, on=(), outcomes=(), initial=None, after=None, on_entry=None, on_exit=None):
-        own = self.describe(on, after, on_entry, on_exit)
+    def __init__(
+        self,
+        on=(),
+        outcomes=(),
+        initial=None,
+        after=None,
+        on_entry=None,
+        on_exit=None,
+        defer=(),
+    ):
+        own = self.describe(on, after, on_entry, on_exit, defer)
         smach.StateMachine.__init__(self, [*own, *outcomes, 'preempted'])
         self._initial = initial
 
@@ -93,9 +102,16 @@ class Concurrence(Charted, smach.Concurrence):
     kind = engine.Kind.PARALLEL
 
     def __init__(
-        self, on=(), outcome_map=None, outcomes=(), after=None, on_entry=None, on_exit=None
+        self,
+        on=(),
+        outcome_map=None,
+        outcomes=(),
+        after=None,
+        on_entry=None,
+        on_exit=None,
+        defer=(),
     ):
-        own = self.describe(on, after, on_entry, on_exit)
+        own = self.describe(on, after, on_entry, on_exit, defer)
         ways = outcome_map or {}
         smach.Concurrence.__init__(
             self,

@@ -28,6 +28,9 @@ class Event:
     the number of messages that may wait for a slow connection.
     """
 
+    machine = None
+    """The instance whose effects run: delayed sends are its timers."""
+
     def __init__(
         self,
         name,
@@ -95,6 +98,16 @@ class Event:
             if not rospy.is_shutdown():  # messages are lost during a shutdown
                 raise
 
+    def send_after(self, delay, message, to=None):
+        """Publish a message after a delay, unless it is cancelled or the machine ends before."""
+        about = engine.Envelope(to=to)
+        sending = engine.Event(self.name, lambda: self.send(message, to), envelope=about)
+        Event.machine.emit_after(sending, delay.to_nsec())
+
+    def cancel(self):
+        """Cancel the delayed messages that are pending."""
+        Event.machine.cancel(joined('send', self.name))
+
     def _sign(self, message):
         """Fill in the time and the sender in empty headers of a message."""
         for field, kind in zip(message.__slots__, message._slot_types):
@@ -132,7 +145,8 @@ class Charted:
     """Base class of the states and containers of a machine.
 
     `after` has the delays of transitions by name, as functions of userdata; `on_entry(userdata)`
-    and `on_exit(userdata)` are effects.
+    and `on_exit(userdata)` are effects; the events of `defer` are kept until a state that does not
+    defer them.
     """
 
     kind = engine.Kind.STATE
@@ -141,12 +155,13 @@ class Charted:
     label = ''
     path = ''
 
-    def describe(self, on, after, on_entry, on_exit):
+    def describe(self, on, after, on_entry, on_exit, defer):
         """Store the data for the chart; return the outcomes of the transitions."""
         self.on = on
         self.after = after or {}
         self.on_entry = on_entry
         self.on_exit = on_exit
+        self.defer = defer
         self.current = None
         self.following = None
         self._activations = deque()
@@ -188,8 +203,8 @@ class Charted:
     # ---- called by the chart
 
     def heard(self):
-        """Return the events that trigger transitions of the state."""
-        return [on.trigger for on in self.on if isinstance(on.trigger, Event)]
+        """Return the events that trigger transitions of the state, or that it defers."""
+        return [*(on.trigger for on in self.on if isinstance(on.trigger, Event)), *self.defer]
 
     def tables(self):
         """Return the tables of the states inside for the engine."""
@@ -211,6 +226,7 @@ class Charted:
             tuple(entry),
             tuple(leave),
             origin=self,
+            deferred=tuple(event.name for event in self.defer),
         )
 
     def initial_path(self):
@@ -254,8 +270,8 @@ class State(Charted, smach.State):
     `outcomes` are outcomes of internal transitions of the states around.
     """
 
-    def __init__(self, on=(), outcomes=(), after=None, on_entry=None, on_exit=None):
-        own = self.describe(on, after, on_entry, on_exit)
+    def __init__(self, on=(), outcomes=(), after=None, on_entry=None, on_exit=None, defer=()):
+        own = self.describe(on, after, on_entry, on_exit, defer)
         smach.State.__init__(self, [*own, *outcomes, 'preempted'])
 
     def execute(self, userdata):
@@ -411,7 +427,7 @@ def _guard(function):
 
     def call(instance, event):
         try:
-            return _call(function, instance.data, event)
+            return _call(function, instance, event)
         except Exception as error:
             rospy.logerr('a guard has no value: %r', error)
             return False
@@ -428,7 +444,7 @@ def _with_event(function, named=None):
 
     def call(instance, event):
         try:
-            return _call(function, instance.data, event)
+            return _call(function, instance, event)
         except Exception as error:
             name = (named or function).__name__
             raise engine.ExecutionError('{} failed: {!r}'.format(name, error)) from error
@@ -436,11 +452,12 @@ def _with_event(function, named=None):
     return call
 
 
-def _call(function, userdata, event):
+def _call(function, instance, event):
     """Call a function of a model with the message of an event, and its envelope if it asks."""
+    Event.machine = instance
     if function.__code__.co_argcount > 2:
-        return function(userdata, event.data, event.envelope)
-    return function(userdata, event.data)
+        return function(instance.data, event.data, event.envelope)
+    return function(instance.data, event.data)
 
 
 def _start(name, delay):
