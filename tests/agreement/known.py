@@ -86,7 +86,24 @@ DONE_IS_THE_END = Cause(
 )
 CAUSES = (DEEPER_FIRST, FIELDS, PARALLEL_LAST, FIRST_STATE, DONE_IS_THE_END)
 
+NOTHING_DEFERRED = "SCXML has no deferred events: `<sw:defer>` is a word of swarmdsl"
+DEFERRED = {
+    engine: Cause(
+        engine,
+        "deferred events",
+        NOTHING_DEFERRED,
+        """<state id="a">
+          <sw:defer xmlns:sw="urn:swarmdsl:scxml" event="e"/>
+          <transition event="f" target="b"/>
+        </state>
+        <state id="b"><transition event="e" target="c"/></state>
+        <state id="c"/>""",
+        ("e", "f"),
+    )
+    for engine in (PSM, QT)
+}
 MODELS = {
+    **{("Keeps", engine): cause for engine, cause in DEFERRED.items()},
     ("Disagreement", QT): DEEPER_FIRST,
     ("Fields", QT): FIELDS,
 }

@@ -254,7 +254,7 @@ class Model(Ours):
         found = list(self.subject.events)
         for run in self.world.going:
             found += self.subject.ends[self.subject.table.states[run.state].id]
-        due = sorted(each.handle.time for each in self.instance._timers or ())
+        due = sorted(time for _, time in self.pending)
         if due and not 0 < due[min(1, len(due) - 1)] - due[0] < APART:
             found.append(Step("", time=True))
         return found
@@ -263,7 +263,11 @@ class Model(Ours):
         """Take a step; the same step, with the name of the event if time brings it."""
         self.watch.events.clear()
         self.take(step)
-        return Step(self.subject.timers[self.watch.events[0]], time=True) if step.time else step
+        if not step.time:
+            return step
+        name = self.watch.events[0]
+        # The end of a delayed sending is no event for engines of others.
+        return Step(self.subject.timers.get(name, name), time=True)
 
     @property
     def gave_up(self) -> bool:
@@ -283,14 +287,20 @@ class Model(Ours):
         return event.startswith("do.") or event in self.subject.timers
 
     @property
+    def pending(self) -> list[tuple[str, int]]:
+        """The delays that run: their events, and when they end."""
+        ends = {alarm: time for time, _, alarm in self.world.clock._alarms}
+        return [(each.event.name, ends[each.handle]) for each in self.instance._timers or ()]
+
+    @property
     def situation(self) -> Any:
         """All that decides about what comes next."""
         now = self.world.clock.now
-        timers = self.instance._timers or ()
         return (
             self.active,
             self.instance.configuration.histories,
             repr(self.instance.data),
-            tuple(sorted((each.event.name, each.handle.time - now) for each in timers)),
+            tuple(sorted((name, time - now) for name, time in self.pending)),
+            tuple(event.name for event in self.instance._deferred or ()),
             tuple(run.state for run in self.world.going),
         )
