@@ -27,13 +27,15 @@ def appended(array: Sequence[Any], value: Any, most: int) -> list[Any]:
 def removed(array: Sequence[Any], number: int) -> list[Any]:
     """Return the array without the item with a number."""
     _check(array, number)
-    return [*array[:number], *array[number + 1 :]]
+    after = number + 1
+    return [*array[:number], *array[after:]]
 
 
 def replaced(array: Sequence[Any], number: int, value: Any) -> list[Any]:
     """Return the array with another value in place of the item with a number."""
     _check(array, number)
-    return [*array[:number], value, *array[number + 1 :]]
+    after = number + 1
+    return [*array[:number], value, *array[after:]]
 
 
 def _check(array: Sequence[Any], number: int) -> None:
