@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 
@@ -150,3 +151,16 @@ property Three of Crew : after Start, 3 robot in Busy within 5 s
     ran = simulate(model, "--trace", "none", "--until", "1min", events=EVENTS, scenario=scenario)
     assert verdicts(ran)["All"] == ("true", "")
     assert verdicts(ran)["Three"][0] == "false"
+
+
+def test_a_timeline_has_a_lane_for_each_property(simulate: Simulate) -> None:
+    model = f"""{MODEL}
+property Calm of Crew : never some robot in Going
+property Ends of Crew : each robot : in Going leads to in Resting
+"""
+    simulate(model, "--timeline", "run.svg", "--until", "20s", events=EVENTS)
+    titles = re.findall(r"<title>(\w+: \w+)\n([^:]*):", Path("run.svg").read_text(encoding="utf-8"))
+    assert ("Calm: true", "0 ms to 1 s") in titles
+    assert ("Calm: false", "1 s to 16.5 s") in titles
+    assert ("Ends: open", "1 s to 2.5 s") in titles
+    assert ("Ends: true", "12.5 s to 16.5 s") in titles

@@ -166,3 +166,48 @@ def test_fields_around_the_feedback_of_an_action(say: Say) -> None:
     of_ros1 = ASCENT.replace("[event.feedback", "[event.status.status == 1 and event.feedback")
     assert say(CLIMB + of_ros1) == say(CLIMB + ASCENT)
     assert "unknown-field" in say(CLIMB + ASCENT.replace("[event.feedback", "[event.feedbak"))
+
+
+HEARS = "property Hears : each hearer : in A leads to in B within 1 min\n"
+
+
+def test_property_without_a_subject_gets_another_swarm(say: Say) -> None:
+    assert say(EXCHANGE + HEARS) == []
+    other = "swarm Other { teller : Teller[1]; hearer : Hearer[1] }\n"
+    assert say(EXCHANGE + HEARS + other) == ["unclear-property"]
+    assert say(EXCHANGE + HEARS) == []
+
+
+def test_property_without_a_subject_loses_its_swarm(say: Say) -> None:
+    assert say(EXCHANGE + HEARS) == []
+    found = say(
+        EXCHANGE.replace("swarm Site { teller : Teller[1]; hearer : Hearer[1] }", "") + HEARS
+    )
+    assert "unclear-property" in found
+    assert say(EXCHANGE + HEARS) == []
+
+
+def test_states_of_a_property_follow_the_member(say: Say) -> None:
+    other = "statemachine Deaf { initial A; state A { after 1 s -> C } final C }\n"
+    assert "unresolved-name" not in say(EXCHANGE + other + HEARS)
+    deaf = EXCHANGE.replace("Hearer { behavior Hear }", "Hearer { behavior Deaf }")
+    assert "unresolved-name" in say(deaf + other + HEARS)
+    assert "unresolved-name" in say(
+        EXCHANGE.replace("final B }\nmember", "final C }\nmember") + HEARS
+    )
+
+
+def test_a_role_of_a_property_is_renamed(say: Say) -> None:
+    assert say(EXCHANGE + HEARS) == []
+    assert "unresolved-name" in say(EXCHANGE.replace("hearer :", "ear :") + HEARS)
+    assert say(EXCHANGE.replace("hearer :", "ear :") + HEARS.replace("hearer", "ear")) == []
+
+
+def test_a_fact_of_a_property_becomes_impossible(say: Say) -> None:
+    told = "property Told : never count(teller in A) > 1\n"
+    assert say(EXCHANGE + told) == ["impossible-fact"]
+    assert say(EXCHANGE.replace("Teller[1]", "Teller[2]") + told) == []
+    sends = "property Sends : each hearer : never sends Start\n"
+    assert say(EXCHANGE + sends) == ["impossible-fact"]
+    more = EXCHANGE.replace("on Start -> B", "on Start / send Start -> B")
+    assert say(more + sends) == []

@@ -14,6 +14,7 @@ from swarmdsl.syntax.ast import (
     NameUse,
     Node,
     Operation,
+    Property,
     TopLevel,
     TypeRef,
     nodes_of,
@@ -84,7 +85,9 @@ def used_declarations(
 def _usage(owner: TopLevel) -> Usage:
     refs = [ref.target for _, ref in references(owner)]
     names = [use.target for use in nodes_of(owner, NameUse) if not use.is_predefined]
-    owners = [activity.owner for activity in nodes_of(owner, Activity)]
+    owners: list[Node | None] = [activity.owner for activity in nodes_of(owner, Activity)]
+    if isinstance(owner, Property):
+        owners.append(owner.about)
     types = (ref.type for ref in nodes_of(owner, TypeRef))
     elements = (type_.element if isinstance(type_, Array) else type_ for type_ in types)
     named = {element for element in elements if isinstance(element, Named)}

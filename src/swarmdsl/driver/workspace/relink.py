@@ -16,6 +16,7 @@ from swarmdsl.syntax.ast import (
     Interface,
     NameUse,
     Node,
+    Property,
     StateMachine,
     TopLevel,
     TypeRef,
@@ -125,6 +126,8 @@ def _targets(
     for use in nodes_of(owner, NameUse):
         if use.target is not None:
             yield use.target
+    if isinstance(owner, Property) and owner.about is not None:
+        yield owner.about
     for activity in nodes_of(owner, Activity):
         if activity.owner is not None:
             yield activity.owner

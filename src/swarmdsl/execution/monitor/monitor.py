@@ -52,6 +52,15 @@ class Monitor:
         return self.violated is not None or self._over
 
     @property
+    def state(self) -> Verdict:
+        """The verdict so far: open while something must still happen."""
+        if self.violated is not None:
+            return FALSE
+        pattern = self._pattern
+        settled = pattern is None or (pattern.broken is None and not pattern.owes)
+        return TRUE if settled else OPEN
+
+    @property
     def due(self) -> int | None:
         """Time after which the property is violated unless something happens."""
         if self.decided or self._pattern is None or self._waits_for_end:
@@ -89,8 +98,7 @@ class Monitor:
         self.advance(time)
         if self.violated is not None:
             return FALSE
-        pattern = self._pattern
-        if pattern is None or (pattern.broken is None and not pattern.owes):
+        if self.state == TRUE:
             return TRUE
         if self._waits_for_end:
             # The part of the run that it is about ends with a claim that did not come.

@@ -30,7 +30,12 @@ from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader
-from swarmdsl.execution.simulate.properties import ViolatedError, Watch, watchable
+from swarmdsl.execution.simulate.properties import (
+    PropertyResult,
+    ViolatedError,
+    Watch,
+    watchable,
+)
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
 from swarmdsl.execution.simulate.scenario import Scenario
@@ -206,14 +211,21 @@ class _Play:
         report = Diagnostics()
         interrupted = False
         ending = "until an endless loop"
+        results: list[PropertyResult] = []
         summary = Summary(self._subject, self._world)
         watched = watchable(self._subject) if self._request.properties else []
         stops = self._request.stop_on_violation
-        watch = Watch(watched, self._cast, self._world.data, stops=stops)
+        watch = Watch(
+            watched,
+            self._cast,
+            self._world.data,
+            stops=stops,
+            keeps_history=self._request.timeline is not None,
+        )
         try:
             with ExitStack() as stack:
                 stream = self._stream(stack, report)
-                picture = self._picture(stack, report)
+                picture = self._picture(watch, stack, report)
                 if report.has_errors:
                     tell(report)
                     return False
@@ -232,6 +244,8 @@ class _Play:
                 except KeyboardInterrupt:
                     interrupted, ending = True, "until it was interrupted"
                 sys.stdout.flush()
+                ended = ending == _ENDINGS["ended"]
+                results = watch.results(self._world.clock.now, ended=ended)
                 if picture is not None:
                     picture()
         except OSError as error:
@@ -241,7 +255,6 @@ class _Play:
         for (machine, reason), count in self._world.failures.items():
             times = "once" if count == 1 else f"{count} times"
             report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
-        results = watch.results(self._world.clock.now, ended=ending == _ENDINGS["ended"])
         report_violations(results, report)
         tell(report)
         for line in summary.text(ending, results):
@@ -314,7 +327,9 @@ class _Play:
             return None if watched and self._request.trace is None else sys.stdout
         return self._write_to(path, stack, report)
 
-    def _picture(self, stack: ExitStack, report: Diagnostics) -> Callable[[], object] | None:
+    def _picture(
+        self, watch: Watch, stack: ExitStack, report: Diagnostics
+    ) -> Callable[[], object] | None:
         """Prepare drawing the timeline, if requested."""
         if self._request.timeline is None:
             return None
@@ -324,7 +339,7 @@ class _Play:
         timeline = Timeline(self._subject.name, self._cast)
         self._listeners.append(timeline.note)
         self._world.network.transmitted = timeline.transmitted
-        return lambda: stream.write(timeline.svg(self._world.clock.now))
+        return lambda: stream.write(timeline.svg(self._world.clock.now, watch.history))
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         try:

@@ -64,11 +64,15 @@ class Watch:
         data: Data,
         *,
         stops: bool = False,
+        keeps_history: bool = False,
     ) -> None:
         self.violations: list[Violation] = []
         self._trackers: dict[tuple[object, ...], FactTracker] = {}
         self._cast, self._data = cast, data
         self._stops = stops
+        self._keeps_history = keeps_history
+        self.history: dict[str, list[tuple[int, Verdict]]] = {}
+        """Verdicts so far of each property, with the times from which on they held."""
         self._watched = [_Watched(each, self) for each in properties]
         self._users: dict[FactTracker, list[_Watched]] = {}
         for each in self._watched:
@@ -88,7 +92,7 @@ class Watch:
             self._begin()
         for each in self._watched:
             if each.due is not None and line.time > each.due:
-                self._note(each, each.advance(line.time))
+                self._note(each, each.advance(line.time), line.time)
         self._last.append(line)
         changed: dict[FactTracker, bool] = {}
         if self._begun:
@@ -105,7 +109,7 @@ class Watch:
             return
         affected = {user: None for tracker in changed for user in self._users.get(tracker, ())}
         for each in affected:
-            self._note(each, each.step(line.time))
+            self._note(each, each.step(line.time), line.time)
         if self._stops and any(each.property.chance is None for each in self.violations):
             raise ViolatedError
 
@@ -116,7 +120,7 @@ class Watch:
         found = []
         for each in self._watched:
             verdicts = each.finish(time, ended=ended)
-            self._note(each, each.newly_violated())
+            self._note(each, each.newly_violated(), time)
             worst = next((v for v in (FALSE, OPEN) if v in verdicts.values()), TRUE)
             robots = tuple(name for name, v in verdicts.items() if v == worst and name is not None)
             violations = tuple(v for v in self.violations if v.property is each.property)
@@ -140,12 +144,19 @@ class Watch:
         """Take the first step, when all machines have started."""
         self._begun = True
         for each in self._watched:
-            self._note(each, each.step(0))
+            self._note(each, each.step(0), 0)
 
-    def _note(self, watched: _Watched, violated: Iterator[tuple[str | None, int]]) -> None:
+    def _note(
+        self, watched: _Watched, violated: Iterator[tuple[str | None, int]], now: int
+    ) -> None:
         for robot, time in violated:
+            now = min(now, time)
             last = tuple(self._last)
             self.violations.append(Violation(watched.property, robot, time, last))
+        if self._keeps_history:
+            known = self.history.setdefault(watched.property.name, [])
+            if not known or known[-1][1] != watched.state:
+                known.append((now, watched.state))
 
 
 class _Watched:
@@ -190,6 +201,12 @@ class _Watched:
             monitor.advance(time)
         self._set_due()
         return self.newly_violated()
+
+    @property
+    def state(self) -> Verdict:
+        """The worst verdict so far."""
+        states = {monitor.state for monitor in self._monitors.values()}
+        return next((each for each in (FALSE, OPEN) if each in states), TRUE)
 
     def finish(self, time: int, *, ended: bool) -> Mapping[str | None, Verdict]:
         """Return the verdicts by robot."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
 from typing import NamedTuple
 
@@ -56,6 +56,12 @@ _STEPS = tuple(
 _TICKS = 12
 
 
+Verdicts = Mapping[str, Sequence[tuple[int, str]]]
+"""Verdicts so far of properties by name, each with the time from which on it held."""
+# Green, amber and red: Paul Tol, Colour Schemes, as above.
+_VERDICTS = {"true": "#44bb99", "open": "#eedd88", "false": "#ee8866"}
+
+
 class Timeline:
     """Collect the data of the timeline."""
 
@@ -74,9 +80,12 @@ class Timeline:
         """Keep a swarm event in transit."""
         self._transmissions.append(crossing)
 
-    def svg(self, end: int) -> str:
-        """Draw a run of the given duration."""
-        return _Picture(self._title, self._lines, self._transmissions, max(end, 1)).draw()
+    def svg(self, end: int, verdicts: Verdicts | None = None) -> str:
+        """Draw a run of the given duration, with a lane for each property."""
+        picture = _Picture(
+            self._title, self._lines, self._transmissions, max(end, 1), verdicts or {}
+        )
+        return picture.draw()
 
 
 class _Stay(NamedTuple):
@@ -94,12 +103,14 @@ class _Picture:
         lines: dict[Actor, list[Line]],
         transmissions: list[Transmission],
         end: int,
+        verdicts: Verdicts,
     ) -> None:
+        self.verdicts = verdicts
         self.title = title
         self.lines = lines
         self.transmissions = transmissions
         self.end = end
-        names = [_name(actor) for actor in lines]
+        names = [*map(_name, lines), *verdicts]
         self.left = 32 + 1.15 * _LETTER * max(map(len, names), default=0)
         self.rows = {
             actor: max((len(line.configuration) for line in of), default=1) or 1
@@ -112,7 +123,8 @@ class _Picture:
                 self.tops[actor] = top
                 top += self.rows[actor] * _ROW + (2 if actor.robot is robot else _GAP)
             top += _GAP
-        self.bottom = top
+        self.properties_top = top
+        self.bottom = top + len(verdicts) * (_ROW + 2) + (_GAP if verdicts else 0)
         self.robots: dict[Robot, Actor] = {}
         for actor in lines:
             self.robots.setdefault(actor.robot, actor)
@@ -137,6 +149,7 @@ class _Picture:
         self.axis(drawing)
         for actor in self.lines:
             self.lane(drawing, actor)
+        self.property_lanes(drawing)
         self.arrows(drawing)
         self.legend(drawing)
         return drawing.finish()
@@ -176,6 +189,19 @@ class _Picture:
                 narrow = []
             if narrow:
                 self.blur(drawing, narrow, top + number * slot, slot)
+
+    def property_lanes(self, drawing: Drawing) -> None:
+        """Draw the verdicts so far on each property."""
+        top = self.properties_top
+        for name, changes in self.verdicts.items():
+            drawing.text(self.left - 8, top + _ROW / 2 + 4, name, "member")
+            drawing.rect(self.left, top, _WIDTH, _ROW, "lane")
+            ends = [*(time for time, _ in changes[1:]), self.end]
+            for (start, verdict), end in zip(changes, ends, strict=True):
+                width = max(self.x(end) - self.x(start), _NARROWEST)
+                title = f"{name}: {verdict}\n{_between(start, end)}"
+                drawing.bar(self.x(start), top, width, _ROW, _VERDICTS[verdict], title)
+            top += _ROW + 2
 
     def stays(self, actor: Actor) -> dict[tuple[int, int], list[_Stay]]:
         """Return the intervals by row of the lane: one row per parallel state.

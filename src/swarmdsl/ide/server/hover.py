@@ -22,6 +22,7 @@ from swarmdsl.syntax.ast import (
     Multiplicity,
     Node,
     Parallel,
+    Property,
     Role,
     ServiceType,
     State,
@@ -34,6 +35,18 @@ from swarmdsl.syntax.ast import (
 # Shown in full if they are short.
 _SHOWN_IN_FULL = (StructType, EnumType, MessageType, ServiceType, ActionType)
 _MAX_LINES = 20
+# When a property is violated, by the first word of its pattern.
+_VIOLATED = {
+    "never": "when it holds",
+    "at": "when it does not hold, or happens too often",
+    "eventually": "in the end or too late, if it never held",
+    "within": "when it has not held in time",
+    "leads": "in the end or too late, if the second did not follow the first",
+    "only": "when the first holds before the second ever did",
+    "then": "in the end, if they did not hold in this order",
+    "again": "in the end, if it does not hold then",
+    "always": "when all have ended and it does not hold",
+}
 
 
 def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | None:
@@ -77,6 +90,8 @@ def _facts(node: Node) -> Iterator[str]:
         case StateMachine():
             states = [*nodes_of(node, State), *nodes_of(node, Parallel)]
             yield f"{len(states)} state{'s' * (len(states) != 1)}"
+        case Property(body=body):
+            yield f"violated {_VIOLATED[body.kind]}"
         case EnumType() | StructType() | MessageType() | ServiceType() | ActionType():
             pass
         case _:
