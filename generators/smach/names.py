@@ -16,7 +16,7 @@ _USERDATA = ("extract", "keys", "merge", "update")
 _OF_NODES = ("introspection", "timeouts")
 _MODULES = (
     *("actions", "callbacks", "chart", "containers", "engine", "events", "identity", "node"),
-    *("services", "states"),
+    *("services", "states", "topics"),
 )
 # A package with such a name would hide a module that the nodes import.
 _IMPORTED = (

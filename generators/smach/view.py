@@ -211,6 +211,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
             "identity",
             "node",
             "states",
+            "topics",
             *package.activity_modules(used),
         ),
         needs=tuple(needs),
@@ -369,7 +370,7 @@ def _event_views(
         if event.delivery is not None and event.delivery.keep is not None:
             keywords.append(("queue_size", event.delivery.keep))
         call = Call(
-            imports.name(f"{imports.types.package}.states", "Event"),
+            imports.name(f"{imports.types.package}.topics", "Event"),
             (event.name, message, event.incoming_topic, event.topic),
             tuple(keywords),
         )

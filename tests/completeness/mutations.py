@@ -10,7 +10,7 @@ from typing import Any
 
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
-from swarmdsl.ir import Literal, System
+from swarmdsl.ir import Literal, System, Transition
 
 
 def fields(node: Any) -> Iterator[str]:
@@ -53,11 +53,21 @@ def systems(system: System) -> Iterator[tuple[str, str, Callable[[], System]]]:
             for value in other_values(getattr(node, name), used[type(node), name]):
                 yield (
                     f"{type(node).__name__}.{name}",
-                    str(getattr(node, "kind", "")),
+                    kind_of(node),
                     lambda node=node, name=name, value=value, rebuild=rebuild: rebuild(
                         replace(node, **{name: value})
                     ),
                 )
+
+
+def kind_of(node: Any) -> str:
+    """Kind of a node; a change of a field may show in some kinds only."""
+    match node:
+        case Literal(type=type_):
+            return str(type_)
+        case Transition(target=target):
+            return "stays" if target is None else "leads away"
+    return str(getattr(node, "kind", ""))
 
 
 def values_in_use(system: System) -> dict[tuple[type, str], set[str]]:

@@ -72,3 +72,52 @@ def test_an_outcome_alone_is_handled_by_staying(compiled: Callable[[str], ir.Sys
     assert [trigger.outcome for trigger in stays.triggers] == ["succeeded", "aborted"]
     assert (stays.guard, stays.effects, stays.target) == (None, (), None)
     assert leaves.target == "B"
+
+
+def test_a_variable_of_a_state_starts_when_the_state_is_entered(
+    compiled: Callable[[str], ir.System],
+) -> None:
+    system = compiled("""
+        event At : geometry_msgs/Point
+        statemachine Inner {
+          initial A
+          state A { var n : int32 = 1; after 1 s / n = n + 1 -> Z }
+          final Z
+        }
+        endless statemachine M {
+          var a_n : int32 = 0
+          initial A
+          state A {
+            var n : int32
+            var place : geometry_msgs/Point
+            on At [n == a_n and place.x == 0] / place = event, n = 3, a_n = 4 -> P
+          }
+          parallel state P {
+            var all : string = "x"
+            region R { var here : bool; initial X; state X { after 1 s [here] / all = all -> X } }
+          }
+          state B = Inner
+        }
+    """)
+    machine = system.machines_by_name["M"]
+    states = {state.id: state for state in machine.walk()}
+
+    def first(state: str) -> list[tuple[str, object]]:
+        return [
+            (each.variable, getattr(each.value, "value", None) or each.value)
+            for each in states[state].entry
+            if isinstance(each, ir.Assignment)
+        ]
+
+    assert [variable.name for variable in machine.variables] == [
+        *("a_n", "a_n_", "a_place", "p_all", "p_r_here", "a_place_blank", "b_a_n"),
+    ]
+    (number, zero), (place, blank) = first("A")
+    assert (number, zero) == ("a_n_", ir.Literal(0, ir.Primitive("int32")))
+    assert (place, isinstance(blank, ir.VariableRef) and blank.name) == ("a_place", "a_place_blank")
+    assert [name for name, _ in first("P")] == ["p_all", "p_r_here"]
+    assert first("B.A") == [("b_a_n", 1)]
+    (transition,) = states["A"].transitions
+    assert [each.variable for each in transition.effects if isinstance(each, ir.Assignment)] == [
+        *("a_place", "a_n_", "a_n"),
+    ]

@@ -241,7 +241,9 @@ swarm Yard { cart : Cart[2] }
 def test_a_role_in_addresses(swarmc, yard) -> None:
     (yard / "yard.swarm").write_text(ADDRESSED)
     assert swarmc("rename", "Yard.cart", "van").code == 0
-    wanted = ADDRESSED.replace("to cart", "to van").replace("{ cart :", "{ van :")
+    wanted = ADDRESSED
+    for before in ("to cart", '"cart', "{ cart"):
+        wanted = wanted.replace(before, before.replace("cart", "van"))
     assert (yard / "yard.swarm").read_text() == wanted
     assert swarmc("check").code == 0
 

@@ -47,6 +47,7 @@ package lab
 swarm event Ask  : std_msgs/String
 swarm event Tell : std_msgs/String
 statemachine Talk {
+  param none : string = ""
   var who : string = ""
   initial Silent
   state Silent {
@@ -54,7 +55,7 @@ statemachine Talk {
       / who = event.sender, send Tell(data = event.sender) to event.sender -> Heard
   }
   state Heard {
-    on Tell [event.sender == who] / send Ask(data = who) to base, send Tell to "" -> End
+    on Tell [event.sender == who] / send Ask(data = who) to base, send Tell to none -> End
   }
   final End
 }

@@ -155,7 +155,7 @@ def test_an_addressed_event_is_none_of_the_robot_itself(simulate: Simulate) -> N
 
 
 def test_what_is_lost_is_told(simulate: Simulate) -> None:
-    model = told('send Found to "rover[0]"', "send Found to uav[1]", "send Found to no")
+    model = told('send Found to no + "rover[0]"', "send Found to uav[1]", "send Found to no")
     ran = simulate(model, "--until", "2s", "--trace", "text")
 
     (line,) = [line for line in ran.out.splitlines() if "send Found" in line]

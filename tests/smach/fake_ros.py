@@ -256,7 +256,7 @@ class World:
                 world._subscribers[topic].append((type_, callback))
 
         class Publisher:
-            def __init__(self, topic, type_, queue_size=None):
+            def __init__(self, topic, type_, latch=False, queue_size=None):
                 assert queue_size
                 self.topic = topic
 
@@ -341,7 +341,8 @@ class World:
             ROSException=ROSException,
             wait_for_service=nothing,
             get_param=get_param,
-            get_namespace=lambda: "/robot_7/",
+            get_name=lambda: "/robot_7/work",
+            get_namespace=lambda: world.params.get("namespace", "/robot_7/"),
             has_param=world.params.__contains__,
             get_rostime=Time.now,
             init_node=lambda name, disable_signals: None,

@@ -95,6 +95,7 @@ def test_files(files: Files) -> None:
         "src/lab_behavior/node.py",
         "src/lab_behavior/services.py",
         "src/lab_behavior/states.py",
+        "src/lab_behavior/topics.py",
         "src/lab_behavior/events.py",
         "src/lab_behavior/identity.py",
         "src/lab_behavior/callbacks.py",

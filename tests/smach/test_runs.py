@@ -674,6 +674,34 @@ def test_envelopes(robot: Run) -> None:
     assert all(m.sent.to_sec() > 0 for _, m in work.world.sent)
 
 
+@pytest.mark.parametrize("is_own", [True, False])
+def test_a_robot_without_an_id_does_not_hear_its_own_event(robot: Run, is_own: bool) -> None:
+    work = robot(
+        """
+        swarm event Ask : std_msgs/Empty
+        event Go : std_msgs/Empty
+        statemachine Work {
+          initial A
+          state A { on Go / send Ask -> B }
+          state B { on Ask [event.sender == "" and event.sent > 0 s] -> Heard; on Go -> End }
+          final Heard
+          final End
+        }
+        """,
+        namespace="/",
+    )
+    work.start()
+    work.wait_in("A")
+    work.world.publish("go")
+    work.wait_in("B")
+    ((_, sent),) = work.world.sent
+    at = sent.sent if is_own else sys.modules["fake_ros"].Time(3.0)
+    work.world.publish("bridge/events/ask", sender="", sent=at, to="", message=sent.message)
+    work.world.publish("go")
+
+    assert work.ended() == ("End" if is_own else "Heard")
+
+
 def test_a_header_tells_the_sender_and_the_time(robot: Run) -> None:
     work = robot(
         HEADER

@@ -66,7 +66,6 @@ STATEMENTS = (
     ("exit send B", "exit send B", "{0}"),
     ("on A -> [*]", "-> [*]", "{1}"),
     ("on A / n = 1 -> [*]", "-> [*]", "{1}"),
-    ("var k : int32 = 7", "var k : int32 = 7", "{0}"),
 )
 # Imports and values outside of state machines.
 DECLARATIONS = (

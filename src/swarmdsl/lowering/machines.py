@@ -7,7 +7,7 @@ from functools import partial
 
 from swarmdsl import ir
 from swarmdsl.analysis.resolve.inheritance import all_items
-from swarmdsl.analysis.resolve.states import regions, vertices
+from swarmdsl.analysis.resolve.states import regions, variables_of, vertices
 from swarmdsl.base.naming import snake_case
 from swarmdsl.base.records import replace
 from swarmdsl.lowering.context import Context
@@ -42,15 +42,17 @@ from swarmdsl.syntax.ast import (
     Vertex,
     nodes_of,
 )
+from swarmdsl.syntax.types import FLOATS, Primitive
 
 
 def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
     """Lower a machine as a behaviour, with the machines that it reuses expanded."""
     params = _params(machine, context)
     builder = _Builder({param.name for param in params})
-    frame = Frame(_ids(machine, ""), context)
-    initial = frame.ids[_initial(machine)]
+    ids = _ids(machine, "")
+    initial = ids[_initial(machine)]
     builder.add_variables(machine, "", context)
+    frame = Frame(ids, builder.with_state_variables(machine, ids, context))
     states = builder.states(machine, frame)
     return ir.StateMachine(
         name=context.names[machine],
@@ -76,24 +78,53 @@ class _Builder:
         self, machine: StateMachine, prefix: str, context: Context
     ) -> dict[Variable, str]:
         """Add a reused machine's variables, named after the state; return the names."""
+        return {item: self._add(item, prefix, context) for item in variables_of(machine)}
+
+    def with_state_variables(
+        self, machine: StateMachine, ids: Mapping[Vertex | Region, str], context: Context
+    ) -> Context:
+        """Add the variables of a machine's states, named after them; return their context."""
         names: dict[Variable, str] = {}
-        for item in machine.items:
-            if isinstance(item, Variable):
-                name = prefix + item.name
-                while name in self._taken:
-                    name += "_"
-                self._taken.add(name)
-                names[item] = name
-                self.variables.append(
-                    ir.Variable(
-                        name,
-                        context.type_of(item.type),
-                        lower_optional(item.initial, context, item.type.type),
-                        item.doc,
-                        item.name.span,
-                    )
-                )
-        return names
+        for state, path in ids.items():
+            if isinstance(state, (State, Parallel, Region)):
+                for item in variables_of(state):
+                    names[item] = self._add(item, snake_case(path) + "_", context)
+        return replace(context, variables={**context.variables, **names}) if names else context
+
+    def _add(self, item: Variable, prefix: str, context: Context) -> str:
+        """Add a variable; return its name."""
+        made = ir.Variable(
+            self._new(prefix + item.name),
+            context.type_of(item.type),
+            lower_optional(item.initial, context, item.type.type),
+            item.doc,
+            item.name.span,
+        )
+        self.variables.append(made)
+        return made.name
+
+    def _new(self, name: str) -> str:
+        while name in self._taken:
+            name += "_"
+        self._taken.add(name)
+        return name
+
+    def _entry(self, state: State | Parallel, frame: Frame) -> tuple[ir.Effect, ...]:
+        """Return the effects on entry, after the initial values of the state's variables."""
+        owners = (state, *regions(state))
+        own = (item for owner in owners for item in variables_of(owner))
+        values = [self._first_value(item, frame.context) for item in own]
+        return (*values, *lower_effects(state, Entry, frame))
+
+    def _first_value(self, variable: Variable, context: Context) -> ir.Assignment:
+        name, type_ = context.variables[variable], context.type_of(variable.type)
+        value = lower_optional(variable.initial, context, variable.type.type) or _zero(type_)
+        if value is None:
+            # A message has no literal: a variable that nothing writes has its zero.
+            blank = self._new(f"{name}_blank")
+            self.variables.append(ir.Variable(blank, type_, None, "", variable.name.span))
+            value = ir.VariableRef(blank, type_, variable.name.span)
+        return ir.Assignment(name, (), value, variable.name.span)
 
     def states(self, container: Container, frame: Frame) -> tuple[ir.State, ...]:
         """Return the states directly inside a container."""
@@ -127,7 +158,7 @@ class _Builder:
                         if isinstance(item, Region)
                     ),
                     transitions=lower_transitions(state, frame),
-                    entry=lower_effects(state, Entry, frame),
+                    entry=self._entry(state, frame),
                     exit=lower_effects(state, Exit, frame),
                     deferred=lower_deferred(state, frame),
                     docs=lower_docs(state.items),
@@ -140,7 +171,7 @@ class _Builder:
                     deferred=lower_deferred(state, frame),
                     docs=lower_docs(state.items),
                 )
-                entry = lower_effects(state, Entry, frame)
+                entry = self._entry(state, frame)
                 if state.machine is not None:
                     return self._submachine(made, entry, state, frame)
                 if vertices(state):
@@ -183,7 +214,9 @@ class _Builder:
                 value = bound.get(str(item.name), item.default)
                 assert value is not None
                 values[item] = lower_expression(value, frame.context, item.type.type)
-        inner = Frame(_ids(machine, frame.ids[state]), frame.context.reusing(names, values))
+        ids = _ids(machine, frame.ids[state])
+        context = frame.context.reusing(names, values)
+        inner = Frame(ids, self.with_state_variables(machine, ids, context))
         return made(
             kind=ir.StateKind.COMPOSITE,
             initial=inner.ids[_initial(machine)],
@@ -199,6 +232,18 @@ def _first_values(names: Mapping[Variable, str], context: Context) -> Iterator[i
         if variable.initial is not None:
             value = lower_expression(variable.initial, context, variable.type.type)
             yield ir.Assignment(name, (), value, variable.name.span)
+
+
+def _zero(type_: ir.Type) -> ir.Literal | None:
+    """Return the zero of a type; None for one without literals, such as a message."""
+    match type_:
+        case Primitive(name="bool"):
+            return ir.Literal(False, type_)
+        case Primitive(name="string" | "wstring"):
+            return ir.Literal("", type_)
+        case Primitive(name=name) if name != "time":
+            return ir.Literal(0.0 if name in FLOATS else 0, type_)
+    return None
 
 
 def _ids(container: Container, prefix: str) -> dict[Vertex | Region, str]:

@@ -21,9 +21,7 @@ def check_variables(machine: StateMachine, context: Context) -> None:
     stores = set(_stores(machine))
     written = {use.target for use in stores}
     read = {use.target for use in nodes_of(machine, NameUse) if use not in stores}
-    for item in machine.items:
-        if not isinstance(item, Variable):
-            continue
+    for item in nodes_of(machine, Variable):
         if item not in read and item not in written:
             fault = "is never used"
         elif item not in read:

@@ -65,11 +65,8 @@ def _unset(machine: StateMachine, context: Context) -> list[Variable]:
     grown = {name.target for node, name in stores if isinstance(node, Append) and name is not None}
     return [
         item
-        for item in machine.items
-        if isinstance(item, Variable)
-        and item.initial is None
-        and item in written - grown
-        and _has_zero(item.type.type, context)
+        for item in nodes_of(machine, Variable)
+        if item.initial is None and item in written - grown and _has_zero(item.type.type, context)
     ]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 from swarmdsl.analysis.checks.context import Context
@@ -16,6 +16,7 @@ from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     ActionType,
     Component,
+    Container,
     Declaration,
     EnumType,
     EnumValue,
@@ -131,6 +132,21 @@ def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
     return [*inherited, *own]
 
 
+def _values(
+    container: Container, around: Mapping[str, Param | Variable] | None = None
+) -> Iterator[Sequence[Param | Variable]]:
+    """Yield the values that each state with variables sees, the outer ones first."""
+    own = [item for item in container.items if isinstance(item, (Param, Variable))]
+    first = dict(around or {})
+    if own:
+        yield [*first.values(), *own]
+    for each in own:
+        first.setdefault(str(each.name), each)
+    for inside in (*vertices(container), *regions(container)):
+        if isinstance(inside, (State, Parallel, Region)):
+            yield from _values(inside, first)
+
+
 def _of(*kinds: type[Named]) -> Callable[[Any], Iterable[Sequence[Named]]]:
     """Return a function for the items of these kinds in a node."""
     return lambda node: ([item for item in node.items if isinstance(item, kinds)],)
@@ -150,7 +166,7 @@ _NAMESPACES: Mapping[type[Node], Callable[[Any], Iterable[Sequence[Named]]]] = {
     Fitness: _of(FitnessInput, Param),
     Swarm: _of(Role),
     StateMachine: lambda node: (
-        [item for item in node.items if isinstance(item, (Param, Variable))],
+        *_values(node),
         vertices(node),
     ),
     Parallel: lambda node: (regions(node),),

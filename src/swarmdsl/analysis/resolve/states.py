@@ -16,6 +16,7 @@ from swarmdsl.syntax.ast import (
     State,
     StateMachine,
     Transition,
+    Variable,
     Vertex,
     nodes_of,
     walk,
@@ -36,6 +37,11 @@ def regions(state: Vertex | Container) -> list[Region]:
     if not isinstance(state, Parallel):
         return []
     return [item for item in state.items if isinstance(item, Region)]
+
+
+def variables_of(container: Container) -> list[Variable]:
+    """Variables declared directly in a container."""
+    return [item for item in container.items if isinstance(item, Variable)]
 
 
 def content(state: Vertex | Container) -> Container | None:

@@ -15,6 +15,7 @@ from swarmdsl.analysis.resolve.report_unresolved import (
     resolve_or_report,
 )
 from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.states import regions, variables_of, vertices
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
@@ -24,6 +25,7 @@ from swarmdsl.syntax.ast import (
     Call,
     Constant,
     Construction,
+    Container,
     Element,
     EnumType,
     Expression,
@@ -33,8 +35,11 @@ from swarmdsl.syntax.ast import (
     IndexUse,
     NameUse,
     OperatorUse,
+    Parallel,
     Param,
     Query,
+    Region,
+    State,
     StateMachine,
     TopLevel,
     Variable,
@@ -66,6 +71,9 @@ class ValueLinker:
     def link_only(self, nodes: Iterable[Expression], owner: TopLevel, values: Values) -> None:
         """Bind the names in some expressions of a declaration with these values."""
         unknown: list[tuple[NameUse, list[FieldUse], Expression]] = []
+        inside: dict[Expression, Values] = {}
+        if isinstance(owner, StateMachine):
+            _add_values_inside(owner, values, inside)
         shared = _values_of_all(owner)
         addresses = {each.id: each for each in nodes_of(owner, Address)}
         for node in nodes:
@@ -73,13 +81,15 @@ class ValueLinker:
                 self._check_no_self(node)
             if node.tree is not None:
                 missing: Missing = []
-                node.tree = self._linked(node.tree, owner, values, missing)
+                seen = inside.get(node, values)
+                node.tree = self._linked(node.tree, owner, seen, missing)
                 # The name of a role is an address by itself; the swarm that has it checks it.
                 role = addresses[node].role_use if node in addresses else None
                 unknown += [(base, fields, node) for base, fields in missing if base is not role]
         # Hints for a name depend on the names beside it, which are bound now.
         for base, fields, node in unknown:
-            report_value(base, fields, node, owner, values, _DECLARED, self.scope, self.report)
+            seen = inside.get(node, values)
+            report_value(base, fields, node, owner, seen, _DECLARED, self.scope, self.report)
 
     def _check_no_self(self, expression: Expression) -> None:
         """Report `self` in a value that is the same for all robots."""
@@ -165,6 +175,21 @@ class ValueLinker:
         if enum is None and type_ is not None:
             report_type_as_value(name, at, type_, self.report)
         return enum
+
+
+def _add_values_inside(
+    container: Container, values: Values, inside: dict[Expression, Values]
+) -> None:
+    """Add the values that each expression sees in a container whose states have variables."""
+    own = {str(each.name): each for each in reversed(variables_of(container))}
+    if own and not isinstance(container, StateMachine):
+        values = {**values, **own}
+        for node in walk(container):
+            if isinstance(node, Expression):
+                inside[node] = values
+    for each in (*vertices(container), *regions(container)):
+        if isinstance(each, (State, Parallel, Region)):
+            _add_values_inside(each, values, inside)
 
 
 def _values_of_all(owner: TopLevel) -> set[Expression] | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.analysis.node_kinds import KINDS
-from swarmdsl.analysis.resolve.addresses import crews_of, named_roles, swarms_of
+from swarmdsl.analysis.resolve.addresses import crews_of, named_roles, swarms_of, written_roles
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
 from swarmdsl.analysis.resolve.set_params import set_params
@@ -98,7 +98,8 @@ def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
         if use.target is not None:
             yield _last_segment(use.span, use.name, use.target)
     if isinstance(owner, StateMachine) and nodes_of(owner, Address):
-        for named in named_roles(owner, crews_of(swarms_of(scope.project))):
+        crews = crews_of(swarms_of(scope.project))
+        for named in (*named_roles(owner, crews), *written_roles(owner, crews)):
             if named.role is not None:
                 yield Occurrence(named.span.absolute, named.role)
     for type_ in nodes_of(owner, TypeRef):

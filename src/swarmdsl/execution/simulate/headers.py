@@ -14,8 +14,9 @@ _OF_BRIDGE = Named("swarmros", "EventHeader")
 def signed(event: Event, data: Any, system: System, sender: str, now: int) -> Any:
     """Return the message of a sent event with its headers filled in, as nodes on robots do.
 
-    An empty `stamp` becomes the time in nanoseconds, an empty `name` and `node` of the bridge's
-    header the topic of the event and the name of the robot.
+    An empty `stamp` becomes the time in nanoseconds, an empty `name` of the bridge's header the
+    topic of the event. Its `node` is the robot that sends a swarm event, also where the message is
+    that of another one.
     """
     message = system.known_interface(event.type)
     if not isinstance(message, Message) or not isinstance(data, Mapping):
@@ -28,6 +29,8 @@ def signed(event: Event, data: Any, system: System, sender: str, now: int) -> An
             given = {"name": event.topic, "node": sender}
         else:
             continue
-        header = filled.get(field.name) or {}
+        header = dict(filled.get(field.name) or {})
+        if event.swarm and sender and "node" in given:
+            header["node"] = sender
         filled[field.name] = {**header, **{k: header.get(k) or v for k, v in given.items()}}
     return filled

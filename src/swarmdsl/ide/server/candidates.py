@@ -78,6 +78,9 @@ class Candidates:
             if PLACEHOLDER in use.name:
                 kinds = (Variable, Param, FitnessInput)
                 own = [node for kind in kinds for node in nodes_of(self._around, kind)]
+                if isinstance(self._around, StateMachine):
+                    seen = {each for around in self._containers() for each in around.items}
+                    own = [node for node in own if node in seen]
                 roles = self._roles() if _is_address(use, owner) else []
                 yield [*roles, *own, *self._visible((Constant, EnumType))]
 

@@ -248,7 +248,7 @@ class State(Documented):
     name: Word
     machine: Ref[StateMachine] | None
     bindings: list[Argument]
-    items: list[Activity | Defer | Entry | Exit | Transition | Initial | Vertex]
+    items: list[Variable | Activity | Defer | Entry | Exit | Transition | Initial | Vertex]
 
 
 @dataclass(slots=True, eq=False)
@@ -256,7 +256,7 @@ class Region(Documented):
     """`region Name { ... }`."""
 
     name: Word
-    items: list[Initial | Vertex]
+    items: list[Variable | Initial | Vertex]
 
 
 @dataclass(slots=True, eq=False)
@@ -264,7 +264,7 @@ class Parallel(Documented):
     """`parallel state Name { ... }`."""
 
     name: Word
-    items: list[Region | Defer | Entry | Exit | Transition]
+    items: list[Variable | Region | Defer | Entry | Exit | Transition]
 
 
 @dataclass(slots=True, eq=False)

@@ -135,19 +135,14 @@ _HINTS = (
         r"write the type before the value: `param \1 : type = \2`",
     ),
     (
-        rf"{START}@var +(\w+) *: *[\w./\[\]<=]+ *= *([^;}}/]*[^;}}/\s])",
-        "`do`",
-        r"declare it in the state machine, outside its states, and set it here: `entry / \1 = \2`",
-    ),
-    (
-        rf"{START}@(?:var|param) +\w+",
+        rf"{START}@param +\w+",
         "`do`",
         "declare it in the state machine, outside its states",
     ),
     (
         r"^ *@var\b",
         "",
-        "declare a variable directly in a state machine, or a `const` at the top level",
+        "declare a variable in a state machine, or a `const` at the top level",
     ),
     (
         r"^ *@param +\w+ *:",

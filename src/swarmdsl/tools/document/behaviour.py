@@ -24,6 +24,7 @@ from swarmdsl.syntax.ast import (
     Transition,
     Variable,
     Vertex,
+    nodes_of,
 )
 from swarmdsl.syntax.ast import Entry as OnEntry
 from swarmdsl.tools.document.elements import Element
@@ -41,9 +42,9 @@ def machine(element: Element, builder: EntryBuilder) -> Entry:
     states = [each for each in element.walk() if isinstance(each.node, (Vertex, Region))]
     ends = [each for each in element.children if isinstance(each.node, FinalState)]
     variables = []
-    for item in node.items:
+    for item in nodes_of(node, Variable):
         inner = builder.elements.of(item)
-        if isinstance(item, Variable) and inner is not None:
+        if inner is not None:
             cells = (
                 builder.type(item.type, inner),
                 builder.code(item.initial, inner),

@@ -21,13 +21,13 @@ def build():
     """Build state machine Market."""
     machine = Machine(CHART, ['Gone', 'preempted'])
     with machine:
-        # model.swarm:157
+        # model.swarm:159
         StateMachine.add(
             'Open',
             State(CHART, 'Open', ['F', 'preempted']),
             transitions={'F': 'Shut', 'preempted': 'preempted'},
         )
-        # model.swarm:164
+        # model.swarm:166
         StateMachine.add(
             'Shut',
             State(CHART, 'Shut', ['Gone', 'F', 'preempted']),

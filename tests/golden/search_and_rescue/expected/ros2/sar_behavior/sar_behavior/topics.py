@@ -81,6 +81,7 @@ class Topics:
         self._local_publishers = {}
         self._names = {topic.event: topic.name for topic in topics}
         self._envelopes = {topic.event: topic.envelope for topic in topics if topic.envelope}
+        self._of_swarm = {topic.event for topic in topics if topic.swarm}
         self._headers = {}
         self._subscriptions = []
         self._echoes = {}
@@ -136,11 +137,17 @@ class Topics:
         )
 
     def _sign(self, message, name):
+        """
+        Fill in the time and the sender in the headers of a message.
+
+        The sender of a swarm event is this robot, also if it has the message from another one.
+        """
         for field, kind in self._headers[name]:
             header = getattr(message, field)
             if kind == _OF_BRIDGE:
                 header.name = header.name or self._names[name]
-                header.node = header.node or self._robot.id
+                if name in self._of_swarm or not header.node:
+                    header.node = self._robot.id or header.node
             elif header.stamp == Time():
                 header.stamp = self._node.get_clock().now().to_msg()
 

@@ -4,7 +4,7 @@
 from full.msg import Found
 from sensor_msgs.msg import BatteryState
 
-from full_behavior.states import Event
+from full_behavior.topics import Event
 
 # model.swarm:39
 SEEN = Event('Seen', Found, 'bridge/events/seen', 'seen')

@@ -29,9 +29,9 @@ def build():
     userdata = initial_userdata()
     machine = Machine(['Z'], userdata)
     with machine:
-        # model.swarm:69
+        # model.swarm:71
         StateMachine.add('A', _a(), transitions={'done': 'D', 'preempted': 'preempted'})
-        # model.swarm:70
+        # model.swarm:72
         StateMachine.add(
             'D',
             _d(),
@@ -51,21 +51,24 @@ def initial_userdata():
     userdata = smach.UserData()
     # The robot: its id, role, index and count.
     userdata.self = identity()
-    # model.swarm:61
-    userdata.n = 0
-    # model.swarm:62
-    userdata.mode = 0
     # model.swarm:63
-    userdata.ok = False
+    userdata.n = 0
     # model.swarm:64
-    userdata.here = Point()
+    userdata.mode = 0
     # model.swarm:65
-    userdata.seen = PoseStamped()
+    userdata.ok = False
+    # model.swarm:66
+    userdata.here = Point()
     # model.swarm:67
+    userdata.seen = PoseStamped()
+    # model.swarm:69
     # Number of the robot in its role.
     userdata.mine = userdata.self.index
     # model.swarm:49
     userdata.a_k = 0
+    # model.swarm:53
+    # How much more.
+    userdata.a_a_more = 1
     return userdata
 
 
@@ -85,10 +88,11 @@ def _a():
                     On('aborted'),
                     On('preempted', None),
                 ],
+                on_entry=_a_a_entry,
             ),
             transitions={'succeeded': 'D', 'aborted': 'D', 'preempted': 'preempted'},
         )
-        # model.swarm:57
+        # model.swarm:59
         StateMachine.add('D', Final(), transitions={'preempted': 'preempted'})
     return machine
 
@@ -127,13 +131,13 @@ def _d():
         on_exit=_d_exit,
     )
     with machine:
-        # model.swarm:83
+        # model.swarm:85
         StateMachine.add(
             'In',
             State(on=[On(AT_ONCE, 'Out')], outcomes=['D_F']),
             transitions={'Out': 'Out', 'D_F': 'In', 'preempted': 'preempted'},
         )
-        # model.swarm:84
+        # model.swarm:86
         StateMachine.add(
             'Out',
             ServiceState(
@@ -157,13 +161,13 @@ def _d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:90
+        # model.swarm:92
         StateMachine.add(
             'H',
             History('In', ['In', 'Out'], deep=True),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
-        # model.swarm:91
+        # model.swarm:93
         StateMachine.add(
             'Last',
             History('Out', ['In', 'Out']),
@@ -173,8 +177,14 @@ def _d():
 
 
 def _a_a_succeeded_effect(userdata, event):
+    # model.swarm:55
+    userdata.a_k = bounded(userdata.a_k + userdata.a_a_more, 'int32')
+    userdata.a_a_more = 2
+
+
+def _a_a_entry(userdata):
     # model.swarm:53
-    userdata.a_k = bounded(userdata.a_k + 1, 'int32')
+    userdata.a_a_more = 1
 
 
 def _a_entry(userdata):
@@ -183,32 +193,32 @@ def _a_entry(userdata):
 
 
 def _d_e_effect(userdata, event):
-    # model.swarm:75
+    # model.swarm:77
     userdata.n = 1
 
 
 def _d_charge_effect(userdata, event):
-    # model.swarm:76
+    # model.swarm:78
     userdata.n = 4
 
 
 def _d_charge_effect_2(userdata, event):
-    # model.swarm:77
+    # model.swarm:79
     userdata.n = 4
 
 
 def _d_a_guard(userdata, event):
-    # model.swarm:78
+    # model.swarm:80
     return userdata.n > 3 and userdata.mine < userdata.self.count and userdata.self.role != userdata.self.id
 
 
 def _d_x_guard(userdata, event, envelope):
-    # model.swarm:80
+    # model.swarm:82
     return rospy.Duration(0, envelope.sent) > rospy.Duration(3.0)
 
 
 def _d_x_effect(userdata, event, envelope):
-    # model.swarm:80
+    # model.swarm:82
     events.X.send(M(), envelope.sender)
     events.X.send_after(
         rospy.Duration(2.0) * userdata.n, M(), 'uav[{}]'.format(userdata.self.index + 1)
@@ -216,27 +226,27 @@ def _d_x_effect(userdata, event, envelope):
 
 
 def _d_x_guard_2(userdata, event):
-    # model.swarm:81
+    # model.swarm:83
     return math.hypot(userdata.here.x - userdata.seen.pose.position.x, userdata.here.y - userdata.seen.pose.position.y, userdata.here.z - userdata.seen.pose.position.z) < math.hypot(9, 12)
 
 
 def _d_out_request(userdata, request):
-    # model.swarm:85
+    # model.swarm:87
     return BaseTakeRequest(mode=userdata.mode)
 
 
 def _d_out_response(userdata, response):
-    # model.swarm:85
+    # model.swarm:87
     userdata.ok = response.ok
 
 
 def _d_entry(userdata):
-    # model.swarm:71
+    # model.swarm:73
     events.X.send(M(mode=MODE_AUTO), 'big')
     userdata.n = LIMIT
 
 
 def _d_exit(userdata):
-    # model.swarm:72
+    # model.swarm:74
     userdata.n = bounded(min(max(userdata.n // 2, 1), round(2.5)), 'int32')
     events.X.cancel()

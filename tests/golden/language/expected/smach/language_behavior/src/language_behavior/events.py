@@ -7,7 +7,7 @@ from my_msgs.msg import Level
 from std_msgs.msg import Empty
 from swarmros.msg import SimpleEvent
 
-from language_behavior.states import Event
+from language_behavior.topics import Event
 
 # model.swarm:43
 LATER = Event('Later', Empty, 'later', 'later')
@@ -18,7 +18,7 @@ X = Event('X', M, 'bridge/events/x', 'x', envelope=XEnvelope, latch=True, queue_
 # model.swarm:41
 E = Event('E', M, 'e', 'e')
 
-# model.swarm:76
+# model.swarm:78
 CHARGE = Event('Charge', Level, 'battery', 'battery')
 
 # model.swarm:42

@@ -3,7 +3,7 @@
 
 from std_msgs.msg import Empty
 
-from blinker_behavior.states import Event
+from blinker_behavior.topics import Event
 
 # blinker.swarm:9
 STOP = Event('Stop', Empty, 'bridge/events/stop', 'stop')

@@ -4,7 +4,7 @@
 from cpswarm_msgs.msg import TargetPositionEvent
 from swarmros.msg import SimpleEvent
 
-from sar_behavior.states import Event
+from sar_behavior.topics import Event
 
 # behaviours.swarm:8
 MISSION_ABORT = Event('MissionAbort', SimpleEvent, 'bridge/events/mission_abort', 'mission_abort')
