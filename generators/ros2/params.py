@@ -8,6 +8,7 @@ from swarmdsl.codegen import Diagnostics
 from swarmdsl.codegen.python import Call, Source
 from swarmdsl.codegen.ros import parameter_value, with_parameters
 from swarmdsl.codegen.shared import BehaviorNode, Value, constant, params_by_name
+from swarmdsl.codegen.shared.units import doc_with_unit
 from swarmdsl.ir import Array, Literal, Param, Primitive, StateMachine
 
 from .imports import Imports
@@ -35,7 +36,7 @@ def parameters(
                 value = parameter_value(value, param.type, 2, default.origin, TARGET, report)
             named = default.name if isinstance(default, Literal) and element.enum else ""
             arguments.append(Source(imports.constants.name(named, repr(value))) if named else value)
-        doc = " ".join(param.doc.split())
+        doc = " ".join(doc_with_unit(param.doc, param.type).split())
         keywords = (("doc", doc),) if doc else ()
         found.append((param, Call("Parameter", tuple(arguments), keywords)))
     return found

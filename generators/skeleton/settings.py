@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from swarmdsl.codegen import Diagnostics, Span, dataclass
 from swarmdsl.codegen.ros import parameter_value
 from swarmdsl.codegen.shared import Value, constant, params_by_name
+from swarmdsl.codegen.shared.units import doc_with_unit
 from swarmdsl.ir import Array, Expression, Param, Primitive
 
 from .names import TARGET, identifiers
@@ -39,7 +40,8 @@ def settings_of(params: tuple[Param, ...], ros: int, report: Diagnostics) -> Ite
             value = value_of(param.default, type_, known, ros, report)
             if value is None:
                 _unsupported("a default that is not constant", param.origin, report)
-        yield Setting(name, param.name, type_, value, param.doc, param.origin)
+        doc = doc_with_unit(param.doc, type_)
+        yield Setting(name, param.name, type_, value, doc, param.origin)
 
 
 def value_of(

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from swarmdsl.codegen.python import comment_lines
 from swarmdsl.codegen.ros import yaml_key, yaml_value
 from swarmdsl.codegen.shared import BehaviorNode, ParamValue, Value
+from swarmdsl.codegen.shared.units import doc_with_unit
 
 from .robots import Fleet, Robot
 
@@ -17,7 +18,10 @@ def node_params(nodes: Iterable[BehaviorNode], header: str, about: str) -> str:
     for node in nodes:
         lines += ["", f"{yaml_key(node.name)}:" if node.params else f"# {node.name} has no params."]
         for given in node.params:
-            lines += [f"  # {line}".rstrip() for line in comment_lines(given.param.doc)]
+            lines += [
+                f"  # {line}".rstrip()
+                for line in comment_lines(doc_with_unit(given.param.doc, given.param.type))
+            ]
             lines.append(_line(given))
         if node.params and not any(given.value is not None for given in node.params):
             lines.append("  {}")

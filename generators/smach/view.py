@@ -25,6 +25,7 @@ from swarmdsl.codegen.ros import (
     third_party_packages,
 )
 from swarmdsl.codegen.shared import envelopes_of, missing_values, uses_self
+from swarmdsl.codegen.shared.units import doc_with_unit
 from swarmdsl.ir import (
     DURATION,
     Array,
@@ -283,7 +284,8 @@ def _values(module: Module) -> tuple[Value, ...]:
     for param in module.machine.params:
         value = _param_value(param, module)
         statement = layout(value, 1, f"{STEP}{USERDATA}.{param.name} = ")
-        found.append(Value(statement, comments(param.origin, param.doc)))
+        doc = doc_with_unit(param.doc, param.type)
+        found.append(Value(statement, comments(param.origin, doc)))
     for variable in module.machine.variables:
         text = (
             python_expression(variable.initial, module.imports)
@@ -291,7 +293,9 @@ def _values(module: Module) -> tuple[Value, ...]:
             else default_value(variable.type, module.imports)
         )
         statement = f"{STEP}{USERDATA}.{variable.name} = {text}"
-        found.append(Value(statement, comments(variable.origin, variable.doc)))
+        found.append(
+            Value(statement, comments(variable.origin, doc_with_unit(variable.doc, variable.type)))
+        )
     return tuple(found)
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from lxml import etree
 
+from swarmdsl.codegen.shared.units import doc_with_unit
 from swarmdsl.codegen.xml import legal
 from swarmdsl.codegen.xml_tree import document as written
 from swarmdsl.ir import StateMachine
@@ -18,8 +19,8 @@ from .library import YASMIN
 def document(root: Node, machine: StateMachine, module: str) -> str:
     """Return the XML of a machine whose states are in the module."""
     element = etree.Element("StateMachine", _head(root))
-    keys = [(each.name, each.doc) for each in machine.params]
-    keys += [(each.name, each.doc) for each in machine.variables]
+    keys = [(each.name, doc_with_unit(each.doc, each.type)) for each in machine.params]
+    keys += [(each.name, doc_with_unit(each.doc, each.type)) for each in machine.variables]
     for name, doc in keys:
         about = {"description": legal(" ".join(doc.split()))} if doc else {}
         etree.SubElement(element, "Key", {"name": name, "type": "out", **about})

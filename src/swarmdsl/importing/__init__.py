@@ -25,6 +25,7 @@ from swarmdsl.importing.portable import PortableDescription
 from swarmdsl.importing.repair import read
 from swarmdsl.importing.scxml_patterns import FinalEvents, fold_patterns
 from swarmdsl.importing.targets import resolve_targets
+from swarmdsl.importing.units import give_units
 from swarmdsl.importing.unlower import undo_lowering
 from swarmdsl.ir import System
 
@@ -91,13 +92,15 @@ def import_scxml(
     if guesses is not None:
         guesses |= library.guesses | {(event, "topic") for event in events.guessed}
     system = _system(name, library)
-    return System(
-        name,
-        system.interfaces,
-        tuple(dict.fromkeys(events.known.values())),
-        system.functions,
-        system.components,
-        machines=tuple(machines),
+    return give_units(
+        System(
+            name,
+            system.interfaces,
+            tuple(dict.fromkeys(events.known.values())),
+            system.functions,
+            system.components,
+            machines=tuple(machines),
+        )
     )
 
 

@@ -32,6 +32,8 @@ from swarmdsl.ir import (
 )
 from swarmdsl.ir.docs import Docs
 from swarmdsl.syntax.parser.literals import nanoseconds
+from swarmdsl.syntax.types import unit_of, with_unit
+from swarmdsl.syntax.units import UNITS
 
 _RELIABLE = {"reliable": True, "best-effort": False}
 _MEANS = {"keep": "number", "lifespan": "duration", "deadline": "duration"}
@@ -189,7 +191,15 @@ class PortableDescription:
         made = written_type(written)
         if made is None:
             self._left_out(node, "type", f"`{written}` is not a type")
-        return made
+            return None
+        name = node.get("unit")
+        if name is None:
+            return made
+        unit = UNITS.get(name)
+        if unit is None or unit_of(with_unit(made, unit)) is None:
+            self._left_out(node, "unit", f"`{written}` has no unit `{name}`")
+            return made
+        return with_unit(made, unit)
 
     def _left_out(self, node: Node, attribute: str, reason: str) -> None:
         what = f"{node.name} `{node.get('name', '')}`"

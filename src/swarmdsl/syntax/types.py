@@ -86,6 +86,12 @@ def declared_unit(type_: Type | None) -> Unit | None:
     return None if unit is None or unit.is_any else unit
 
 
+def unit_name(type_: Type | None) -> str | None:
+    """Return the name of the unit that a declaration gives to a number; None if it gives none."""
+    unit = declared_unit(type_)
+    return unit.name if unit is not None else None
+
+
 def with_unit(type_: Type, unit: Unit | None) -> Type:
     """Return the type of a number, or of an array of numbers, with a unit; others as they are."""
     if isinstance(type_, Array):

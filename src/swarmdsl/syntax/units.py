@@ -166,7 +166,7 @@ def written_in(value: int | float, unit: Unit) -> str:
 
     places = ((each, count) for each in (unit, unit_of_ros(unit.dimension)) for count in (15, 17))
     for each, count in places:
-        if each is None:
+        if each is None or each.name not in UNITS:
             continue
         if isinstance(each.numerator, float):
             number = value / (each.numerator / each.denominator)
@@ -178,7 +178,15 @@ def written_in(value: int | float, unit: Unit) -> str:
             digits += ".0"  # it stays a floating-point number
         if in_unit_of_ros(digits.lstrip("-"), each) == abs(value):
             return f"{digits} {each}"
-    return f"({value!r} * {'100 %' if unit is PERCENT else f'1 {unit_of_ros(unit.dimension)}'})"
+    of_ros = unit_of_ros(unit.dimension)
+    factors = [f"1 {name}" for name in of_ros.name.split(" ")] if of_ros is not None else ["100 %"]
+    return f"({' * '.join([repr(value), *factors])})"
+
+
+def described_unit(unit: Unit) -> str:
+    """Return a sentence that says in which unit ROS has numbers of a declared unit."""
+    of_ros = unit_of_ros(unit.dimension)
+    return f"In {of_ros}." if of_ros is not None else "A share of 1: 0.2 is 20 %."
 
 
 def meant_unit(name: str) -> str | None:

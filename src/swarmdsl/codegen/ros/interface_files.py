@@ -24,6 +24,8 @@ from swarmdsl.ir import (
     Service,
     Type,
 )
+from swarmdsl.syntax.types import declared_unit
+from swarmdsl.syntax.units import described_unit
 
 Generation = Literal[1, 2]
 Complain = Callable[[str, Span | None], None]
@@ -162,6 +164,9 @@ def _field(field: Field, package: str, ros: Generation, complain: Complain) -> I
         size = f"[{'<=' if field.type.bounded and ros == 2 else ''}{size}]"
     if isinstance(element, Primitive) and element.bound is not None and ros == 1:
         yield f"# At most {element.bound} characters."
+    unit = declared_unit(field.type)
+    if unit is not None:
+        yield f"# {described_unit(unit)}"
     yield f"{_type(element, package, ros, field.origin, complain)}{size} {field.name}"
 
 

@@ -31,6 +31,7 @@ from swarmdsl.syntax.ast import (
     TypeRef,
     nodes_of,
 )
+from swarmdsl.syntax.types import written
 
 # Shown in full if they are short.
 _SHOWN_IN_FULL = (StructType, EnumType, MessageType, ServiceType, ActionType)
@@ -96,8 +97,10 @@ def _facts(node: Node) -> Iterator[str]:
             pass
         case _:
             type_ = getattr(node, "type", None)
-            if isinstance(type_, TypeRef) and str(type_.type or "") not in ("", type_.span.text):
-                yield f"of type `{type_.type}`"
+            if isinstance(type_, TypeRef) and type_.type is not None:
+                full = written(type_.type)
+                if full != type_.span.text:
+                    yield f"of type `{full}`"
 
 
 def _multiplicity(lower: str, upper: str) -> str:

@@ -8,6 +8,7 @@ from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.swarm_printer.expressions import expression
 from swarmdsl.ir import Docs, Expression, Type
+from swarmdsl.syntax.types import written
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +101,7 @@ def type_value(type_: Type | None) -> Value:
         return ()
     whole = str(type_)
     name, bracket, size = whole.partition("[")
-    return (Ref("interface", name), f"{bracket}{size}") if "/" in name else (whole,)
+    return (Ref("interface", name), f"{bracket}{size}") if "/" in name else (written(type_),)
 
 
 def state_kind(machine: str) -> str:

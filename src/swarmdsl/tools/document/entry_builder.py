@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import Node, Param, TypeRef
+from swarmdsl.syntax.types import written
 from swarmdsl.tools.document.elements import Element, Elements, SourceLocations
 from swarmdsl.tools.document.names import NameResolver, doc_of
 from swarmdsl.tools.document.page import Cell, Code, Entry, Figure, Inline, Prose, Row, Table
@@ -75,7 +76,7 @@ class EntryBuilder:
         """Source text of a type, followed by the full type if that differs."""
         source = self.names.code(ref.span, owner)
         text = "".join(text for text, _ in source.pieces)
-        full = str(ref.type)
+        full = written(ref.type)
         is_enum = self.names.type(ref.type) is not None
         if full == text or is_enum or full.endswith(f"/{text}"):
             return (source,)

@@ -10,6 +10,7 @@ from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.codegen.exchange.scxml.xml import add_doc, add_payload
 from swarmdsl.ir import Action, Array, Field, Interface, Message, Service, System, Type
 from swarmdsl.ir.expression_printer import translate
+from swarmdsl.syntax.types import unit_name
 
 
 def describe_interfaces(root: etree._Element, types: Iterable[Type], system: System) -> None:
@@ -53,6 +54,7 @@ def _describe(root: etree._Element, interface: Interface) -> None:
                 *(element, "constant"),
                 name=constant.name,
                 type=str(constant.type),
+                unit=unit_name(constant.type),
                 value=translate(constant.value, dialect({})),
             )
             add_doc(given, constant.doc)
@@ -61,4 +63,10 @@ def _describe(root: etree._Element, interface: Interface) -> None:
             continue
         inside = element if name == "message" else add_payload(element, "part", name=name)
         for field in fields:
-            add_doc(add_payload(inside, "field", name=field.name, type=str(field.type)), field.doc)
+            described = add_payload(
+                *(inside, "field"),
+                name=field.name,
+                type=str(field.type),
+                unit=unit_name(field.type),
+            )
+            add_doc(described, field.doc)

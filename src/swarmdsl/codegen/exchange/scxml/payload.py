@@ -36,6 +36,7 @@ from swarmdsl.ir import (
 )
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expression_printer import Dialect, translate
+from swarmdsl.syntax.types import unit_name
 
 
 def describe_machine(
@@ -83,6 +84,7 @@ def describe_machine(
                 *(root, tag),
                 name=item.name,
                 type=str(item.type),
+                unit=unit_name(item.type),
                 location=data[item.name],
                 # The value in the document is then the default of the type.
                 initial="default" if unset else None,

@@ -1,0 +1,193 @@
+"""Give the numbers of imported expressions the units that the model expects.
+
+Documents have plain numbers in the units of ROS. With `altitude` in metres, `altitude > 15`
+becomes `altitude > 15 m`, and `sin(x)` becomes `sin(x * 1 rad)`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any, TypeVar, cast
+
+from swarmdsl.analysis.types.unit_rules import (
+    has_root,
+    must_be_alike,
+    result_unit,
+    takes_angle,
+    units_fit,
+)
+from swarmdsl.base.records import fields_of, replace
+from swarmdsl.base.source import Span
+from swarmdsl.ir import (
+    Action,
+    Array,
+    Assignment,
+    Binary,
+    Call,
+    Expression,
+    Field,
+    FieldAccess,
+    Interface,
+    Literal,
+    Message,
+    Named,
+    Param,
+    ParamRef,
+    Primitive,
+    Service,
+    StateMachine,
+    System,
+    Type,
+    Unary,
+    Variable,
+    VariableRef,
+)
+from swarmdsl.syntax.types import FLOAT, INT, unit_of, with_unit
+from swarmdsl.syntax.units import ANY, PERCENT, PLAIN, RADIAN, UNITS, Unit, unit_of_ros
+
+T = TypeVar("T")
+
+
+def give_units(system: System) -> System:
+    """Return the system with units in the expressions of its machines."""
+    fields = {
+        (known.type, field.name): field.type
+        for known in system.interfaces
+        for field in _fields_of(known)
+    }
+    return replace(
+        system, machines=tuple(_Units(each, fields).node(each) for each in system.machines)
+    )
+
+
+def _fields_of(known: Interface) -> Iterable[Field]:
+    match known:
+        case Message(fields=fields):
+            return fields
+        case Service(request=request, response=response):
+            return (*request, *response)
+        case Action(goal=goal, result=result, feedback=feedback):
+            return (*goal, *result, *feedback)
+    return ()
+
+
+class _Units:
+    """Units of one machine: its variables and params, and the fields of messages."""
+
+    def __init__(self, machine: StateMachine, fields: Mapping[tuple[Named, str], Type]) -> None:
+        self._types = {each.name: each.type for each in machine.variables}
+        self._types.update({each.name: each.type for each in machine.params})
+        self._fields = fields
+
+    def node(self, node: T) -> T:
+        """Return a node of the IR with units in its expressions."""
+        if isinstance(node, tuple):
+            return cast("T", tuple(map(self.node, node)))
+        if isinstance(node, (Primitive, Named, Array, Span)) or "__parts__" not in vars(type(node)):
+            return node
+        if isinstance(node, (Literal, VariableRef, ParamRef, FieldAccess, Unary, Binary, Call)):
+            return cast("T", self.expression(node)[0])
+        if isinstance(node, Assignment):
+            type_ = self._at(node.variable, node.path)
+            return cast("T", replace(node, value=self.stored(node.value, type_)))
+        if isinstance(node, Variable) and node.initial is not None:
+            return cast("T", replace(node, initial=self.stored(node.initial, node.type)))
+        if isinstance(node, Param) and node.default is not None:
+            return cast("T", replace(node, default=self.stored(node.default, node.type)))
+        changed = {name: self.node(getattr(node, name)) for name in fields_of(type(node))}
+        return cast("T", replace(cast("Any", node), **changed))
+
+    def stored(self, value: Expression, type_: Type | None) -> Expression:
+        """Return a value in the unit of the place where it is stored."""
+        made, unit = self.expression(value)
+        return _converted(made, unit, unit_of(type_) if type_ is not None else ANY)
+
+    def expression(self, tree: Expression) -> tuple[Expression, Unit | None]:
+        """Return an expression with units, and the unit of its value."""
+        match tree:
+            case VariableRef(name=name) | ParamRef(name=name):
+                return tree, unit_of(self._types.get(name, tree.type))
+            case FieldAccess(base=base, field=field):
+                return tree, unit_of(self._in(base, field) or tree.type) or ANY
+            case Unary(operator=operator, operand=operand):
+                made, unit = self.expression(operand)
+                return replace(tree, operand=made), unit if operator == "-" else None
+            case Binary(operator=word, left=left, right=right):
+                (first, second), unit = self._operation(word, (left, right))
+                return replace(tree, left=first, right=second), unit
+            case Call(function=word, arguments=arguments):
+                made_, unit = self._operation(word, arguments)
+                return replace(tree, arguments=made_), unit
+        return tree, unit_of(getattr(tree, "type", None))
+
+    def _operation(
+        self, word: str, operands: tuple[Expression, ...]
+    ) -> tuple[tuple[Expression, ...], Unit | None]:
+        pairs = [self.expression(each) for each in operands]
+        expected: Unit | None = None
+        if takes_angle(word):
+            expected = RADIAN
+        elif must_be_alike(word):
+            known = (unit for _, unit in pairs if unit is not None and unit.dimension != PLAIN)
+            expected = next(known, None)
+        alike = takes_angle(word) or expected is not None
+        if word == "sqrt" and not has_root(pairs[0][1]):
+            alike = True
+        if alike:
+            pairs = [
+                (_converted(made, unit, expected), expected) if _is_number(made) else (made, unit)
+                for made, unit in pairs
+            ]
+        units = [with_unit(FLOAT, unit) for _, unit in pairs]
+        return tuple(made for made, _ in pairs), result_unit(word, units)
+
+    def _at(self, variable: str, path: tuple[str, ...]) -> Type | None:
+        """Return the type of a variable, or of a field below it; None if it may have any unit."""
+        type_ = self._types.get(variable)
+        for name in path:
+            type_ = self._fields.get((type_, name)) if isinstance(type_, Named) else None
+        return type_ if not path or unit_of(type_) is not None else None
+
+    def _in(self, base: Expression, field: str) -> Type | None:
+        of = self._types.get(base.name) if isinstance(base, VariableRef) else base.type
+        return self._fields.get((of, field)) if isinstance(of, Named) else None
+
+
+def _is_number(tree: Expression) -> bool:
+    type_ = getattr(tree, "type", None)
+    return type_ is None or unit_of(with_unit(type_, ANY)) is not None
+
+
+def _converted(tree: Expression, found: Unit | None, expected: Unit | None) -> Expression:
+    """Return a number in another unit, which its literal has if there is one."""
+    if not _is_number(tree):
+        return tree
+    if isinstance(tree, Literal):
+        fits = found is not None or expected is None or expected.is_any
+        return tree if fits else replace(tree, type=with_unit(tree.type, expected))
+    if isinstance(tree, Unary) and isinstance(tree.operand, Literal):
+        return replace(tree, operand=_converted(tree.operand, found, expected))
+    if units_fit(found, expected) or expected is PERCENT:
+        return tree
+    if isinstance(tree, Binary) and tree.operator in ("*", "/"):
+        factor = _quotient(expected, found) if tree.operator == "*" else _quotient(found, expected)
+        if isinstance(tree.right, Literal) and factor is not None:
+            literal = replace(tree.right, type=with_unit(tree.right.type, factor))
+            if unit_of(tree.right.type) is None:
+                return replace(tree, right=literal)
+    made = tree
+    if found is not None:
+        made = Binary("/", made, _one(found), FLOAT)
+    if expected is not None:
+        made = Binary("*", made, _one(expected), FLOAT)
+    return made
+
+
+def _quotient(one: Unit | None, other: Unit | None) -> Unit | None:
+    """Return the unit with a name by which one unit is divided by another."""
+    unit = result_unit("/", [with_unit(FLOAT, one), with_unit(FLOAT, other)])
+    return unit if unit is not None and unit.name in UNITS else None
+
+
+def _one(unit: Unit) -> Literal:
+    return Literal(1, with_unit(INT, unit_of_ros(unit.dimension)))

@@ -1,0 +1,137 @@
+"""Units of numbers: literals, results of operations, errors, and the way through a document."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.base.diagnostics.collector import Severity
+from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.driver import pipeline
+from swarmdsl.ir import FLOAT, Literal, System
+from swarmdsl.syntax.types import unit_name, with_unit
+from swarmdsl.syntax.units import UNITS, in_unit_of_ros, written_in
+
+MODEL = """
+message lab_msgs/Seen {{ range : float64 }}
+event Seen : lab_msgs/Seen
+statemachine M {{
+  param x : float64 in m = 15 m
+  param v : float64 in km/h = 36 km/h
+  param d : duration = 90 s
+  param n : float64 = 2
+  var value : {type} = {initial}
+  initial A
+  state A {{
+    on Seen [{guard}] / value = {value} -> B
+    on Seen -> A
+  }}
+  state B {{ on Seen [value == value] -> Done }}
+  final Done
+}}
+"""
+
+
+def system(tmp_path: Path, **given: str) -> tuple[System | None, list[tuple[str, str | None]]]:
+    parts = {"type": "float64", "initial": "0", "guard": "x > 3 m", "value": "0"}
+    file = tmp_path / "model.swarm"
+    file.write_text(MODEL.format(**{**parts, **given}), encoding="utf-8")
+    checked = pipeline.check([file])
+    found = [(each.code, each.help) for each in checked.report if each.severity is Severity.ERROR]
+    return (None if found else checked.system), found
+
+
+@pytest.mark.parametrize(
+    ("digits", "unit", "value"),
+    [
+        ("15", "m", 15),
+        ("0.1", "km", 100.0),
+        ("0.3", "cm", 0.003),
+        ("36", "km/h", 10.0),
+        ("90", "deg", math.pi / 2),
+        ("20", "%", 0.2),
+        ("2", "Wh", 7200),
+    ],
+)
+def test_a_literal_is_converted_once(digits: str, unit: str, value: float) -> None:
+    found = in_unit_of_ros(digits, UNITS[unit])
+    assert (found, type(found)) == (value, type(value))
+
+
+@pytest.mark.parametrize("unit", UNITS.values(), ids=str)
+def test_a_value_is_written_as_it_reads(unit: object) -> None:
+    for value in (0.1, 1 / 3, 0.1 + 0.2, 15.0, 1e-9, 7e20):
+        name = str(unit)
+        text = written_in(value, UNITS[name])
+        digits, _, written = text.strip("()").partition(" ")
+        if text.startswith("("):  # as a product
+            assert float(digits) == value
+        else:
+            assert in_unit_of_ros(digits, UNITS[written]) == value
+
+
+@pytest.mark.parametrize(
+    ("type_", "value"),
+    [
+        ("float64 in m", "x + 20 cm"),
+        ("float64 in m/s", "x / 20 s"),
+        ("float64 in m", "v * 2 s"),
+        ("float64 in s", "x / v + d"),
+        ("float64 in s", "d"),
+        ("float64 in s", "seconds(d)"),
+        ("int32 in s", "30 s"),
+        ("duration", "1 s * (x / v / 1 s)"),
+        ("float64", "x / 3 m"),
+        ("float64", "n * 20 %"),
+        ("float64 in %", "n"),
+        ("float64 in m2", "x * x"),
+        ("float64 in m", "sqrt(x * x) + hypot(x, 3 m)"),
+        ("float64 in rad", "atan2(x, event.range)"),
+        ("float64", "sin(30 deg) + cos(n * 1 rad)"),
+        ("float64 in m", "event.range"),
+        ("float64 in kg", "event.range"),
+        ("float64 in Hz", "1 / 20 s"),
+        ("float64", "n % 2 + 20 % 3"),
+    ],
+)
+def test_units_of_results(type_: str, value: str, tmp_path: Path) -> None:
+    initial = "0 s" if type_ == "duration" else f"0 {type_.partition(' in ')[2]}"
+    assert system(tmp_path, type=type_, initial=initial, value=value)[1] == []
+
+
+@pytest.mark.parametrize(
+    ("guard", "help_"),
+    [
+        ("x > 3", "write `3 m`"),
+        ("atan2(x, x) < 1", "write `1 rad`"),
+        ("v > 3 m", "write a number in `km/h`"),
+        ("x + d > x", "divided by its unit it is a plain number: `d / 1 s`"),
+        ("sin(0.5) > 0", "write `0.5 rad`"),
+        ("x > n", "give it a unit: `n * 1 m`, or declare it `in m`"),
+    ],
+)
+def test_a_wrong_unit_has_a_way_out(guard: str, help_: str, tmp_path: Path) -> None:
+    assert system(tmp_path, guard=guard)[1] == [("SW0621", help_)]
+
+
+def test_a_declaration_keeps_its_unit(tmp_path: Path) -> None:
+    made, _ = system(tmp_path)
+    assert made is not None
+    (machine,) = made.machines
+    params = {each.name: each for each in machine.params}
+    assert unit_name(params["v"].type) == "km/h"
+    assert params["v"].default == Literal(10.0, FLOAT)
+    assert expression(Literal(10.0, with_unit(FLOAT, UNITS["km/h"]))) == "36 km/h"
+
+
+def test_a_guard_in_seconds_is_compared_with_a_duration(tmp_path: Path) -> None:
+    guard = "seconds(d) < 3 s or value > 120 s and value < 1 min"
+    made, found = system(tmp_path, type="float64 in s", initial="0 s", value="d", guard=guard)
+    assert made is not None, found
+
+
+def test_a_unit_exists_and_is_that_of_a_number(tmp_path: Path) -> None:
+    assert system(tmp_path, type="string in m", initial='""', value='""')[1][0][0] == "SW0621"
+    assert system(tmp_path, type="float64 in metres", value="0")[1][0] == ("SW0202", "write `m`")
