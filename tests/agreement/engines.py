@@ -20,9 +20,12 @@ from lxml import etree
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
+from swarmdsl.codegen.exchange.scxml.arrays import ARRAY_FUNCTIONS
 from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
 from swarmdsl.codegen.exchange.scxml.portable import SEND_TYPE
-from swarmdsl.execution.engine import Envelope, Event, Instance, Machine, Run
+from swarmdsl.execution.engine import Envelope, Event, Instance, Machine, Run, appended, item
+from swarmdsl.execution.engine import removed as without
+from swarmdsl.execution.engine import replaced as with_other
 from swarmdsl.execution.scxml import read
 from swarmdsl.ir.operations import OPERATIONS
 
@@ -163,6 +166,24 @@ class _List(list[Any]):
     def length(self) -> int:
         return len(self)
 
+    def filter(self, test: Callable[[Any], bool]) -> _List:
+        return _List(each for each in self if test(each))
+
+    def some(self, test: Callable[[Any], bool]) -> bool:
+        return any(map(test, self))
+
+    def every(self, test: Callable[[Any], bool]) -> bool:
+        return all(map(test, self))
+
+    def least(self, key: Callable[[Any], Any] | None = None) -> Any:
+        return min(self, key=key)
+
+    def greatest(self, key: Callable[[Any], Any] | None = None) -> Any:
+        return max(self, key=key)
+
+    def indexOf(self, value: Any) -> int:  # noqa: N802 - its name in ECMAScript
+        return self.index(value) if value in self else -1
+
 
 def _of(value: Any) -> Any:
     if isinstance(value, dict):
@@ -194,6 +215,8 @@ def _functions() -> Mapping[str, str]:
         write = words.functions[word]
         assert not isinstance(write, str)
         calls[f"language_{word}"] = write("abc" if word == "clamp" else "a")
+    for word in ("item", "append", "remove", "replace"):
+        calls[f"language_{word}"] = ARRAY_FUNCTIONS[word]("abc"[: 2 + (word[0] == "a")])
     found = {call[: call.rindex("(")]: name for name, call in calls.items()}
     for names in ("xy", "xyz"):
         write = words.functions["distance"]
@@ -216,6 +239,11 @@ _ECMASCRIPT = {
     "quotient": operator.truediv,
     **{f"language_{word}": OPERATIONS[word] for word in (*OF_ONE, "clamp", "div")},
     "language_distance": _distance,
+    "language_item": item,
+    "language_append": lambda *given: _of(appended(*given)),
+    "language_remove": lambda *given: _of(without(*given)),
+    "language_replace": lambda *given: _of(with_other(*given)),
+    "Object": SimpleNamespace(assign=lambda one, other: _of({**one, **other})),
     "true": True,
     "false": False,
 }
@@ -224,6 +252,18 @@ _WORDS = {"&&": " and ", "||": " or ", "!": " not "}
 _PYTHON = re.compile(
     r"""(?P<kept>"(?:[^"\\]|\\.)*"|!=)|(?P<word>&&|\|\||!)|(?P<function>\(function [^}]*\}\))"""
 )
+_EXTREME = re.compile(
+    r"\.reduce\(function \((?P<one>\w+), (?P<other>\w+)\) \{ return "
+    r"(?:(?P<key>\(function [^}]*\}\))\((?P=other)\) (?P<sign>[<>]) (?P=key)\((?P=one)\)"
+    r"|(?P=other) (?P<plain>[<>]) (?P=one)) \? (?P=other) : (?P=one); \}\)"
+)
+_FUNCTION = re.compile(r"\(function \((\w+)\) \{ return (.*); \}\)")
+
+
+def _extreme(found: re.Match[str]) -> str:
+    """The item of a list with the least or greatest value, as Python finds it."""
+    word = "least" if (found["sign"] or found["plain"]) == "<" else "greatest"
+    return f".{word}({(found['key'] or '()')[1:-1]})"
 
 
 def in_python(document: bytes) -> str:
@@ -232,8 +272,12 @@ def in_python(document: bytes) -> str:
     def word(found: re.Match[str]) -> str:
         if found["function"]:
             # Those of Python have no value where these have none.
-            return _functions()[found["function"]]
+            known = _functions().get(found["function"])
+            return known or _FUNCTION.sub(applied, found["function"])
         return found["kept"] or _WORDS[found["word"]]
+
+    def applied(function: re.Match[str]) -> str:
+        return f"(lambda {function[1]}: {_PYTHON.sub(word, function[2])})"
 
     root = etree.fromstring(document)
     for element in root.iter():
@@ -243,7 +287,8 @@ def in_python(document: bytes) -> str:
                 element.set(
                     attribute, element.get(attribute).replace(_ORIGIN, f"_event.data.{_WHO}")
                 )
-                written = _PYTHON.sub(word, element.get(attribute)).strip()
+                written = _EXTREME.sub(_extreme, element.get(attribute))
+                written = _PYTHON.sub(word, written).strip()
                 element.set(attribute, f"as_object({written})")
     return etree.tostring(root).decode()
 

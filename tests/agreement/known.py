@@ -38,6 +38,18 @@ DEEPER_FIRST = Cause(
     <state id="one"/><state id="two"/>""",
     ("e",),
 )
+FUNCTIONS = Cause(
+    PSM,
+    "no data in functions",
+    "its expressions are those of Python, which evaluates them so that functions in them do not "
+    "see the data of the machine (B.2.1)",
+    """<datamodel><data id="xs" expr="[1]"/><data id="n" expr="0"/></datamodel>
+    <state id="a">
+      <transition event="e" cond="xs.some(function (x) { return x &gt; n; })" target="b"/>
+    </state>
+    <state id="b"/>""",
+    ("e",),
+)
 FIELDS = Cause(
     QT,
     "no assignment to fields",
@@ -84,7 +96,7 @@ DONE_IS_THE_END = Cause(
     <state id="b"/>""",
     ("e", "e"),
 )
-CAUSES = (DEEPER_FIRST, FIELDS, PARALLEL_LAST, FIRST_STATE, DONE_IS_THE_END)
+CAUSES = (DEEPER_FIRST, FUNCTIONS, FIELDS, PARALLEL_LAST, FIRST_STATE, DONE_IS_THE_END)
 
 NOTHING_DEFERRED = "SCXML has no deferred events: `<sw:defer>` is a word of swarmdsl"
 DEFERRED = {
@@ -104,6 +116,8 @@ DEFERRED = {
 }
 MODELS = {
     **{("Keeps", engine): cause for engine, cause in DEFERRED.items()},
+    ("Arrays", PSM): FUNCTIONS,
+    ("Market", PSM): FUNCTIONS,
     ("Disagreement", QT): DEEPER_FIRST,
     ("Fields", QT): FIELDS,
 }
