@@ -53,11 +53,10 @@ class FactTracker:
             return known
         return self._set(actor, robot, value=self._holds(line))
 
-    def reset(self) -> bool:
-        """Forget what happened; return True if anything did."""
-        happened = bool(self.holding)
+    def reset(self) -> set[str | None]:
+        """Forget what happened; return the robots to which it did."""
+        happened, self.holding = self.holding, set()
         self._true.clear()
-        self.holding.clear()
         return happened
 
     def _set(self, actor: Actor, robot: str | None, *, value: bool) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
@@ -94,22 +94,23 @@ class Watch:
             if each.due is not None and line.time > each.due:
                 self._note(each, each.advance(line.time), line.time)
         self._last.append(line)
-        changed: dict[FactTracker, bool] = {}
+        changed: dict[FactTracker, set[str | None]] = {}
         if self._begun:
             for tracker in self._happened:
                 changed[tracker] = tracker.reset()
             self._happened = []
         for tracker in self._by_actor[line.actor]:
-            if tracker.see(line):
-                changed[tracker] = True
-            if tracker.momentary and tracker.holding:
-                self._happened.append(tracker)
-                changed[tracker] = True
-        if not self._begun:
+            happens = tracker.see(line) or (tracker.momentary and tracker.holding)
+            if happens:
+                changed.setdefault(tracker, set()).add(line.actor.robot.name)
+                if tracker.momentary:
+                    self._happened.append(tracker)
+        if not self._begun or not changed:
             return
         affected = {user: None for tracker in changed for user in self._users.get(tracker, ())}
         for each in affected:
-            self._note(each, each.step(line.time), line.time)
+            robots = each.affected(changed)
+            self._note(each, each.step(line.time, robots), line.time)
         if self._stops and any(each.property.chance is None for each in self.violations):
             raise ViolatedError
 
@@ -120,7 +121,7 @@ class Watch:
         found = []
         for each in self._watched:
             verdicts = each.finish(time, ended=ended)
-            self._note(each, each.newly_violated(), time)
+            self._note(each, each.newly_violated(each.robots), time)
             worst = next((v for v in (FALSE, OPEN) if v in verdicts.values()), TRUE)
             robots = tuple(name for name, v in verdicts.items() if v == worst and name is not None)
             violations = tuple(v for v in self.violations if v.property is each.property)
@@ -144,7 +145,7 @@ class Watch:
         """Take the first step, when all machines have started."""
         self._begun = True
         for each in self._watched:
-            self._note(each, each.step(0), 0)
+            self._note(each, each.step(0, each.robots), 0)
 
     def _note(
         self, watched: _Watched, violated: Iterator[tuple[str | None, int]], now: int
@@ -165,6 +166,8 @@ class _Watched:
     def __init__(self, property_: Property, watch: Watch) -> None:
         self.property = property_
         self.trackers: dict[FactTracker, None] = {}
+        self._shared: set[FactTracker] = set()
+        """Facts that are not only about the robot of `each`."""
         self._watch = watch
         scope = property_.scope
         self._scope = [self._truth(each) for each in scope.claims] if scope is not None else []
@@ -178,29 +181,40 @@ class _Watched:
             property_.times,
             momentary=any(watch.tracker(*self._about(each)).momentary for each in first),
         )
-        robots: list[str | None] = [None]
+        self.robots: list[str | None] = [None]
         if property_.each is not None:
             actors = watch.robots(property_.each)
-            robots = list(dict.fromkeys(actor.robot.name for actor in actors))
-        self._monitors = {robot: Monitor(sentence) for robot in robots}
+            self.robots = list(dict.fromkeys(actor.robot.name for actor in actors))
+        self._monitors = {robot: Monitor(sentence) for robot in self.robots}
         self._told: set[str | None] = set()
         self.due: int | None = None
+        """Time before which nothing is late; it may be too early."""
 
-    def step(self, time: int) -> Iterator[tuple[str | None, int]]:
+    def affected(self, changed: Mapping[FactTracker, set[str | None]]) -> Iterable[str | None]:
+        """Return the robots whose monitors must take a step."""
+        if self.property.each is None or not self._shared.isdisjoint(changed):
+            return self.robots
+        robots = set().union(*(changed[each] for each in self.trackers if each in changed))
+        return [robot for robot in robots if robot in self._monitors]
+
+    def step(self, time: int, robots: Iterable[str | None]) -> Iterator[tuple[str | None, int]]:
         """Take a step; return the robots that violate the property now, with the times."""
-        for robot, monitor in self._monitors.items():
+        for robot in robots:
+            monitor = self._monitors[robot]
             if not monitor.decided:
                 scope = [truth(robot) for truth in self._scope]
                 monitor.step(time, [truth(robot) for truth in self._claims], scope)
-        self._set_due()
-        return self.newly_violated()
+                if monitor.due is not None and (self.due is None or monitor.due < self.due):
+                    self.due = monitor.due
+        return self.newly_violated(robots)
 
     def advance(self, time: int) -> Iterator[tuple[str | None, int]]:
         """Let time pass, likewise."""
         for monitor in self._monitors.values():
             monitor.advance(time)
-        self._set_due()
-        return self.newly_violated()
+        dues = (monitor.due for monitor in self._monitors.values())
+        self.due = min((due for due in dues if due is not None), default=None)
+        return self.newly_violated(self.robots)
 
     @property
     def state(self) -> Verdict:
@@ -214,16 +228,13 @@ class _Watched:
             robot: monitor.finish(time, ended=ended) for robot, monitor in self._monitors.items()
         }
 
-    def newly_violated(self) -> Iterator[tuple[str | None, int]]:
-        """Yield the robots that violated the property since this was asked last."""
-        for robot, monitor in self._monitors.items():
+    def newly_violated(self, robots: Iterable[str | None]) -> Iterator[tuple[str | None, int]]:
+        """Yield those robots that violated the property since this was asked last."""
+        for robot in robots:
+            monitor = self._monitors[robot]
             if monitor.violated is not None and robot not in self._told:
                 self._told.add(robot)
                 yield robot, monitor.violated
-
-    def _set_due(self) -> None:
-        dues = (monitor.due for monitor in self._monitors.values())
-        self.due = min((due for due in dues if due is not None), default=None)
 
     # ---- claims
 
@@ -238,13 +249,15 @@ class _Watched:
         tracker = self._watch.tracker(*self._about(claim))
         self.trackers[tracker] = None
         if isinstance(claim, Count):
+            self._shared.add(tracker)
             compare, number = OPERATIONS[claim.comparison], claim.number
             return lambda me: bool(compare(len(tracker.holding), number))
+        if claim.robots is None and claim.act != "arrives" and self.property.each is not None:
+            return lambda me: me in tracker.holding
+        self._shared.add(tracker)
         if claim.robots is not None:
             return _of_robots(claim.robots, tracker)
-        if claim.act == "arrives" or self.property.each is None:
-            return lambda me: bool(tracker.holding)
-        return lambda me: me in tracker.holding
+        return lambda me: bool(tracker.holding)
 
     def _about(self, claim: Fact | Count) -> tuple[Fact | Count, list[Actor]]:
         """Return a fact with the actors of its robots."""
