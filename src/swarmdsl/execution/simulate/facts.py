@@ -24,20 +24,20 @@ class FactTracker:
     """
 
     def __init__(self, fact: Fact | Count, cast: Sequence[Actor], data: Data) -> None:
-        self.momentary = isinstance(fact, Fact) and fact.act in MOMENTARY
+        self.act = "in" if isinstance(fact, Count) else fact.act
+        self.name = fact.state if isinstance(fact, Count) else fact.name
+        self.momentary = self.act in MOMENTARY
         self.robots = {actor.robot.name for actor in cast}
         self.holding: set[str | None] = set()
         self._true: set[Actor] = set()
-        act = "in" if isinstance(fact, Count) else fact.act
         guard = fact.guard if isinstance(fact, Fact) else None
-        name = fact.state if isinstance(fact, Count) else fact.name
         if guard is not None:
             # Values are those of the robot itself, not of its parts.
             self._cast = frozenset(actor for actor in cast if actor.name == actor.robot.name)
             self._holds = _has(guard, data)
         else:
             self._cast = frozenset(cast)
-            self._holds = _in(name) if act == "in" else _ACTS[act](name)
+            self._holds = _in(self.name) if self.act == "in" else _ACTS[self.act](self.name)
 
     def follows(self, actor: Actor) -> bool:
         """Return True if lines of an actor can change the fact."""
@@ -126,3 +126,39 @@ _ACTS: Mapping[str, Callable[[str], Callable[[Line], bool]]] = {
     "hears": lambda name: lambda line: line.event == name,
     "arrives": lambda name: lambda line: line.event == name and not line.envelope.sender,
 }
+
+
+class Route:
+    """Trackers that follow one actor, by the lines that can change them."""
+
+    def __init__(self, trackers: Sequence[FactTracker]) -> None:
+        self._all = trackers
+        self._states = [each for each in trackers if each.act == "in"]
+        self._values = [each for each in trackers if each.act == "has"]
+        self._named: dict[tuple[str, str], list[FactTracker]] = {}
+        for each in trackers:
+            if each.momentary:
+                act = "hears" if each.act == "arrives" else each.act
+                self._named.setdefault((act, each.name), []).append(each)
+        self._last: list[str] | None = None
+
+    def trackers_of(self, line: Line) -> Sequence[FactTracker]:
+        """Return the trackers that a line can change."""
+        if line.event == LOST:
+            return self._all
+        found = list(self._values)
+        if line.configuration != self._last:
+            self._last = list(line.configuration)
+            found += self._states
+        named = self._named
+        if named:
+            if line.event is not None:
+                found += named.get(("hears", line.event), ())
+            for act, names in (
+                ("sends", line.sent),
+                ("starts", line.started),
+                ("cancels", line.cancelled),
+            ):
+                for name in names:
+                    found += named.get((act, name), ())
+        return found

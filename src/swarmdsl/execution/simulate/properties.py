@@ -9,7 +9,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.execution.monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.expressions import function_of
-from swarmdsl.execution.simulate.facts import Data, FactTracker
+from swarmdsl.execution.simulate.facts import Data, FactTracker, Route
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.ir import Claim, Count, Fact, Junction, Property, Robots
@@ -78,10 +78,12 @@ class Watch:
         for each in self._watched:
             for tracker in each.trackers:
                 self._users.setdefault(tracker, []).append(each)
-        self._by_actor: dict[Actor, list[FactTracker]] = {
-            actor: [each for each in self._trackers.values() if each.follows(actor)]
+        self._routes = {
+            actor: Route([each for each in self._trackers.values() if each.follows(actor)])
             for actor in cast
         }
+        self._due: int | None = None
+        """Time before which nothing is late; it may be too early."""
         self._happened: list[FactTracker] = []
         self._last: deque[Line] = deque(maxlen=REMEMBERED)
         self._begun = False
@@ -90,16 +92,20 @@ class Watch:
         """Process a line; those of the start are one step."""
         if not self._begun and line.event is not None:
             self._begin()
-        for each in self._watched:
-            if each.due is not None and line.time > each.due:
-                self._note(each, each.advance(line.time), line.time)
+        if self._due is not None and line.time > self._due:
+            for each in self._watched:
+                if each.due is not None and line.time > each.due:
+                    self._note(each, each.advance(line.time), line.time)
+            self._due = min(
+                (each.due for each in self._watched if each.due is not None), default=None
+            )
         self._last.append(line)
         changed: dict[FactTracker, set[str | None]] = {}
         if self._begun:
             for tracker in self._happened:
                 changed[tracker] = tracker.reset()
             self._happened = []
-        for tracker in self._by_actor[line.actor]:
+        for tracker in self._routes[line.actor].trackers_of(line):
             happens = tracker.see(line) or (tracker.momentary and tracker.holding)
             if happens:
                 changed.setdefault(tracker, set()).add(line.actor.robot.name)
@@ -111,6 +117,8 @@ class Watch:
         for each in affected:
             robots = each.affected(changed)
             self._note(each, each.step(line.time, robots), line.time)
+            if each.due is not None and (self._due is None or each.due < self._due):
+                self._due = each.due
         if self._stops and any(each.property.chance is None for each in self.violations):
             raise ViolatedError
 
@@ -146,6 +154,7 @@ class Watch:
         self._begun = True
         for each in self._watched:
             self._note(each, each.step(0, each.robots), 0)
+        self._due = min((each.due for each in self._watched if each.due is not None), default=None)
 
     def _note(
         self, watched: _Watched, violated: Iterator[tuple[str | None, int]], now: int
