@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from swarmdsl.codegen import Diagnostics
 from swarmdsl.codegen.python import Call, Source
 from swarmdsl.codegen.ros import parameter_value, with_parameters
-from swarmdsl.codegen.shared import BehaviorNode, Value, constant, params_by_name
-from swarmdsl.codegen.shared.units import doc_with_unit
+from swarmdsl.codegen.shared import BehaviorNode, Value, constant, doc_with_unit, params_by_name
 from swarmdsl.ir import Array, Literal, Param, Primitive, StateMachine
 
 from .imports import Imports

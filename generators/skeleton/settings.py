@@ -6,8 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from swarmdsl.codegen import Diagnostics, Span, dataclass
 from swarmdsl.codegen.ros import parameter_value
-from swarmdsl.codegen.shared import Value, constant, params_by_name
-from swarmdsl.codegen.shared.units import doc_with_unit
+from swarmdsl.codegen.shared import Value, constant, doc_with_unit, params_by_name
 from swarmdsl.ir import Array, Expression, Param, Primitive
 
 from .names import TARGET, identifiers

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 
 from swarmdsl.codegen.python import comment_lines
 from swarmdsl.codegen.ros import yaml_key, yaml_value
-from swarmdsl.codegen.shared import BehaviorNode, ParamValue, Value
-from swarmdsl.codegen.shared.units import doc_with_unit
+from swarmdsl.codegen.shared import BehaviorNode, ParamValue, Value, doc_with_unit
 
 from .robots import Fleet, Robot
 

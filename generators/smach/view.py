@@ -24,8 +24,7 @@ from swarmdsl.codegen.ros import (
     manifest,
     third_party_packages,
 )
-from swarmdsl.codegen.shared import envelopes_of, missing_values, uses_self
-from swarmdsl.codegen.shared.units import doc_with_unit
+from swarmdsl.codegen.shared import doc_with_unit, envelopes_of, missing_values, uses_self
 from swarmdsl.ir import (
     DURATION,
     Array,

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from swarmdsl.codegen.shared.units import doc_with_unit
+from swarmdsl.codegen.shared import doc_with_unit
 from swarmdsl.codegen.xml import legal
 from swarmdsl.codegen.xml_tree import document as written
 from swarmdsl.ir import StateMachine

@@ -27,11 +27,17 @@ def systems() -> list[tuple[str, System]]:
     return [(name, result.system) for name, result in checked if result.system is not None]
 
 
+def deferrals(system: System) -> list[str]:
+    """Return the diagnostics of deferred events, which other engines discard."""
+    states = (state for machine in system.machines for state in machine.walk())
+    return ["no-place" for state in states for _ in state.deferred]
+
+
 @pytest.mark.parametrize(("name", "system"), systems())
 def test_portable_files_are_valid(
     name: str, system: System, schema: etree.XMLSchema, emit: Callable[..., dict[str, str]]
 ) -> None:
-    files = emit(system)
+    files = emit(system, expected=deferrals(system))
 
     assert files or not system.machines
     for path, text in files.items():
@@ -86,4 +92,6 @@ def test_the_same_model_gives_the_same_files(
 ) -> None:
     again = dict(systems())[name]
 
-    assert emit(again) == emit(system)
+    expected = deferrals(system)
+
+    assert emit(again, expected=expected) == emit(system, expected=expected)

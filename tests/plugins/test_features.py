@@ -19,7 +19,8 @@ statemachine M {
   var got : float64
   initial Plain
   state Plain {
-    on Low -> Work
+    defer Told
+    on Low / send Low(level = got) after 2 s, cancel Low -> Work
   }
   state Work {
     do work(distance = far + self.index) gives (distance => got)
@@ -84,7 +85,9 @@ def found(compiled) -> dict[Feature, list[str]]:
             Feature.ASSIGNMENT,
             ["got = event.level", "got = 2.0", "got = 3.0", "got = 4.0"],
         ),
-        (Feature.SEND, ["send Low", "send Told"]),
+        (Feature.SEND, ["send Low(level = got) after 2 s", "send Low", "send Told"]),
+        (Feature.DELAYED_SEND, ["2 s", "cancel Low"]),
+        (Feature.DEFER, ["Told"]),
         (Feature.TIMEOUT, ["after 3 s"]),
         (Feature.RESULT, ["distance => got"]),
         (Feature.CALLBACK, ["do work(by make_goal) gives by take_result"]),

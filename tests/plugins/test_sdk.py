@@ -73,7 +73,8 @@ def test_generators_import_the_sdk_only() -> None:
 
 
 def test_code_generation_sees_the_ir_and_no_front_end() -> None:
-    below = ("swarmdsl.codegen", "swarmdsl.ir", "swarmdsl.syntax.types", "swarmdsl.base")
+    types = ("swarmdsl.syntax.types", "swarmdsl.syntax.units")
+    below = ("swarmdsl.codegen", "swarmdsl.ir", *types, "swarmdsl.base")
     # The printer of models needs the literals, comments and keywords of the language.
     parser = "swarmdsl.syntax.parser"
     language = {f"{parser}.{name}" for name in ("doc_comments", "keywords", "literals")}

@@ -51,6 +51,9 @@ if TYPE_CHECKING:
     from swarmdsl.codegen.shared.swarmros import (
         bridge_files,
     )
+    from swarmdsl.codegen.shared.units import (
+        doc_with_unit,
+    )
     from swarmdsl.codegen.shared.wiring import (
         Remaps,
         Wiring,
@@ -79,6 +82,7 @@ else:
             "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
             "swarmdsl.codegen.shared.part_values": "check_part_values",
             "swarmdsl.codegen.shared.swarmros": "bridge_files",
+            "swarmdsl.codegen.shared.units": "doc_with_unit",
             "swarmdsl.codegen.shared.wiring": "Remaps Wiring check_wiring member_wiring",
         },
     )
@@ -102,6 +106,7 @@ __all__ = [
     "default_result",
     "default_value",
     "delays",
+    "doc_with_unit",
     "entered_region",
     "envelopes_of",
     "evaluate",
