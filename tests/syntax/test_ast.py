@@ -21,7 +21,7 @@ OTHERS = {
 INLINE = {
     *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Address"),
     *("Chance", "Claim", "Conjunction", "Each", "Fact", "Pattern", "PropertyScope", "Term", "Who"),
-    *("Assignment", "Append", "Remove", "Clear"),
+    *("Assignment", "Append", "Remove", "Clear", "Cancel", "DeferredEvent"),
     *("OutcomeTrigger", "DoneTrigger", "EventTrigger", "TimeTrigger", "MonitorTrigger"),
 }
 

@@ -6,6 +6,7 @@ tree. `pytest --bless` rewrites these: read them before you commit.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from io import StringIO
 from pathlib import Path
@@ -18,7 +19,9 @@ from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.syntax.ast import Node
 from swarmdsl.syntax.ast.walk import children
+from swarmdsl.syntax.errors.report import TERMINALS
 from swarmdsl.syntax.parse import parse
+from swarmdsl.syntax.parser import generated
 
 FOLDER = Path(__file__).parent / "broken"
 IMPORTED = "types.swarm"
@@ -59,3 +62,14 @@ def test_every_expected_text_has_its_case() -> None:
         Path(case).stem for case in CASES
     ]
     assert len(CASES) >= 100
+
+
+def test_every_terminal_that_can_be_missing_has_a_name_in_messages() -> None:
+    """An expression that also matches the empty string is never missing."""
+    nameless = [
+        regex
+        for regex, name, literal in generated.TERMINALS
+        if name not in TERMINALS and not literal and re.match(regex, "") is None
+    ]
+
+    assert nameless == []

@@ -38,11 +38,6 @@ _HINTS = (
     # expressions
     (r"\[[^]]*\b([\w.]+) @in\b", "", r"compare with both bounds: `\1 >= 1 and \1 <= 3`"),
     (r"\*@\*|@\^", "", _POWER),
-    (
-        r"\w@\[",
-        "`+`",
-        "expressions cannot index arrays: only `len` applies to them",
-    ),
     # states
     (r"\bhistory@ *$", "", "write `history Name`"),
     (r"^ *@\[\*\] *-+> *(\w+)", "", r"write `initial \1`"),

@@ -36,41 +36,53 @@ TERMINALS = {
     "PREFIX": "a value",
     "ROOT": "a value",
     "PRIMARY": "a value",
+    "INDEX": "a number",
+    "PROBABILITY": "a probability such as `0.9`",
+    "BEFOREDOT": "`.`",
+    "DOTTED": "`.`",
+    "BEFOREINDEX": "an index",
+    "LATER": "`after`",
     "EOF": "the end of the file",
 }
 # A phrase for several keywords, where all of them are expected; the first that fits.
 _GROUPS = {
     "a declaration": FIRST["Declaration"] | FIRST["Optimization"],
     "a trigger": FIRST["Trigger"],
+    "an effect": FIRST["Effect"],
     "an item of a state": FIRST["StateItem"],
     "an item of a state machine": FIRST["MachineItem"],
     "an item of a region": FIRST["RegionItem"],
     "an item of a member": FIRST["MemberItem"],
 }
+_OPERANDS = {
+    "a name",
+    "a string in double quotes",
+    "`true`",
+    "`false`",
+    "`event`",
+    "`self`",
+    "`(`",
+}
 # Left out of a message next to a phrase that covers them.
 _IMPLIED = {
     "a trigger": {"a name"},
+    "an effect": {"a value", *_OPERANDS},
     "a declaration": {"the end of the file", "`package`", "`import`"},
     "an item of a member": {"a name"},
-    "a value": {
-        "a name",
-        "a string in double quotes",
-        "`true`",
-        "`false`",
-        "`event`",
-        "`self`",
-        "`(`",
-    },
+    "a value": _OPERANDS,
 }
 # Left out of a message when something more specific is expected.
-_OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"}
+_OPERATORS = {
+    *("and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"),
+    "an index",
+}
 # Continuations of a statement that could end here.
 _CONTINUATIONS = {
     f"`{word}`" for word in ("[", ",", "->", "/", "(", "{", "=", "on", "gives", "extends", "in")
 }
 # Continuations of the line above.
 _LINE_CONTINUATIONS = {
-    f"`{word}`" for word in (",", "->", "/", "(", "=", "on", "gives", "extends", "..", "in")
+    f"`{word}`" for word in (",", "->", "/", "(", "{", "=", "on", "gives", "extends", "..", "in")
 }
 _COLON = re.compile(r"[ \t]*:")
 _MAX_SHOWN = 8

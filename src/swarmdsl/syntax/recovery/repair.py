@@ -30,10 +30,14 @@ _PLACEHOLDERS = {
     "BOUND": "1",
     "LENGTH": "1 m",
     "QUANTITY": "0",
+    "INDEX": "0",
+    "PROBABILITY": "1",
 }
 # An inserted bracket may not be the intended one.
 _OPENING = ("`(`", "`[`", "`/`", "`.`")
 _SYMBOLS = ("`:`", "`->`", "`=`", "`=>`", "`..`", "`)`", "`]`", "`(`", "`[`", "`,`", "`/`", "`.`")
+# Preferred in properties, where a name or a bracket would leave more to complete.
+_PATTERNS = ("`never`", "`then`")
 # Preferred among keywords, because they mean least.
 _KEYWORDS = ("`state`", "`swarm`", "`in`", "`on`", "`of`", "`x`")
 _MAX_EDITS = 4
@@ -168,7 +172,7 @@ def _cut_rest(header: PatchedText, failure: Failure, attempt: _Attempt) -> Repai
 def _missing(failure: Failure) -> list[str]:
     """Return texts to insert where the parser stops; those that mean least first."""
     expected = failure.expected
-    symbols = [word.strip("`") for word in _SYMBOLS if word in expected]
+    symbols = [word.strip("`") for word in (*_PATTERNS, *_SYMBOLS) if word in expected]
     places = [text for terminal, text in _PLACEHOLDERS.items() if terminal in expected]
     words = [word for word in _KEYWORDS if word in expected]
     words += sorted(word for word in expected if re.fullmatch(r"`[a-z]+`", word))
