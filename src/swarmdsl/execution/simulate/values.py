@@ -61,7 +61,7 @@ def fitted(type_: Type, value: Any, system: System, way: Way = ()) -> Any:
             return [fitted(element, each, system, (*way, i)) for i, each in enumerate(value)]
     if not isinstance(value, dict):
         raise _misfit(way, f"the fields of `{type_}`", value)
-    described = system.interface(type_)
+    described = system.known_interface(type_)
     if not isinstance(described, Message):
         return numbers(value)
     given = _given(described.fields, value, system, f"`{type_}`", way)

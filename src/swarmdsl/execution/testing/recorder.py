@@ -56,6 +56,8 @@ class Recorder:
         self._states[number] = line.configuration
         if line.event == LOST:
             self._lost.add(number)
+        elif line.event is None:
+            self._lost.discard(number)  # it started anew
         self._actions["sends"][number].update(line.sent)
         self._sent[number].extend(zip(line.sent, line.messages, line.addresses, strict=True))
         self._actions["starts"][number].update(line.started)
