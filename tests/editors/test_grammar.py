@@ -42,6 +42,8 @@ def scopes_of(part: Any, language: Any) -> tuple[str, ...]:
     """Return the allowed scope prefixes of a terminal of textX."""
     if language.is_keyword(part.rule):
         return VALUES.get(part.value, KEYWORD)
+    if part.rule.rule_name == "LATER":
+        return KEYWORD
     if part.value.startswith('"'):
         return STRING
     if re.match(r"-?\d", part.value):

@@ -45,7 +45,7 @@ syn match swarmStatement #\<deadline\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#
 syn match swarmDeclaration #\<defer\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<each\>\ze[ \t]*[A-Za-z_]#
-syn match swarmStatement #\<effort\>\ze[ \t]*[,;}]#
+syn match swarmStatement #\<effort\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmStatement #\<evaluations\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<eventually\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<feedback\>\ze[ \t]*[{]#
@@ -54,7 +54,7 @@ syn match swarmDeclaration #\<has\>\ze[ \t]*[\[]#
 syn match swarmDeclaration #\<hears\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<internal\>\ze[ \t]*\%(\%(after\|monitor\|on\)\>\|[\[]\)#
 syn match swarmStatement #\<keep\>\ze[ \t]*[A-Za-z_0-9"-]#
-syn match swarmStatement #\<latest\>\ze[ \t]*[,;}]#
+syn match swarmStatement #\<latest\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmDeclaration #\<leads\>\ze[ \t]*\%(to\)\>#
 syn match swarmDeclaration #\<least\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<lifespan\>\ze[ \t]*[A-Za-z_0-9"-]#
@@ -67,7 +67,7 @@ syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<only\>\ze[ \t]*\%(after\)\>#
 syn match swarmDeclaration #\<other\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<possible\>\ze[ \t]*[*A-Za-z_0-9"]#
-syn match swarmStatement #\<reliable\>\ze[ \t]*[,;}]#
+syn match swarmStatement #\<reliable\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmDeclaration #\<remove\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<request\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<response\>\ze[ \t]*[{]#
@@ -81,7 +81,7 @@ syn match swarmDeclaration #\<starts\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<step\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<then\>\ze[ \t]*[*A-Za-z_0-9"]#
-syn match swarmDeclaration #\<times\>\ze[ \t]*[,;}]#
+syn match swarmDeclaration #\<times\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmStatement #\<to\>\ze[ \t]*[*A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<where\>\ze[ \t]*[A-Za-z_0-9"-]#

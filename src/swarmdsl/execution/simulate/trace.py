@@ -85,7 +85,7 @@ class Trace(Observer):
         life.revive(by)
         by.observer = self if self.is_heard else life
 
-    def open(self) -> None:
+    def attach(self) -> None:
         """Begin the trace; there are no more listeners to come."""
         if not self.is_heard:
             for life in self.lives.values():

@@ -109,7 +109,7 @@ class World:
 
     def begin(self) -> None:
         """Start all machines and schedule the scenario."""
-        self.trace.open()
+        self.trace.attach()
         for instance in self._instances.values():
             self.trace.begin(instance, None)
             instance.start()

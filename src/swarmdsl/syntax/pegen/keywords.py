@@ -172,12 +172,10 @@ class Keywords:
             f"\\{mark}" if mark == "[" else mark for mark in "[-" if mark in after.tokens
         )
         if not symbols and not words:
-            symbols = ",;}"  # the word is a whole item of a block
+            return dialect.group(["[,;}]", "$"])  # it ends an item or a statement
         found = [dialect.group(sorted(words)) + dialect.word_end] if words else []
         if symbols:
             found.append(f"[{symbols}]")
-        if not found:
-            return "$"  # it ends a statement
         return found[0] if len(found) == 1 else dialect.group(found)
 
     def _words(self, expression: Expression) -> frozenset[str]:
