@@ -311,6 +311,7 @@ def check(subject: Subject, steps: tuple[Step, ...], build: Build, clock: Any) -
     asked = Asked(system)
     model = Model(subject, asked)
     params = {f"~{name}": value for name, value in subject.params.items()}
+    params["namespace"] = "/"  # alone, a robot of the engine has no name
     for param in machine.params:
         if param.type == DURATION and param.name in subject.params:
             params[f"~{param.name}"] = subject.params[param.name] / 1e9

@@ -79,7 +79,7 @@ def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Contex
         context.report.report(
             "unhandled-event",
             send.event.span,
-            where=_where("swarm", names),
+            where=where_of("swarm", names),
             name=send.event.name,
             help=f"add `on {send.event.name} -> ...` to a state of a machine that should react",
         )
@@ -89,7 +89,7 @@ def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Contex
         context.report.report(
             "unsent-event",
             trigger.span,
-            where=_where("swarm", names),
+            where=where_of("swarm", names),
             name=trigger.event.name,
             help=f"add `send {trigger.event.name}` to an effect, unless an operator sends it",
         )
@@ -116,7 +116,7 @@ def _check_own_events(members: list[Exchange], context: Context) -> None:
         context.report.report(
             "unhandled-event",
             send.event.span,
-            where=_where("member", [member.name for member in own]),
+            where=where_of("member", [member.name for member in own]),
             name=send.event.name,
             related=(Label(hearing[topic].span, "another member waits for it here"),),
             help=f"as `swarm event {send.event.name}` it reaches the other members",
@@ -127,7 +127,8 @@ def _is_swarm_event(node: Send | EventTrigger) -> bool:
     return node.event.target is not None and node.event.target.swarm
 
 
-def _where(kind: str, names: list[str]) -> str:
+def where_of(kind: str, names: list[str]) -> str:
+    """Return ` in swarms A and B` for a message; nothing without names."""
     plural = "s" if len(names) > 1 else ""
     return f" in {kind}{plural} {listed(names, 'and')}" if all(names) else ""
 
@@ -173,7 +174,7 @@ def _machines(member: Member, context: Context) -> Iterator[StateMachine | None]
 
     None stands for a machine that may be missing.
     """
-    ahead = deque(_behaviors(member, context))
+    ahead = deque(behaviors_of(member, context))
     seen = set()
     while ahead:
         machine = ahead.popleft()
@@ -186,7 +187,8 @@ def _machines(member: Member, context: Context) -> Iterator[StateMachine | None]
                 ahead.append(state.machine.target)
 
 
-def _behaviors(member: Member, context: Context) -> Iterator[StateMachine | None]:
+def behaviors_of(member: Member, context: Context) -> Iterator[StateMachine | None]:
+    """Yield the behaviours of a member and its parts; None stands for one that may be missing."""
     parts = [part.component.target for part in all_items(member, Part)]
     owners: list[Member | Component | None] = [member, *parts]
     for owner in owners:

@@ -145,6 +145,9 @@ CODES: dict[str, Code] = {
         "`{state}` calls `{function}` again and again while it is aborted",
         silent=True,
     ),
+    "ignored-event": Code(
+        "SW0530", "warning", "event `{name}` is ignored in {states}{where}", silent=True
+    ),
     "needless-defer": Code("SW0531", "warning", "event `{name}` is never deferred by `{state}`"),
     "nothing-to-cancel": Code("SW0532", "warning", "no delayed sending of `{name}` to cancel"),
     # ---- functions and interfaces
