@@ -154,7 +154,7 @@ def read_again(system: System, folder: Path) -> System:
 
 def carried(system: System) -> System:
     """Reduce a system to what the documents of its machines hold."""
-    machines = tuple(map(_plain, system.machines))
+    machines = tuple(_plain(machine, system) for machine in system.machines)
     heard = {event for machine in machines for event in _events(machine)}
     called = {s.activity.function for m in machines for s in m.walk() if s.activity is not None}
     return System(
@@ -181,7 +181,7 @@ def _events(machine: StateMachine) -> Any:
                     yield trigger.event
 
 
-def _plain(machine: StateMachine) -> StateMachine:
+def _plain(machine: StateMachine, system: System) -> StateMachine:
     """The machine with one of two ways to say the same, which documents do not tell apart."""
     finals = {
         state.id: [each.id for each in state.states if each.kind is StateKind.FINAL]
@@ -208,7 +208,7 @@ def _plain(machine: StateMachine) -> StateMachine:
         return replace(state, transitions=made, states=tuple(map(plain, state.states)))
 
     made = replace(machine, states=tuple(map(plain, machine.states)))
-    return _in_text(made, ecmascript.dialect(data_ids(machine)))
+    return _in_text(made, ecmascript.dialect(data_ids(machine), system))
 
 
 def _in_text(node: Any, words: Dialect) -> Any:
