@@ -203,7 +203,7 @@ def _number(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int) -> Express
         case "wave":
             number = expressions(draw, FLOAT, leaves, depth)
             assert number is not None
-            angle = Binary("*", number, _RADIAN, FLOAT)
+            angle = Binary("*", number, _RADIAN, with_unit(number.type, RADIAN))
             return Call(draw(st.sampled_from(["sin", "cos"])), (angle,), FLOAT)
         case "hypot":
             word = draw(st.sampled_from(["hypot", "atan2"]))
