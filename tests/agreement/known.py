@@ -115,7 +115,11 @@ DEFERRED = {
     for engine in (PSM, QT)
 }
 MODELS = {
-    **{("Keeps", engine): cause for engine, cause in DEFERRED.items()},
+    **{
+        (machine, engine): cause
+        for machine in ("Keeps", "Farm", "Scouting", "Spraying")
+        for engine, cause in DEFERRED.items()
+    },
     ("Arrays", PSM): FUNCTIONS,
     ("Market", PSM): FUNCTIONS,
     ("Disagreement", QT): DEEPER_FIRST,
