@@ -494,3 +494,58 @@ def test_regions_keep_their_messages_apart(robot: Run) -> None:
         work.world.publish("stop", id="stop")
     work.wait_in("Both/Left/A", "Both/Right/B")
     assert sorted(_said(work)) == ["left"] * 5 + ["right"] * 5 + ["stop"] * 5
+
+
+def test_deferred_events_are_handled_in_the_next_state(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var names : string[<=3]
+          initial Busy
+          state Busy {
+            defer Go
+            on Stop -> Idle
+          }
+          state Idle {
+            var left : int32 = 2
+            on Go [left > 1] / append event.id to names, left = left - 1
+            on Go / append event.id to names, send Said(id = names[0] + names[1]) -> End
+          }
+          final End
+        }"""
+    )
+    work.start()
+    work.wait_in("Busy")
+    work.world.publish("go", id="a")
+    work.world.publish("go", id="b")
+    work.wait_in("Busy")
+    assert _said(work) == []
+    work.world.publish("stop")
+    assert work.ended() == "End"
+    assert _said(work) == ["ab"]
+
+
+def test_a_delayed_send_arrives_unless_it_is_cancelled(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A {
+            entry / send Said(id = "never") after 1 ms, cancel Said
+            exit  / send Said(id = "left") after 1 ms
+            on Go / send Said(id = event.id) after 2 ms -> B
+          }
+          state B { on Stop -> End }
+          final End
+        }"""
+    )
+    work.start()
+    work.wait_in("A")
+    work.world.publish("go", id="later")
+    work.world.wait_until(lambda: len(_said(work)) > 1, "both are sent")
+    # What was due first was cancelled, or it would be before both.
+    assert _said(work) == ["left", "later"]
+    work.world.publish("stop")
+    assert work.ended() == "End"
