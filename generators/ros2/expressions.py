@@ -184,6 +184,7 @@ def _dialect(data: str) -> Dialect:
         item=python_item,
         query=python_query,
         construction=_construction,
+        in_state=lambda state: f"{MACHINE}.active({state!r})",
         division=PYTHON_DIVISION,
     )
 

@@ -27,6 +27,7 @@ from swarmdsl.ir import (
     EnvelopeField,
     Expression,
     FieldAccess,
+    InState,
     Literal,
     Named,
     Primitive,
@@ -47,6 +48,8 @@ def python_expression(expression: Expression, imports: Imports) -> str:
     for part in subexpressions(expression):
         if isinstance(part, Literal) and part.type == DURATION:
             imports.module("rospy")
+        if isinstance(part, InState):
+            imports.name(f"{imports.types.package}.states", "is_active")
         if isinstance(part, EnvelopeField) and part.field == "sent":
             imports.module("rospy")
         if isinstance(part, Call) and part.function in PYTHON_ARRAY_FUNCTIONS:
@@ -148,5 +151,6 @@ _DIALECT = Dialect(
     item=python_item,
     query=python_query,
     construction=_construction,
+    in_state="is_active({!r})".format,
     division=PYTHON_DIVISION,
 )

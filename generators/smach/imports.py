@@ -31,6 +31,7 @@ _TAKEN = (
     "events",
     "goal",
     "initial_userdata",
+    "is_active",
     "machine",
     "math",
     "message",

@@ -7,20 +7,20 @@ _REASONS: dict[str, dict[str, str]] = {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
             "FieldAccess.type ParamRef.type "
-            "ItemRef.type Query.type SelfField.type Unary.type VariableRef.type"
+            "ItemRef.type Query.type SelfField.type InState.type Unary.type VariableRef.type"
         ),
     },
     "printer": {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
+            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type InState.type "
             "Unary.type"
         ),
     },
     "diff": {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
+            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type InState.type "
             "Unary.type"
         ),
         "a name that nothing declares reads as another name of the swarm": ("Optimization.swarm"),
@@ -46,7 +46,7 @@ _REASONS: dict[str, dict[str, str]] = {
         ),
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
+            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type InState.type "
             "Unary.type"
         ),
         "calls are drawn by the name of their function": (
@@ -77,7 +77,7 @@ _REASONS: dict[str, dict[str, str]] = {
     "portable SCXML": {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "ParamRef.type ItemRef.type Query.type SelfField.type Unary.type"
+            "ParamRef.type ItemRef.type Query.type SelfField.type InState.type Unary.type"
         ),
         "comments of calls are not written": ("Communication.doc"),
         "a document is about one state machine": (

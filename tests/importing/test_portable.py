@@ -15,7 +15,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.exchange import scxml
 from swarmdsl.codegen.exchange.scxml import ecmascript
-from swarmdsl.codegen.exchange.scxml.ids import data_ids
+from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.codegen.swarm_printer.system import normalized
 from swarmdsl.driver import pipeline
 from swarmdsl.importing import import_scxml
@@ -208,7 +208,9 @@ def _plain(machine: StateMachine, system: System) -> StateMachine:
         return replace(state, transitions=made, states=tuple(map(plain, state.states)))
 
     made = replace(machine, states=tuple(map(plain, machine.states)))
-    return _in_text(made, ecmascript.dialect(data_ids(machine), system))
+    data = data_ids(machine)
+    states = state_ids(machine, {*data.values(), "self"})
+    return _in_text(made, ecmascript.dialect(data, system, states))
 
 
 def _in_text(node: Any, words: Dialect) -> Any:

@@ -476,7 +476,7 @@ def test_plain_scxml() -> None:
         ("level !== 1.5 || open", "level != 1.5 or open"),
         ("!open &amp;&amp; !(name == 'a')", 'not open and not (name == "a")'),
         ("-level * 2 + 1 &lt;= level", "-level * 2 + 1 <= level"),
-        ("In('A')", "in_a"),
+        ("In('A')", "in(A)"),
         ("level / 2 > 1", "level / 2 > 1"),
         ("Math.max(level, 2) == 3", "max(level, 2) == 3"),
         ("In('Nowhere')", None),

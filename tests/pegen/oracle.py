@@ -28,6 +28,7 @@ from swarmdsl.syntax.ast import (
     FieldUse,
     FieldValue,
     IndexUse,
+    InState,
     Model,
     NameUse,
     Node,
@@ -219,6 +220,9 @@ def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
             )
         case "call":
             return Call(span, words[0], tuple(operands))
+        case "in_state":
+            path = words[1]
+            return InState(span, Ref(str(path), "Vertex", path.span))
         case "name":
             return NameUse(span, str(words[0]))
         case "text":

@@ -227,6 +227,8 @@ PLACES = {
     "target below another mistake": (
         state("on on on\n    on Low -> |"), {"First", "Last"}, {"Low", "on"},
     ),
+    "tested state": (state("on Low [in(|)] -> Last"), {"First", "Inner"}, {"Low", "limit"}),
+    "tested state inside": (state("on Low [not in(First.|"), {"Inner", "Done"}, {"Last", "count"}),
     "below a mistake": (state("on on on\n    |"), ITEMS, {"event", "statemachine"}),
     "field behind a mistake": (
         work("on Low -> Overdo sweep(|)", DO), {"speed"}, {"action", "state", "on"},

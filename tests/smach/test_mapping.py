@@ -109,6 +109,13 @@ MODELS = {
     "variable": """
         var n : int32
         state A { on Go [n > 1] -> End; on Stop / n = 2 }""",
+    "test of a state": """
+        state A {
+          initial B
+          state B { on Go -> C }
+          state C { on Go -> B }
+          on Stop [in(C)] -> End
+        }""",
     "sender and time of an event": """
         state A { on Call [event.sender == "a" and event.sent > 1 s] -> End }""",
     "address of a sent event": "state A { on Go / send Call to uav[0] -> End }",

@@ -274,8 +274,14 @@ class Activity(State):
         """Call a callback while the machine is locked; return its result."""
         with self.chart.changed:
             if callback is not None and not self.preempt_requested():
+                Event.machine = self.current.run.instance
                 return callback(self.container.userdata, *arguments)
         return None
+
+
+def is_active(path):
+    """Return True while a state of the machine is active; for its guards, effects and callbacks."""
+    return Event.machine.active(path)
 
 
 def message(message_type, fields):

@@ -47,6 +47,7 @@ class Feature(Enum):
     SENDER = "the sender of an event"
     ADDRESS = "an address"
     SELF = "the identity of the robot"
+    IN_STATE = "a test of the active states"
     CROSS_LEVEL = "a transition out of the enclosing state"
     INTO_STATE = "a transition into a nested state"
     HISTORY = "a history"

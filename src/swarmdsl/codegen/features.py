@@ -21,6 +21,7 @@ from swarmdsl.ir import (
     EventData,
     Expression,
     FieldAccess,
+    InState,
     Query,
     SelfField,
     Send,
@@ -179,6 +180,8 @@ def _uses_in_expression(expression: Expression) -> Iterator[Use]:
             yield Feature.EVENT_DATA, expression.origin
         case EnvelopeField():
             yield Feature.SENDER, expression.origin
+        case InState():
+            yield Feature.IN_STATE, expression.origin
         case SelfField():
             yield Feature.SELF, expression.origin
         case FieldAccess(base=base):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from itertools import islice
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -16,6 +17,7 @@ from swarmdsl.importing.portable import PortableDescription
 from swarmdsl.importing.scxml_patterns import contents
 from swarmdsl.ir import (
     Expression,
+    InState,
     Literal,
     Message,
     Param,
@@ -28,7 +30,7 @@ from swarmdsl.ir import (
 from swarmdsl.syntax.types import BOOL, FLOAT, INT
 
 _INSIDE = re.compile(r"\bIn\(\s*['\"]?([^'\"()\s]+)['\"]?\s*\)")
-_STAYED_IN = (StateKind.SIMPLE, StateKind.COMPOSITE, StateKind.PARALLEL)
+_STAYED_IN = (StateKind.SIMPLE, StateKind.COMPOSITE, StateKind.PARALLEL, StateKind.FINAL)
 
 
 def written_value(node: Node) -> str:
@@ -41,8 +43,7 @@ def written_value(node: Node) -> str:
 class MachineData:
     """Data of one document; undeclared variables get a type from their use.
 
-    `active` maps each state that a condition tests with `In()` to a variable for it, because the
-    language has no such test.
+    `tested` are the states that expressions test with `In()`, `paths` the ids of all states.
     """
 
     def __init__(
@@ -52,6 +53,7 @@ class MachineData:
         described: PortableDescription,
         library: Library,
         report: Diagnostics,
+        paths: Mapping[PartialState, str],
     ) -> None:
         self.document = document
         self.described = described
@@ -60,7 +62,7 @@ class MachineData:
         self.names = value_names()
         self.types: dict[str, Type] = {}
         self.first: dict[str, Expression] = {}
-        self.active: dict[PartialState, str] = {}
+        self.paths = paths
         self.ignores = False
         self.expressions = Expressions(
             self.types,
@@ -78,12 +80,13 @@ class MachineData:
         self.drafts = {id_: draft for draft in top.walk() for id_ in draft.ids}
         if not described:
             self._widen([node for draft in top.walk() for node in contents(draft)])
-        for draft in top.walk():
-            for edge in draft.edges:
-                for state in _INSIDE.findall(edge.node.get("cond", "")):
-                    asked = self.drafts.get(state)
-                    if asked is not None and asked.kind in _STAYED_IN:
-                        self.active.setdefault(asked, self.names.of(f"in {state}"))
+        self.tested = {
+            self.drafts[state]
+            for node in document.root.walk()
+            for text in node.attributes.values()
+            for state in _INSIDE.findall(text)
+            if state in self.drafts and self.drafts[state].kind in _STAYED_IN
+        }
 
     def _read_first(self, root: Node) -> None:
         for model in root.children:
@@ -152,7 +155,7 @@ class MachineData:
             for key, type_ in self.types.items()
             if key not in given or not given[key].param
         ]
-        flags = [*self.active.values(), *([self.ignored] if self.ignores else [])]
+        flags = [self.ignored] if self.ignores else []
         return (*made, *(Variable(name, BOOL, Literal(False, BOOL)) for name in flags))
 
     def params(self) -> tuple[Param, ...]:
@@ -223,6 +226,6 @@ class MachineData:
 
     def _is_active(self, state: str) -> Expression:
         draft = self.drafts.get(state)
-        if draft is None or draft not in self.active:
+        if draft is None or draft not in self.tested:
             raise UnsupportedError(f"state `{state}` cannot be tested for being active")
-        return VariableRef(self.active[draft], BOOL)
+        return InState(self.paths[draft])

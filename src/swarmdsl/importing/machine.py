@@ -52,9 +52,9 @@ class MachineBuilder:
         self.described = described
         self.activities = activities
         self.report = report
-        self.data = MachineData(document, top, described, activities.library, report)
-        self.content = ExecutableContent(document, events, self.data, report)
         self.paths: dict[PartialState, str] = {}
+        self.data = MachineData(document, top, described, activities.library, report, self.paths)
+        self.content = ExecutableContent(document, events, self.data, report)
         self.wrapped: set[PartialState] = set()
         self.targets = {
             target
@@ -117,7 +117,7 @@ class MachineBuilder:
     def _needs_region(self, draft: PartialState) -> bool:
         """Return True if a state has more than a region can have."""
         plain = draft.kind is StateKind.COMPOSITE and draft not in self.targets
-        does = draft.edges or draft.entry or draft.exit or draft in self.data.active
+        does = draft.edges or draft.entry or draft.exit or draft in self.data.tested
         does = does or draft.payload_node("defer") is not None
         return not plain or bool(does)
 
@@ -151,11 +151,6 @@ class MachineBuilder:
         if draft.kind is StateKind.HISTORY:
             transitions = self._default(draft)
         submachine = draft.payload_node("submachine")
-        active = self.data.active.get(draft)
-        entry, exit_ = self.content.effects(draft.entry), self.content.effects(draft.exit)
-        if active is not None:
-            entry = (Assignment(active, (), Literal(True, BOOL)), *entry)
-            exit_ = (*exit_, Assignment(active, (), Literal(False, BOOL)))
         return State(
             path,
             draft.name,
@@ -164,8 +159,8 @@ class MachineBuilder:
             states=self._states(draft, path),
             transitions=transitions,
             activity=self._activity(draft),
-            entry=entry,
-            exit=exit_,
+            entry=self.content.effects(draft.entry),
+            exit=self.content.effects(draft.exit),
             deferred=self._deferred(draft),
             submachine=submachine.get("name") if submachine is not None else None,
             deep=draft.node.get("type") == "deep",

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         EventData,
         Expression,
         FieldAccess,
+        InState,
         ItemRef,
         Literal,
         ParamRef,
@@ -131,8 +132,9 @@ else:
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
             "swarmdsl.ir.expressions": (
-                "Binary Call Construction EnvelopeField EventData Expression FieldAccess ItemRef "
-                "Literal ParamRef Query SelfField Unary VariableRef mapped reads subexpressions"
+                "Binary Call Construction EnvelopeField EventData Expression FieldAccess InState "
+                "ItemRef Literal ParamRef Query SelfField Unary VariableRef mapped reads "
+                "subexpressions"
             ),
             "swarmdsl.ir.integer_ranges": "bound_of bound_of_any",
             "swarmdsl.ir.interfaces": (
@@ -200,6 +202,7 @@ __all__ = [
     "Fitness",
     "Function",
     "FunctionPort",
+    "InState",
     "Interface",
     "ItemRef",
     "Junction",

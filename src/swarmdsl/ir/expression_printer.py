@@ -21,6 +21,7 @@ from swarmdsl.ir import (
     EventData,
     Expression,
     FieldAccess,
+    InState,
     ItemRef,
     Literal,
     ParamRef,
@@ -77,9 +78,10 @@ class Dialect:
     fact about that event, `identity` a field of `self`; `functions` renames the built-in
     functions, to `.name` if the target has a property instead, or prints a call from its
     arguments. `item` prints the name of an item in a query, `query` and `construction` print these
-    with a printer of their parts. `modulo` prints `%`, whose result has the sign of the divisor in
-    the language; `quotient` prints `/`, the division of real numbers; `division` prints `div`, the
-    division of integers, if the target has an operator for it.
+    with a printer of their parts, `in_state` the test of a state from its id. `modulo` prints `%`,
+    whose result has the sign of the divisor in the language; `quotient` prints `/`, the division of
+    real numbers; `division` prints `div`, the division of integers, if the target has an operator
+    for it.
     """
 
     literal: Callable[[Literal], str]
@@ -92,6 +94,7 @@ class Dialect:
     functions: Mapping[str, str | Callable[[Sequence[str]], str]]
     item: Callable[[str], str] = str
     query: Callable[[Query, Printer], str] = model_query
+    in_state: Callable[[str], str] = "in({})".format
     construction: Callable[[Construction, Printer], str] = model_construction
     modulo: Callable[[str, str], str] = "{} % {}".format
     quotient: Callable[[str, str], str] = "{} / {}".format
@@ -130,6 +133,8 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             return dialect.item(name), _PRIMARY
         case Query():
             return dialect.query(expression, lambda part: translate(part, dialect)), _PRIMARY
+        case InState(state=state):
+            return dialect.in_state(state), _PRIMARY
         case Construction():
             return dialect.construction(expression, lambda part: translate(part, dialect)), _PRIMARY
         case Call(function="div", arguments=(left, right)) if dialect.division is not None:
@@ -220,7 +225,7 @@ def uses_math(expression: Expression) -> bool:
 _PYTHON_NAMES = {
     *PYTHON_ARRAY_FUNCTIONS.values(),
     *("bounded", "copy", "data", "deepcopy", "envelope", "event", "filled", "get", "machine"),
-    *("math", "plain", "put", "rospy", "userdata"),
+    *("is_active", "math", "plain", "put", "rospy", "userdata"),
 }
 
 

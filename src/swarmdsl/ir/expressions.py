@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.records import field as dataclass_field
 from swarmdsl.base.source import Span
-from swarmdsl.syntax.types import DURATION, Named, Type
+from swarmdsl.syntax.types import BOOL, DURATION, Named, Type
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +153,15 @@ class Query:
 
 
 @dataclass(frozen=True, slots=True)
+class InState:
+    """`in(state)`: true while the state with the id `state` is active."""
+
+    state: str
+    type: Type = BOOL
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Construction:
     """New message with values in some fields; the others have their defaults."""
 
@@ -174,6 +183,7 @@ Expression = (
     | Call
     | ItemRef
     | Query
+    | InState
     | Construction
 )
 

@@ -30,9 +30,11 @@ from swarmdsl.syntax.ast import (
     Param,
     Part,
     Ref,
+    Region,
     StateMachine,
     TypeRef,
     Variable,
+    Vertex,
     nodes_of,
 )
 
@@ -49,6 +51,7 @@ class Context:
     `behaving` are the members and components by machine, `parts` those of members by component.
     In a machine that another one reuses, `variables` gives the new names of its variables and
     `values` the values of its params. `enums` are the integer types of enums.
+    `states` gives the ids of the states in a machine, as it is used.
     """
 
     names: Mapping[Declaration, str]
@@ -62,6 +65,7 @@ class Context:
     variables: Mapping[Variable, str] = field(default_factory=dict)
     values: Mapping[Param, ir.Expression] = field(default_factory=dict)
     enums: Mapping[ir.Named, ir.Primitive] = field(default_factory=dict)
+    states: Mapping[Vertex | Region, str] = field(default_factory=dict)
 
     def name(self, ref: Ref[Any]) -> str:
         """Return the name of the target of a resolved reference."""

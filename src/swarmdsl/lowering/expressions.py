@@ -27,6 +27,7 @@ from swarmdsl.syntax.ast import (
     FieldUse,
     FitnessInput,
     IndexUse,
+    InState,
     NameUse,
     OperatorUse,
     Param,
@@ -141,6 +142,9 @@ def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
             return ir.Call("item", (array, lower_tree(index, context)), type_, tree.span)
         case Query():
             return _query(tree, context)
+        case InState(state=state):
+            assert state.target is not None
+            return ir.InState(context.states[state.target], origin=tree.span)
         case Construction(type=of, values=given):
             made = context.type_of(of)
             assert isinstance(made, ir.Named)

@@ -52,7 +52,7 @@ def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
     ids = _ids(machine, "")
     initial = ids[_initial(machine)]
     builder.add_variables(machine, "", context)
-    frame = Frame(ids, builder.with_state_variables(machine, ids, context))
+    frame = Frame(ids, builder.with_states(machine, ids, context))
     states = builder.states(machine, frame)
     return ir.StateMachine(
         name=context.names[machine],
@@ -80,16 +80,19 @@ class _Builder:
         """Add a reused machine's variables, named after the state; return the names."""
         return {item: self._add(item, prefix, context) for item in variables_of(machine)}
 
-    def with_state_variables(
+    def with_states(
         self, machine: StateMachine, ids: Mapping[Vertex | Region, str], context: Context
     ) -> Context:
-        """Add the variables of a machine's states, named after them; return their context."""
+        """Return the context with the states of a machine.
+
+        Their variables are added, named after the states.
+        """
         names: dict[Variable, str] = {}
         for state, path in ids.items():
             if isinstance(state, (State, Parallel, Region)):
                 for item in variables_of(state):
                     names[item] = self._add(item, snake_case(path) + "_", context)
-        return replace(context, variables={**context.variables, **names}) if names else context
+        return replace(context, variables={**context.variables, **names}, states=ids)
 
     def _add(self, item: Variable, prefix: str, context: Context) -> str:
         """Add a variable; return its name."""
@@ -216,7 +219,7 @@ class _Builder:
                 values[item] = lower_expression(value, frame.context, item.type.type)
         ids = _ids(machine, frame.ids[state])
         context = frame.context.reusing(names, values)
-        inner = Frame(ids, self.with_state_variables(machine, ids, context))
+        inner = Frame(ids, self.with_states(machine, ids, context))
         return made(
             kind=ir.StateKind.COMPOSITE,
             initial=inner.ids[_initial(machine)],

@@ -34,6 +34,7 @@ from swarmdsl.syntax.ast import (
     ExpressionTree,
     FieldUse,
     IndexUse,
+    InState,
     NameUse,
     Node,
     OperatorUse,
@@ -221,6 +222,8 @@ def _term(tree: ExpressionTree, folding: Folding) -> Hashable:
             parts = (element.array, condition, key)
             terms = (None if part is None else _term(part, folding) for part in parts)
             return (str(word), str(element.name), *terms)
+        case InState(state=state):
+            return ("in", state.target or state.name)
         case Construction(type=type_, values=values):
             return (type_.type, *((str(e.name), _term(e.value, folding)) for e in values))
     raise AssertionError(tree)

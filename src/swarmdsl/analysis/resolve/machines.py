@@ -26,16 +26,24 @@ from swarmdsl.syntax.ast import (
     Choice,
     Container,
     DoneTrigger,
+    Expression,
     FinalState,
     History,
     Initial,
+    InState,
+    Node,
     Parallel,
+    Param,
     Ref,
     Region,
     State,
     StateMachine,
     Transition,
+    Variable,
     Vertex,
+    children,
+    nodes_of,
+    walk,
 )
 
 V = TypeVar("V", bound=Vertex | Region)
@@ -43,7 +51,10 @@ V = TypeVar("V", bound=Vertex | Region)
 
 def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -> None:
     """Resolve the references between the states of a machine."""
-    _MachineLinker(scope, report).link(machine, (), ())
+    linker = _MachineLinker(scope, report)
+    linker.link(machine, (), ())
+    if nodes_of(machine, InState):
+        linker.link_tests(machine, (), (), StateNesting(machine))
 
 
 class _MachineLinker:
@@ -93,6 +104,40 @@ class _MachineLinker:
                     self.link(item, outer, (inside, *beside))
                 case State() | Parallel():
                     self.link(item, (inside, *outer), beside)
+
+    def link_tests(
+        self,
+        container: Container,
+        outer: tuple[Level, ...],
+        beside: tuple[Level, ...],
+        nesting: StateNesting,
+    ) -> None:
+        """Resolve the states that the expressions in a container test.
+
+        A path is looked up like the target of a transition from there.
+        """
+        inside = self._level_of(container)
+        for item in container.items:
+            match item:
+                case Region():
+                    self.link_tests(item, outer, (inside, *beside), nesting)
+                case State() | Parallel():
+                    self.link_tests(item, (inside, *outer), beside, nesting)
+                case Param() | Variable():
+                    pass  # no state is active when they get their values
+                case Choice():
+                    for branch in item.branches:
+                        self._link_tests_in(branch, (inside, *outer, *beside))
+                        _find_known(branch.guard, item, nesting)
+                case _:
+                    self._link_tests_in(item, (*outer, inside, *beside))
+                    if isinstance(item, Transition):
+                        _find_known(item.guard, container, nesting)
+
+    def _link_tests_in(self, item: Node, levels: tuple[Level, ...]) -> None:
+        for node in walk(item):
+            if isinstance(node, InState):
+                self._link_vertex(node.state, levels)
 
     def _link_inside(
         self,
@@ -145,6 +190,44 @@ class _MachineLinker:
         if ref.target is None:
             names = [*candidates]
             report_missing_inside(kind, ref.name, ref.span, names, self._scope, self._report)
+
+
+class StateNesting:
+    """Containers around each state of a machine."""
+
+    def __init__(self, machine: StateMachine) -> None:
+        self._parents: dict[Node, Node] = {}
+        ahead: list[Node] = [machine]
+        while ahead:
+            outer = ahead.pop()
+            for inner in children(outer):
+                if isinstance(inner, (State, Parallel, Region, Choice, History, FinalState)):
+                    self._parents[inner] = outer
+                    ahead.append(inner)
+
+    def around(self, state: Node) -> list[Node]:
+        """Return a state and the containers around it, the nearest first."""
+        found = [state]
+        while found[-1] in self._parents:
+            found.append(self._parents[found[-1]])
+        return found
+
+    def known(self, tested: Vertex, owner: Node) -> bool | None:
+        """Return whether a state is active whenever `owner` is; None if it may be."""
+        around, chain = self.around(owner), self.around(tested)
+        if tested in around:
+            return True
+        if isinstance(tested, (Choice, History)):
+            return False
+        meeting = next(each for each in chain if each in around)
+        return None if meeting is owner or isinstance(meeting, Parallel) else False
+
+
+def _find_known(guard: Expression | None, owner: Node, nesting: StateNesting) -> None:
+    """Note the tests in a guard that are always true or always false."""
+    for node in walk(guard) if guard is not None else ():
+        if isinstance(node, InState) and node.state.target is not None:
+            node.known = nesting.known(node.state.target, owner)
 
 
 def _by_name(nodes: Iterable[V]) -> Mapping[str, V]:

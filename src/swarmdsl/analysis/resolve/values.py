@@ -33,6 +33,7 @@ from swarmdsl.syntax.ast import (
     FieldUse,
     FitnessInput,
     IndexUse,
+    InState,
     NameUse,
     OperatorUse,
     Parallel,
@@ -75,10 +76,13 @@ class ValueLinker:
         if isinstance(owner, StateMachine):
             _add_values_inside(owner, values, inside)
         shared = _values_of_all(owner)
+        stateless = _values_without_states(owner)
         addresses = {each.id: each for each in nodes_of(owner, Address)}
         for node in nodes:
             if shared is None or node in shared:
                 self._check_no_self(node)
+            if stateless is None or node in stateless:
+                self._check_no_state(node)
             if node.tree is not None:
                 missing: Missing = []
                 seen = inside.get(node, values)
@@ -100,6 +104,16 @@ class ValueLinker:
                     use.span,
                     help="use it in an expression of a state machine, such as a guard, an "
                     "argument, or the initial value of a variable",
+                )
+
+    def _check_no_state(self, expression: Expression) -> None:
+        """Report a test of a state in a value that is computed without active states."""
+        for test in walk(expression) if expression.tree is not None else ():
+            if isinstance(test, InState):
+                self.report.report(
+                    "no-active-state",
+                    test.span,
+                    help="use it in a guard, an effect, a delay or an argument of a state machine",
                 )
 
     def _linked(
@@ -198,3 +212,15 @@ def _values_of_all(owner: TopLevel) -> set[Expression] | None:
         return None
     items = (item for item in owner.items if isinstance(item, Param))
     return {item.default for item in items if item.default is not None}
+
+
+def _values_without_states(owner: TopLevel) -> set[Expression] | None:
+    """Return the expressions that test states where none is active; None if all would."""
+    if not nodes_of(owner, InState):
+        return set()
+    if not isinstance(owner, StateMachine):
+        return None
+    values = [each.default for each in nodes_of(owner, Param)]
+    values += [each.initial for each in nodes_of(owner, Variable)]
+    values += [each.value for state in nodes_of(owner, State) for each in state.bindings]
+    return {each for each in values if each is not None}

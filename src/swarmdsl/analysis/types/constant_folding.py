@@ -22,6 +22,7 @@ from swarmdsl.syntax.ast import (
     EnumType,
     ExpressionTree,
     FieldUse,
+    InState,
     NameUse,
     OperatorUse,
     Value,
@@ -163,6 +164,8 @@ class Folding:
                 return self._applied(word, operands)
             case Call(function=function, arguments=arguments):
                 return self._applied(function, arguments) if function in OPERATIONS else None
+            case InState(known=known):
+                return known
             case Value(unit=unit) if unit in DURATIONS:
                 return nanoseconds(tree.span.text, unit)
             case Value(unit=unit):

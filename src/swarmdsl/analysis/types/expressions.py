@@ -37,6 +37,7 @@ from swarmdsl.syntax.ast import (
     Field,
     FieldUse,
     IndexUse,
+    InState,
     NameUse,
     OperatorUse,
     Parameter,
@@ -108,6 +109,8 @@ class Typing:
                 return type_of_item(tree, self)
             case Query():
                 return type_of_query(tree, self)
+            case InState():
+                return BOOL
             case Construction():
                 return type_of_construction(tree, self)
             case OperatorUse(operands=operands) | Call(arguments=operands):

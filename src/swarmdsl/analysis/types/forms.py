@@ -9,6 +9,7 @@ from swarmdsl.syntax.ast import (
     ExpressionTree,
     FieldUse,
     IndexUse,
+    InState,
     NameUse,
     OperatorUse,
     Value,
@@ -19,12 +20,12 @@ from swarmdsl.syntax.ast import (
 def constant(tree: ExpressionTree) -> bool:
     """Return True for a constant expression.
 
-    Names that are reported elsewhere count as constant: unresolved ones, and `self`.
+    What is reported elsewhere counts as constant: unresolved names, `self`, and tests of states.
     """
     match tree:
         case NameUse(name="event"):
             return False
-        case Value() | NameUse(target=Constant() | EnumType() | None):
+        case Value() | InState() | NameUse(target=Constant() | EnumType() | None):
             return True
         case FieldUse(base=base):
             return constant(base)

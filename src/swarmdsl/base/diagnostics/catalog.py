@@ -202,6 +202,7 @@ CODES: dict[str, Code] = {
     "unclear-address": Code(
         "SW0712", "error", "`{name}` is a value, and a role of swarm `{swarm}`"
     ),
+    "no-active-state": Code("SW0713", "error", "no state is active here"),
     "no-such-item": Code("SW0721", "error", "array `{array}` has no item {number}"),
     "unbounded-array": Code("SW0722", "error", "array `{name}` grows without a bound"),
     "hidden-value": Code("SW0723", "error", "item `{name}` hides {hidden}"),

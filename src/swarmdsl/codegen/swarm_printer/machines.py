@@ -10,7 +10,7 @@ from swarmdsl.codegen.swarm_printer.expressions import default, delay, expressio
 from swarmdsl.codegen.swarm_printer.interfaces import print_params
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError, block, documented
 from swarmdsl.codegen.swarm_printer.names import Names
-from swarmdsl.codegen.swarm_printer.paths import Level, Place, level, top
+from swarmdsl.codegen.swarm_printer.paths import Level, Place, level, top, with_tested_paths
 from swarmdsl.codegen.swarm_printer.reuse import Reuse
 from swarmdsl.ir import (
     DoneTrigger,
@@ -74,6 +74,7 @@ class _Printer:
         ]
 
     def _state(self, state: State, place: Place, initial: str | None) -> list[str]:
+        state = with_tested_paths(state, place)
         match state.kind:
             case StateKind.FINAL:
                 return [f"final {state.name}"]

@@ -7,10 +7,12 @@ each further one inside the state before it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, TypeVar, cast
 
-from swarmdsl.base.records import dataclass, replace
+from swarmdsl.base.records import dataclass, fields_of, replace
+from swarmdsl.base.source import Span
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError
-from swarmdsl.ir import State, StateKind, StateMachine
+from swarmdsl.ir import InState, State, StateKind, StateMachine
 
 # States by name; several of one name are in different regions.
 Level = Mapping[str, Sequence[State]]
@@ -22,12 +24,13 @@ class Place:
 
     `outer` are the visible states, the nearest first, `beside` those in all regions of the
     enclosing parallel states. `chains` lead to each state by id, from its outermost ancestor,
-    without regions.
+    without regions. `tests_states` is True if an expression of the machine tests a state.
     """
 
     chains: Mapping[str, tuple[State, ...]]
     outer: tuple[Level, ...]
     beside: tuple[Level, ...] = ()
+    tests_states: bool = False
 
     def inside(self, state: State) -> Place:
         """Return the place of the states in a state or region."""
@@ -50,14 +53,14 @@ class Place:
             way = chain[start:]
             if _leads_there(way, levels):
                 return ".".join(state.name for state in way)
-        raise UnprintableError(f"another state hides `{target}` where a transition leads to it")
+        raise UnprintableError(f"another state hides `{target}` where it is named")
 
 
 def top(machine: StateMachine) -> Place:
     """Return the place of the outermost states of a machine."""
     chains: dict[str, tuple[State, ...]] = {}
     _collect(machine.states, (), chains)
-    return Place(chains, (_by_name(machine.states),))
+    return Place(chains, (_by_name(machine.states),), tests_states=_tests_states(machine.states))
 
 
 def level(state: State) -> Level:
@@ -67,6 +70,42 @@ def level(state: State) -> Level:
     if state.kind is StateKind.PARALLEL:
         return _by_name(inner for region in state.states for inner in region.states)
     return _by_name(state.states)
+
+
+T = TypeVar("T")
+
+
+def with_tested_paths(state: State, place: Place) -> State:
+    """Return a state in whose expressions each tested state is its path from there."""
+    if not place.tests_states:
+        return state
+    levels = place.from_choice() if state.kind is StateKind.CHOICE else place.from_state(state)
+    own = {name: getattr(state, name) for name in ("transitions", "activity", "entry", "exit")}
+    changed = {name: _with_paths(value, place, levels) for name, value in own.items()}
+    return replace(state, **cast("Any", changed))
+
+
+def _with_paths(node: T, place: Place, levels: tuple[Level, ...]) -> T:
+    if isinstance(node, InState):
+        return cast("T", replace(node, state=place.path(node.state, levels)))
+    if isinstance(node, tuple) and not isinstance(node, Span):
+        return cast("T", tuple(_with_paths(each, place, levels) for each in node))
+    if "__parts__" not in vars(type(node)):
+        return node
+    names = fields_of(type(node))
+    changed = {name: _with_paths(getattr(node, name), place, levels) for name in names}
+    return cast("T", replace(cast("Any", node), **changed))
+
+
+def _tests_states(node: object) -> bool:
+    """Return True if an expression in a node of the IR tests a state."""
+    if isinstance(node, InState):
+        return True
+    if isinstance(node, tuple) and not isinstance(node, Span):
+        return any(map(_tests_states, node))
+    if "__parts__" not in vars(type(node)):
+        return False
+    return any(_tests_states(getattr(node, name)) for name in fields_of(type(node)))
 
 
 def _by_name(states: Iterable[State]) -> Level:

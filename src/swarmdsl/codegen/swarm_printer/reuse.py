@@ -18,6 +18,7 @@ from swarmdsl.ir import (
     Effect,
     Expression,
     FieldAccess,
+    InState,
     Literal,
     OutcomeTrigger,
     Param,
@@ -41,6 +42,7 @@ _IDS = {
     (OutcomeTrigger, "state"),
     (DoneTrigger, "state"),
     (DoneTrigger, "final"),
+    (InState, "state"),
 }
 _VARIABLES = {(VariableRef, "name"), (Assignment, "variable"), (ResultMapping, "variable")}
 _OPERATIONS = (Unary, Binary, Call, FieldAccess)

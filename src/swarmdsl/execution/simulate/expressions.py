@@ -18,6 +18,7 @@ from swarmdsl.ir import (
     EventData,
     Expression,
     FieldAccess,
+    InState,
     ItemRef,
     Literal,
     ParamRef,
@@ -30,6 +31,9 @@ from swarmdsl.ir.operations import OPERATIONS
 
 SELF = "self"
 """Key of the identity of the robot in the data of a machine; no variable has this name."""
+
+ACTIVE = "in"
+"""Key of the test for active states in the data; no variable has this name."""
 
 Value = Callable[[Mapping[str, Any], Any], Any]
 """Compiled expression; takes the data of the machine and the event."""
@@ -73,6 +77,8 @@ def function_of(expression: Expression) -> Value:
             return lambda data, event: data[key]
         case Query():
             return _query(expression)
+        case InState(state=state):
+            return lambda data, event: data[ACTIVE](state)
         case Construction():
             raise AssertionError("a new message is only stored or sent")
 

@@ -7,8 +7,9 @@ of a state, transition or activity.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from copy import deepcopy
+from operator import attrgetter
 from typing import Any
 
 from swarmdsl import ir
@@ -29,7 +30,7 @@ from swarmdsl.execution.engine import (
     Transition,
     bounded,
 )
-from swarmdsl.execution.simulate.expressions import SELF, Value, applied, function_of
+from swarmdsl.execution.simulate.expressions import ACTIVE, SELF, Value, applied, function_of
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ir import (
     Array,
@@ -38,11 +39,13 @@ from swarmdsl.ir import (
     Cancel,
     Construction,
     Expression,
+    InState,
     Primitive,
     Send,
     StateKind,
     System,
     Type,
+    subexpressions,
 )
 from swarmdsl.ir.integer_ranges import bound_of, bound_of_any
 from swarmdsl.syntax.types import DURATION
@@ -171,8 +174,11 @@ class _Maker:
             (name, stored(value, sent.get(name), self.system)) for name, value in activity.arguments
         ]
 
+        view = _view(value for _, value in activity.arguments)
+
         def make_goal(instance: InstanceLike) -> dict[str, Any]:
-            return {name: value(instance.data, None) for name, value in goal}
+            data = view(instance)
+            return {name: value(data, None) for name, value in goal}
 
         return Activity(
             activity.function,
@@ -213,9 +219,10 @@ class _Maker:
             case Assignment(variable=variable, path=path, value=expression):
                 held = field_type(self.types.get(variable), path, self.system)
                 value = stored(expression, held, self.system)
+                view = _view([expression])
 
                 def assign(instance: InstanceLike, event: Event) -> None:
-                    _store(instance.data, variable, path, value(instance.data, event))
+                    _store(instance.data, variable, path, value(view(instance), event))
 
                 return assign
             case Cancel(event=name):
@@ -229,17 +236,21 @@ class _Maker:
 
                 address = _address(to) if to is not None else None
                 wait = function_of(delay) if delay is not None else None
+                used = [value for _, value in arguments]
+                used += [*(to.values if to is not None else ()), *([delay] if delay else ())]
+                view = _view(used)
 
                 def send(instance: InstanceLike, event: Event) -> None:
+                    data = view(instance)
                     message = default_value(type_, self.system)
                     for field, value in fields:
-                        message[field] = value(instance.data, event)
-                    receiver = address(instance.data, event) if address is not None else None
+                        message[field] = value(data, event)
+                    receiver = address(data, event) if address is not None else None
                     made = Event(name, message, envelope=Envelope(to=receiver))
                     if wait is None:
                         instance.emit(made)
                     else:
-                        instance.emit_after(made, math.ceil(wait(instance.data, event)))
+                        instance.emit_after(made, math.ceil(wait(data, event)))
 
                 return send
 
@@ -262,8 +273,19 @@ def _address(address: ir.Address) -> Value:
 def _guard(expression: Expression | None) -> Guard | None:
     if expression is None:
         return None
-    value = function_of(expression)
-    return lambda instance, event: value(instance.data, event)
+    value, view = function_of(expression), _view([expression])
+    return lambda instance, event: value(view(instance), event)
+
+
+def _view(expressions: Iterable[Expression]) -> Callable[[InstanceLike], Mapping[str, Any]]:
+    """Return the function that gives expressions the data of an instance.
+
+    Expressions that test states also get the test.
+    """
+    parts = (part for each in expressions for part in subexpressions(each))
+    if any(isinstance(part, InState) for part in parts):
+        return lambda instance: {**instance.data, ACTIVE: instance.active}
+    return attrgetter("data")
 
 
 def stored(expression: Expression, wanted: Type | None, system: System | None) -> Value:
@@ -344,10 +366,12 @@ def _raise(name: str) -> Effect:
 
 def _start_timers(timers: Mapping[str, Expression]) -> Effect:
     lengths = [(name, function_of(delay)) for name, delay in timers.items()]
+    view = _view(timers.values())
 
     def start(instance: InstanceLike, event: Event) -> None:
+        data = view(instance)
         for name, length in lengths:
-            instance.send_after(Event(name), math.ceil(length(instance.data, None)), name)
+            instance.send_after(Event(name), math.ceil(length(data, None)), name)
 
     return start
 

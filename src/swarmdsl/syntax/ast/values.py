@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.syntax.ast.nodes import Documented, Node, TopLevel, TypeRef, Word
+from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, TypeRef, Word
 from swarmdsl.syntax.types import Named
 
 
@@ -91,6 +93,17 @@ class Construction(Node):
 
 
 @dataclass(slots=True, eq=False)
+class InState(Node):
+    """`in(state)`: true while a state of the machine is active.
+
+    `known` is its value in a guard where it is always the same.
+    """
+
+    state: Ref[Any]  # a state, whose class is in a module that imports this one
+    known: bool | None = field(default=None, init=False, metadata={"elsewhere": True})
+
+
+@dataclass(slots=True, eq=False)
 class Call(Node):
     """`function(arguments)`, the function a built-in one."""
 
@@ -106,7 +119,9 @@ class OperatorUse(Node):
     operands: tuple[ExpressionTree, ...]
 
 
-ExpressionTree = Value | NameUse | FieldUse | IndexUse | Call | Query | Construction | OperatorUse
+ExpressionTree = (
+    Value | NameUse | FieldUse | IndexUse | InState | Call | Query | Construction | OperatorUse
+)
 
 
 @dataclass(slots=True, eq=False)

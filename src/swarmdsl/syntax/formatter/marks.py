@@ -13,6 +13,7 @@ from swarmdsl.syntax.ast import (
     EnumValue,
     Fact,
     IndexUse,
+    InState,
     MessageType,
     Model,
     Multiplicity,
@@ -79,6 +80,9 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
             case Call() | Query() | Operation():
                 name = node.name if isinstance(node, Operation) else node.function
                 marks.tight.add(tokens.code(name.span.end)[0].start)
+            case InState(state=state):
+                _mark_list(marks, tokens, start, "in")
+                _join(marks, tokens, state.span.start, state.name)
             case Construction():
                 marks.tight.add(tokens.code(node.type.span.end)[0].start)
             case Activity():

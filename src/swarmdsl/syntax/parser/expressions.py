@@ -20,8 +20,10 @@ from swarmdsl.syntax.ast import (
     FieldUse,
     FieldValue,
     IndexUse,
+    InState,
     NameUse,
     Query,
+    Ref,
     TypeRef,
     Value,
     Word,
@@ -249,7 +251,31 @@ class ExpressionParser:
                 return self._path(at)
             case "true" | "false":
                 return self._value(at, self._ends[at + 1], token == "true")
+            case "in":
+                return self._in_state(at)
         return None
+
+    def _in_state(self, at: int) -> _Found | None:
+        """Parse the test of a state; None if it has no path."""
+        tokens, start, path = self._tokens, self._start(at), at + 2
+        if tokens[at + 1] != "(" or not self._is_word(path) or tokens[path] in self._not_a_name:
+            return None
+        following = path + 1
+        while (
+            tokens[following] == "."
+            and self._is_adjacent(following)
+            and self._is_word(following + 1)
+            and self._is_adjacent(following + 1)
+        ):
+            following += 2
+        if tokens[following] != ")":
+            return None
+        name = "".join(tokens[path:following])
+        place = self._span(self._start(path), self._ends[following])
+        following += 1
+        end = self._ends[following]
+        self._size += 1
+        return InState(self._span(start, end), Ref(name, "Vertex", place)), start, end, following
 
     def _parenthesised(self, at: int) -> _Found | None:
         self._descend()

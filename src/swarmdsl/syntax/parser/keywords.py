@@ -73,7 +73,7 @@ CONTEXTUAL = {
 FIRST = {
     'ComponentItem': frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param']),
     'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
-    'Effect': frozenset(['append', 'cancel', 'clear', 'event', 'false', 'not', 'remove', 'self', 'send', 'true']),
+    'Effect': frozenset(['append', 'cancel', 'clear', 'event', 'false', 'in', 'not', 'remove', 'self', 'send', 'true']),
     'EnvironmentItem': frozenset(['size', 'world']),
     'FitnessItem': frozenset(['in', 'maximize', 'minimize', 'param']),
     'FunctionItem': frozenset(['action', 'in', 'out', 'param', 'service']),

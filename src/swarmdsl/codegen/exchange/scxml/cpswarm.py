@@ -47,6 +47,7 @@ _UNSUPPORTED = {
     Feature.INTERNAL,
     Feature.TARGETLESS,
     Feature.EVENTLESS,
+    Feature.IN_STATE,
 }
 
 

@@ -38,11 +38,17 @@ SELF = "self"
 """Id of the `<data>` with the identity of the robot."""
 
 
-def dialect(data: Mapping[str, str], system: System | None = None) -> Dialect:
+def dialect(
+    data: Mapping[str, str],
+    system: System | None = None,
+    states: Mapping[str, str] | None = None,
+) -> Dialect:
     """Return the dialect, in which variables and params have the ids of `data`.
 
-    `system` describes the messages of which expressions make new ones.
+    `system` describes the messages of which expressions make new ones, `states` gives the ids of
+    states.
     """
+    known = states or {}
     return Dialect(
         literal=ecmascript_literal,
         variable=data.__getitem__,
@@ -73,6 +79,7 @@ def dialect(data: Mapping[str, str], system: System | None = None) -> Dialect:
         item=lambda name: item_name(name, data.values()),
         query=lambda query, text: query_text(query, text, data.values()),
         construction=lambda made, text: construction_text(made, text, system),
+        in_state=lambda state: f"In('{known[state]}')",
         modulo=_modulo,
         quotient=_quotient,
         division=_division,

@@ -74,7 +74,7 @@ def portable(machine: StateMachine, system: System, places: Places | None = None
     left_with_effects = frozenset(state.id for state in machine.walk() if state.exit)
     events = Events(machine, ids)
     writer = _StateWriter(
-        machine, ids, dialect(data, system), events, left_with_effects, places, DelayedSends()
+        machine, ids, dialect(data, system, ids), events, left_with_effects, places, DelayedSends()
     )
     for state in machine.states:
         writer.add_state(document, state)

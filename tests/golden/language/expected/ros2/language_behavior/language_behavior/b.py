@@ -74,7 +74,7 @@ def goal_a_a(machine):
 
 def guard_d(machine, event):
     # model.swarm:77
-    return event.data.mode == MODE_MANUAL
+    return event.data.mode == MODE_MANUAL and machine.active('D.Out')
 
 
 def effect_d(machine, event):

@@ -16,7 +16,7 @@ from language_behavior.containers import Machine, StateMachine
 from language_behavior.engine import bounded
 from language_behavior.identity import identity
 from language_behavior.services import ServiceState
-from language_behavior.states import AT_ONCE, Final, History, On, State
+from language_behavior.states import AT_ONCE, Final, History, On, State, is_active
 
 LIMIT = 3
 MODE_AUTO = 4  # Mode.AUTO
@@ -104,7 +104,7 @@ def _d():
             On(
                 events.E,
                 None,
-                guard=lambda userdata, event: event.mode == MODE_MANUAL,
+                guard=lambda userdata, event: event.mode == MODE_MANUAL and is_active('D.Out'),
                 effect=_d_e_effect,
             ),
             On(
