@@ -35,6 +35,7 @@ from swarmdsl.syntax.types import DURATION
 from ..agreement.engines import Step
 from ..agreement.scripts import WALKS, Model, Subject, Watch
 from ..swarm_printer.systems import systems
+from .ros1 import for_ros_1
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = [
@@ -380,7 +381,7 @@ def clock(build: Build, monkeypatch: pytest.MonkeyPatch) -> Any:
 def test_models(path: Path, build: Build, clock: Any) -> None:
     system = pipeline.check([path]).system
     assert system is not None
-    system = apart(system)
+    system = for_ros_1(apart(system))
     for machine in system.machines:
         subject = subject_of(machine, system)
         scripts, _ = subject.scripts()

@@ -16,6 +16,8 @@ from swarmdsl.driver import pipeline
 from swarmdsl.execution import engine
 from swarmdsl.ir import System
 
+from .ros1 import for_ros_1
+
 ENGINE = Path(engine.__file__).parent
 Files = dict[str, OutputFile]
 Generate = Callable[..., Files]
@@ -293,7 +295,7 @@ def _systems(examples: Path, compiled: Callable[[str], System]) -> list[System]:
     for folder in sorted(path for path in examples.iterdir() if path.is_dir()):
         system = pipeline.check(sorted(folder.glob("*.swarm"))).system
         assert system is not None
-        systems.append(system)
+        systems.append(for_ros_1(system))
     assert len(systems) > 3
     return systems
 
