@@ -11,7 +11,17 @@ from swarmdsl.base.source import Source
 from swarmdsl.codegen.swarm_printer.expressions import expression as written
 from swarmdsl.codegen.swarm_printer.system import print_system
 from swarmdsl.importing import import_scxml
-from swarmdsl.ir import EventTrigger, OutcomeTrigger, State, StateKind, System
+from swarmdsl.ir import (
+    Address,
+    EventTrigger,
+    Literal,
+    OutcomeTrigger,
+    Send,
+    State,
+    StateKind,
+    System,
+)
+from swarmdsl.syntax.types import INT, STRING
 
 HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="keeper"'
 MONITOR = (
@@ -550,3 +560,26 @@ def test_outcome_triggers_are_of_the_state_itself() -> None:
         OutcomeTrigger("A", "succeeded"),
         OutcomeTrigger("A", "aborted"),
     )
+
+
+@pytest.mark.parametrize(
+    ("target", "address"),
+    [
+        ("target='uav'", Address("uav")),
+        ("target='uav[2]'", Address("uav", Literal(2, INT))),
+        ("target='big one'", Address(id=Literal("big one", STRING))),
+        ("targetexpr=\"'uav[2]'\"", Address("uav", Literal(2, INT))),
+        ("target=''", None),
+        ("", None),
+    ],
+)
+def test_the_address_of_a_swarm_event(target: str, address: Address | None) -> None:
+    send = f"<send event='f' type='urn:swarmdsl:swarm' {target}/>"
+    body = (
+        f"<state id='A'><transition event='e' target='B'>{send}</transition></state><state id='B'/>"
+    )
+    system, _ = imported(body)
+
+    ((sent,),) = (each.effects for each in states(system)["A"].transitions)
+    assert isinstance(sent, Send)
+    assert sent.to == address

@@ -29,6 +29,7 @@ from swarmdsl.ir import (
     Unary,
 )
 from swarmdsl.ir.expressions import reads
+from swarmdsl.syntax.parser.literals import forbidden_character
 from swarmdsl.syntax.types import BOOL, INT, STRING
 
 _UNSUPPORTED = {
@@ -200,13 +201,21 @@ class ExecutableContent:
         return Send(
             sent_event.name,
             tuple(self._argument(each, sent_event, event) for each in node.children),
-            self._address(node, event) if "targetexpr" in node.attributes else None,
+            self._address(node, event) if away else None,
             read_delay(node, self.data, event) if delayed else None,
         )
 
-    def _address(self, node: Node, event: Type | None) -> Address:
-        """Return the address of a send: a role, one of its robots, or a value."""
-        value = self.data.read(node, "targetexpr", node.get("targetexpr", ""), STRING, event)
+    def _address(self, node: Node, event: Type | None) -> Address | None:
+        """Return the address of a send, if it has one: a role, one of its robots, or a value."""
+        value: Expression
+        if "targetexpr" in node.attributes:
+            value = self.data.read(node, "targetexpr", node.get("targetexpr", ""), STRING, event)
+        elif target := node.get("target", ""):
+            if forbidden := forbidden_character(target):
+                raise UnsupportedError(f"a string of a model cannot contain {forbidden}")
+            value = Literal(target, STRING)
+        else:
+            return None
         match value:
             case Literal(value=str(text)) if (found := _ROBOT.fullmatch(text)) and is_plain(
                 found[1]
