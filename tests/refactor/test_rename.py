@@ -248,6 +248,24 @@ def test_a_role_in_addresses(swarmc, yard) -> None:
     assert swarmc("check").code == 0
 
 
+def test_a_role_in_the_steps_of_a_test(swarmc, yard) -> None:
+    (yard / "yard.swarm").write_text(ADDRESSED)
+    text = """swarm = "Yard"
+
+[[test]]
+name  = "a cart calls"  # sent by a cart
+steps = [
+  { send = "Go", to = "cart[0]", sender = "cart[1]" },
+  { who = "cart[0]", sends = "Go", to = "cart" },
+]
+"""
+    file = yard / "yard.swarmtest.toml"
+    file.write_text(text)
+    ran = swarmc("rename", "Yard.cart", "van")
+    assert ran.code == 0
+    assert file.read_text() == text.replace('"cart', '"van')
+
+
 def test_a_role_that_another_swarm_has_too(swarmc, yard) -> None:
     """The machine would name a role that the other swarm does not have."""
     model = ADDRESSED + "\nswarm Farm { cart : Cart[3] }\n"
