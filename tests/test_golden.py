@@ -38,7 +38,7 @@ ENGINE = re.compile(r"(smach|ros2|smach_ros2|yasmin)/\w+/(src/\w+/engine/\w+|\w+
 # What else is the same in each package is looked at in one.
 SAME_IN_ALL = re.compile(
     r"smach/\w+/src/\w+/(actions|chart|containers|identity|node|services|states)\.py"
-    r"|ros2/\w+/(\w+/(alarms|diagnostics|functions|host|identity|node|parameters|topics|tracing"
+    r"|ros2/\w+/(\w+/(alarms|diagnostics|functions|host|identity|members|node|parameters|topics|tracing"
     r"|values)\.py"
     r"|test/test_(copyright|flake8|pep257)\.py|setup\.cfg)"
     r"|(yasmin|smach_ros2)/\w+/\w+/(following|library|node|runner|states)\.py"

@@ -180,7 +180,7 @@ def _dialect(data: str) -> Dialect:
         envelope=lambda fact: f"{EVENT}.envelope.{fact.field}",
         identity=f"{data}.self.{{}}".format,
         operators={},
-        functions=PYTHON_FUNCTIONS,
+        functions={**PYTHON_FUNCTIONS, "present": f"{MACHINE}.world.present"},
         item=python_item,
         query=python_query,
         construction=_construction,

@@ -21,6 +21,8 @@ from swarmdsl.ir import Member, Role, Swarm, System
 from .names import TARGET
 from .params import given
 
+_SECOND = 1_000_000_000
+
 
 @dataclass(frozen=True)
 class LaunchedNode:
@@ -60,6 +62,7 @@ class Launch:
     doc: str
     roles: tuple[LaunchedRole, ...]
     bringup: str
+    heartbeat: tuple[float, float] | None
     origin: Span | None
 
     @property
@@ -81,12 +84,28 @@ def launches(system: System, modules: Mapping[str, str], report: Diagnostics) ->
         if roles:
             name = fresh(snake_case(swarm.name) or "swarm", (each.name for each in found))
             bringup = bringup_package(system)
-            found.append(Launch(name, swarm.name, swarm.doc, roles, bringup, swarm.origin))
+            found.append(
+                Launch(
+                    name,
+                    swarm.name,
+                    swarm.doc,
+                    roles,
+                    bringup,
+                    _heartbeat(swarm),
+                    swarm.origin,
+                )
+            )
     launched = {role.member for launch in found for role in launch.roles}
     for member in system.members:
         if member.name in launched:
             check_wiring(member_wiring(member, system), TARGET, report)
     return found
+
+
+def _heartbeat(swarm: Swarm) -> tuple[float, float] | None:
+    """Return the times of a heartbeat in seconds."""
+    beat = swarm.heartbeat
+    return (beat.period / _SECOND, beat.timeout / _SECOND) if beat is not None else None
 
 
 def _roles(

@@ -66,6 +66,8 @@ MAPPING = tuple(
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
         ("initial state of a machine that is final", _EXACT, "the node ends at once: `Kind.FINAL`"),
         ("name that Python cannot have", _REJECTED, "not a valid identifier (SW0905)"),
+        ("events of members", _EXACT, "raised by heartbeats: `follows_members=True`"),
+        ("number of present robots", _EXACT, "heard in time: `machine.world.present(`"),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
         ("delivery of a swarm event", _EXACT, "quality of service: `delivery=Delivery(`"),
         ("monitored topic", _EXACT, "subscription, reliable if its publishers are: `heard=True`"),

@@ -51,8 +51,9 @@ def dependencies(system: System, machines: Iterable[StateMachine]) -> list[str]:
         for name in called_functions(machine):
             found.add(system.function(name).communication.type.package)
         for name in (*heard_events(machine), *sent_events(machine)):
-            type_ = system.event(name).type
-            if isinstance(type_, Named):
+            event = system.event(name)
+            type_ = event.type
+            if isinstance(type_, Named) and not event.predefined:
                 found.add(type_.package)
             if name in around:
                 found.add(around[name].type.package)

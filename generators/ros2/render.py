@@ -26,6 +26,7 @@ _MODULES = (
     "functions",
     "host",
     "identity",
+    "members",
     "parameters",
     "topics",
     "tracing",

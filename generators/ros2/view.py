@@ -13,7 +13,7 @@ from swarmdsl.codegen.ros import (
     interfaces_to_write,
     manifest,
 )
-from swarmdsl.codegen.shared import envelopes_of, missing_values, uses_self
+from swarmdsl.codegen.shared import envelopes_of, follows_members, missing_values, uses_self
 from swarmdsl.ir import StateMachine, System
 
 from . import names, package
@@ -54,6 +54,7 @@ class MachineView:
     rows: tuple[Row, ...]
     initial: str
     callbacks: tuple[str, ...]
+    follows_members: bool
     header: str
     origin: Span | None
 
@@ -197,6 +198,7 @@ def _machine_view(
         rows=tuple(table.rows),
         initial=machine.initial,
         callbacks=tuple(dict.fromkeys(name for name, _, _ in made.callbacks)),
+        follows_members=follows_members(machine),
         header=header(system, [machine]),
         origin=machine.origin,
     )

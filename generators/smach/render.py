@@ -6,7 +6,16 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from swarmdsl.codegen import Diagnostics, OutputFile, Templates, engine_folder, fits
+from swarmdsl.codegen import (
+    Diagnostics,
+    Feature,
+    OutputFile,
+    Templates,
+    chosen_machines,
+    engine_folder,
+    fits,
+)
+from swarmdsl.codegen.features import uses_in_machine
 from swarmdsl.codegen.python import docstring
 from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_path, manifest
 from swarmdsl.ir import System
@@ -26,11 +35,29 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
         from .ros2 import render as ros2  # not needed for ROS 1
 
         return ros2.emit(system, options, report)
+    _report_members(system, report)
+    if report.has_errors:
+        return []
     package = package_view(system, options, report)
     if package is None:
         return []
     interfaces = [_interfaces(each, options, report) for each in package.interfaces]
     return [*_files(package), *(file for files in interfaces for file in files)]
+
+
+def _report_members(system: System, report: Diagnostics) -> None:
+    """Report uses of heartbeats, which nodes of ROS 1 do not send."""
+    for machine in chosen_machines(system):
+        for feature, place in uses_in_machine(machine):
+            if feature in (Feature.MEMBER_EVENT, Feature.PRESENT):
+                report.report(
+                    "unsupported-construct",
+                    place,
+                    target=TARGET,
+                    construct=feature.value,
+                    help="nodes of ROS 1 send no heartbeats: build it for ROS 2 with `--option "
+                    "smach.ros=2`, or with target `ros2`",
+                )
 
 
 def _interfaces(

@@ -147,7 +147,9 @@ def _external(system: System) -> Iterator[Interface]:
         for variable in machine.variables:
             used.update((type_, Message(type_, (), True)) for type_ in named_types(variable.type))
         for event in (*heard_events(machine), *sent_events(machine)):
-            used.update((t, Message(t, (), True)) for t in named_types(system.event(event).type))
+            if not system.event(event).predefined:
+                types = named_types(system.event(event).type)
+                used.update((t, Message(t, (), True)) for t in types)
         for name in called_functions(machine):
             call = system.function(name).communication
             action = call.paradigm == "action"

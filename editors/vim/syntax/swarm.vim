@@ -52,12 +52,14 @@ syn match swarmDeclaration #\<feedback\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<goal\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<has\>\ze[ \t]*[\[]#
 syn match swarmDeclaration #\<hears\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<heartbeat\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<internal\>\ze[ \t]*\%(\%(after\|monitor\|on\)\>\|[\[]\)#
 syn match swarmStatement #\<keep\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<latest\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmDeclaration #\<leads\>\ze[ \t]*\%(to\)\>#
 syn match swarmDeclaration #\<least\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<lifespan\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<lost\>\ze[ \t]*\%(after\)\>#
 syn match swarmStatement #\<maximize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<minimize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<most\>\ze[ \t]*[0-9"]#

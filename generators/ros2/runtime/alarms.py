@@ -30,6 +30,10 @@ class Alarms:
         """Return the time of the clock, in nanoseconds."""
         return self._clock.now().nanoseconds
 
+    def post(self, action):
+        """Run an action when no other function is running."""
+        self._post(action)
+
     def schedule(self, delay, action):
         """Call the action once after a delay; return a handle for `unschedule`."""
         alarm = [self.now + delay, next(self._numbers), action]

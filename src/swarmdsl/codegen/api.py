@@ -48,6 +48,8 @@ class Feature(Enum):
     ADDRESS = "an address"
     SELF = "the identity of the robot"
     IN_STATE = "a test of the active states"
+    MEMBER_EVENT = "an event of the members of a swarm"
+    PRESENT = "the number of robots that are there"
     CROSS_LEVEL = "a transition out of the enclosing state"
     INTO_STATE = "a transition into a nested state"
     HISTORY = "a history"

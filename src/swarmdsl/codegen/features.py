@@ -19,6 +19,7 @@ from swarmdsl.ir import (
     Effect,
     EnvelopeField,
     EventData,
+    EventTrigger,
     Expression,
     FieldAccess,
     InState,
@@ -105,6 +106,8 @@ def _uses_in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use
         yield from _uses_in_activity(state.activity)
     for deferred in state.deferred:
         yield Feature.DEFER, deferred.origin
+        if deferred.predefined:
+            yield Feature.MEMBER_EVENT, deferred.origin
     for feature, effects in ((Feature.ENTRY, state.entry), (Feature.EXIT, state.exit)):
         for effect in effects:
             yield feature, effect.origin
@@ -147,6 +150,8 @@ def _uses_in_transition(transition: Transition) -> Iterator[Use]:
         if isinstance(trigger, TimeTrigger):
             yield Feature.TIMEOUT, trigger.origin
             yield from _uses_in_expression(trigger.delay)
+        elif isinstance(trigger, EventTrigger) and trigger.predefined:
+            yield Feature.MEMBER_EVENT, trigger.origin
     if transition.guard is not None:
         yield Feature.GUARD, transition.guard.origin
         yield from _uses_in_expression(transition.guard)
@@ -191,6 +196,8 @@ def _uses_in_expression(expression: Expression) -> Iterator[Use]:
         case Binary(left=left, right=right):
             yield from _uses_in_expression(left)
             yield from _uses_in_expression(right)
+        case Call(function="present"):
+            yield Feature.PRESENT, expression.origin
         case Call(arguments=arguments):
             for argument in arguments:
                 yield from _uses_in_expression(argument)

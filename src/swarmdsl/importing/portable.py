@@ -32,7 +32,7 @@ from swarmdsl.ir import (
 )
 from swarmdsl.ir.docs import Docs
 from swarmdsl.syntax.parser.literals import nanoseconds
-from swarmdsl.syntax.types import unit_of, with_unit
+from swarmdsl.syntax.types import MEMBER, unit_of, with_unit
 from swarmdsl.syntax.units import UNITS
 
 _RELIABLE = {"reliable": True, "best-effort": False}
@@ -98,6 +98,7 @@ class PortableDescription:
                     swarm,
                     doc_of(node.children),
                     delivery=self._delivery(node) if swarm else None,
+                    predefined=type_ == MEMBER and not swarm,
                 )
 
     def _delivery(self, node: Node) -> Delivery | None:

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
         Connector,
         Direction,
         Environment,
+        Heartbeat,
         Member,
         Multiplicity,
         Part,
@@ -127,7 +128,7 @@ else:
         globals(),
         {
             "swarmdsl.ir.architecture": (
-                "CommunicationSettings Component Connector Direction Environment Member "
+                "CommunicationSettings Component Connector Direction Environment Heartbeat Member "
                 "Multiplicity Part Port PortGroup PortRef RobotValues Role Swarm"
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
@@ -202,6 +203,7 @@ __all__ = [
     "Fitness",
     "Function",
     "FunctionPort",
+    "Heartbeat",
     "InState",
     "Interface",
     "ItemRef",

@@ -189,6 +189,19 @@ class Environment:
 
 
 @dataclass(frozen=True, slots=True)
+class Heartbeat:
+    """How often a robot says that it is there, and after how long a silence it is lost.
+
+    Both times are in nanoseconds.
+    """
+
+    period: int
+    timeout: int
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Swarm:
     """Members that work together."""
 
@@ -199,3 +212,4 @@ class Swarm:
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+    heartbeat: Heartbeat | None = None

@@ -65,6 +65,7 @@ def model_construction(made: Construction, text: Printer) -> str:
 
 MODEL_FUNCTIONS: Mapping[str, Callable[[Sequence[str]], str]] = {
     "item": lambda values: "{}[{}]".format(*values),
+    "present": lambda values: f"present({values[0][1:-1] if values else ''})",
 }
 """Built-in functions that the model does not write as calls."""
 

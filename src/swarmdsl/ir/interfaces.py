@@ -97,7 +97,8 @@ class Event:
     """Event, known by a message on a topic.
 
     A swarm event (`swarm` true) is published on `topic` by its sender and arrives at the
-    other members on `bridge/events/<topic>`, which the swarmros bridge provides.
+    other members on `bridge/events/<topic>`, which the swarmros bridge provides. Heartbeats raise
+    a `predefined` one, which has no topic.
     """
 
     name: str
@@ -107,6 +108,7 @@ class Event:
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
     delivery: Delivery | None = None
+    predefined: bool = False
 
     @property
     def incoming_topic(self) -> str:

@@ -32,10 +32,11 @@ class StateKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class EventTrigger:
-    """Event of the system, by name."""
+    """Event of the system, by name; heartbeats raise a `predefined` one."""
 
     event: str
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+    predefined: bool = dataclass_field(default=False, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

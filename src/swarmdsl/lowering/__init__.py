@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl import ir
+from swarmdsl.analysis.resolve.membership import used_member_events
 from swarmdsl.analysis.usage import used_declarations
 from swarmdsl.base.records import replace
 from swarmdsl.lowering.architecture import (
@@ -61,6 +62,7 @@ def lower(
     uses, or the given `declarations` with all that they use.
     """
     used = used_declarations(project) if declarations is None else declarations
+    used = [*used, *used_member_events(node for _, node in used)]
     context = make_context(project, used)
     interfaces: list[ir.Interface] = []
     events: list[ir.Event] = []

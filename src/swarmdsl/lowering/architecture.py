@@ -20,6 +20,7 @@ from swarmdsl.syntax.ast import (
     Environment,
     EnvironmentUse,
     FitnessUse,
+    Heartbeat,
     Member,
     Multiplicity,
     Param,
@@ -94,7 +95,22 @@ def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
         doc=swarm.doc,
         docs=lower_docs(swarm.items),
         origin=swarm.name.span,
+        heartbeat=_heartbeat(swarm, context),
     )
+
+
+def _heartbeat(swarm: Swarm, context: Context) -> ir.Heartbeat | None:
+    item = next((item for item in swarm.items if isinstance(item, Heartbeat)), None)
+    if item is None:
+        return None
+    values = []
+    for given in (item.period, item.timeout):
+        assert given.tree is not None
+        value = context.typing.folding.value(given.tree)
+        assert isinstance(value, (int, float))
+        values.append(round(value))
+    period, timeout = values
+    return ir.Heartbeat(period, timeout, item.doc, item.span)
 
 
 def _role(role: Role, robots: Iterable[RobotValues], context: Context) -> ir.Role:

@@ -33,6 +33,7 @@ from swarmdsl.syntax.ast import (
     Param,
     Query,
     Remove,
+    RoleUse,
     Store,
     Value,
     Variable,
@@ -131,6 +132,8 @@ def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
             return _field(lower_tree(base, context), str(name), tree.span, context)
         case Call(function="distance", arguments=points):
             return _distance(tree, [lower_tree(point, context) for point in points], context)
+        case RoleUse(name=name):
+            return ir.Literal(name, STRING, tree.span)
         case Call(function="seconds", arguments=(argument,)):
             return _seconds(lower_tree(argument, context), tree.span)
         case Call(function=function, arguments=arguments):

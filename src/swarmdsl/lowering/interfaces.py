@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from swarmdsl import ir
 from swarmdsl.analysis.event_topics import topic_of
 from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.membership import is_member_event
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.types.enum_values import numbers, underlying
 from swarmdsl.lowering.context import Context, operations_of
@@ -137,6 +138,7 @@ def lower_event(event: Event, context: Context) -> ir.Event:
         doc="\n".join(filter(None, (event.doc, *(each.doc for each in event.delivery)))),
         origin=event.name.span,
         delivery=_lower_delivery(event.delivery, context) if event.delivery else None,
+        predefined=is_member_event(event),
     )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from swarmdsl import ir
 from swarmdsl.analysis.event_topics import is_of_swarm, received_topic
+from swarmdsl.analysis.resolve.membership import is_member_event
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.expressions import (
@@ -64,7 +65,11 @@ def lower_effects(
 def lower_deferred(state: State | Parallel, frame: Frame) -> tuple[ir.EventTrigger, ...]:
     """Lower the events that a state defers."""
     return tuple(
-        ir.EventTrigger(frame.context.name(deferred.event), deferred.span)
+        ir.EventTrigger(
+            frame.context.name(deferred.event),
+            deferred.span,
+            is_member_event(deferred.event.target),
+        )
         for item in state.items
         if isinstance(item, Defer)
         for deferred in item.events
@@ -148,7 +153,8 @@ def _target(ref: Ref[Vertex], frame: Frame) -> str:
 def _trigger(trigger: Trigger, owner: State | Parallel, frame: Frame) -> ir.Trigger:
     match trigger:
         case EventTrigger():
-            return ir.EventTrigger(frame.context.name(trigger.event), trigger.span)
+            predefined = is_member_event(trigger.event.target)
+            return ir.EventTrigger(frame.context.name(trigger.event), trigger.span, predefined)
         case OutcomeTrigger(outcome=outcome):
             return ir.OutcomeTrigger(frame.ids[owner], outcome, trigger.span)
         case MonitorTrigger():

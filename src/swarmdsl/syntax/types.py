@@ -69,6 +69,9 @@ SELF_FIELDS = {
 }
 """Fields of `self`, the robot that runs a machine."""
 
+MEMBER = Named("swarmdsl", "Member")
+"""Message of the events that heartbeats raise: the robot that joined or was lost."""
+
 ENVELOPE_FIELDS = {"sender": STRING, "sent": DURATION}
 """Fields of `event` that every swarm event has, whatever its message."""
 

@@ -33,6 +33,7 @@ from swarmdsl.analysis.checks.interfaces import (
     check_values,
 )
 from swarmdsl.analysis.checks.livelock import check_livelock
+from swarmdsl.analysis.checks.membership import check_heartbeat, check_membership
 from swarmdsl.analysis.checks.monitor_names import check_monitor_names
 from swarmdsl.analysis.checks.names import check_names, check_names_inside
 from swarmdsl.analysis.checks.optimization import (
@@ -87,6 +88,7 @@ PROJECT_PASSES: Sequence[Callable[[Project, Context], None]] = (
     check_events,
     check_ignored_events,
     check_addresses,
+    check_membership,
     check_subjects,
 )
 """Passes over a whole project, in order."""
@@ -126,7 +128,7 @@ PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
     ServiceType: (check_standard,),
     ActionType: (check_standard,),
     Fitness: (check_fitness,),
-    Swarm: (check_swarm, check_robot_values),
+    Swarm: (check_swarm, check_heartbeat, check_robot_values),
     Environment: (check_environment,),
     Property: (check_property,),
 }

@@ -39,6 +39,7 @@ from swarmdsl.syntax.ast import (
     Node,
     OperatorUse,
     Query,
+    RoleUse,
     Transition,
     Value,
     walk,
@@ -210,6 +211,8 @@ def _term(tree: ExpressionTree, folding: Folding) -> Hashable:
             return name  # the same in another query
         case NameUse(name=name, target=target):
             return target or name
+        case RoleUse(name=name):
+            return ("role", name)
         case FieldUse(base=base, name=name):
             return (_term(base, folding), str(name))
         case Call(function=word, arguments=operands):

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
+from swarmdsl.analysis.resolve.membership import MEMBER_EVENTS, member_events
 from swarmdsl.base.records import dataclass
 from swarmdsl.project.libraries import imported_name
 from swarmdsl.project.loader import File, Project
@@ -78,7 +79,12 @@ class FileScope:
         if name in self.own:
             return [(self._package, self.own[name])]
         found = [(package, names[name]) for package, names in self._imported if name in names]
-        if found or "." not in name:
+        if found:
+            return found
+        if name in MEMBER_EVENTS:
+            file, events = member_events()
+            return [(file.package, events[name])]
+        if "." not in name:
             return found
         package, _, last = name.rpartition(".")
         return [

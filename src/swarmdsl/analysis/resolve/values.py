@@ -40,6 +40,7 @@ from swarmdsl.syntax.ast import (
     Param,
     Query,
     Region,
+    RoleUse,
     State,
     StateMachine,
     TopLevel,
@@ -127,6 +128,14 @@ class ValueLinker:
                 tree.operands = tuple(
                     [self._linked(each, owner, values, missing) for each in operands]
                 )
+            case Call(function="present", arguments=arguments):
+                tree.arguments = tuple(
+                    RoleUse(each.span, each.name)
+                    if isinstance(each, NameUse)
+                    else self._linked(each, owner, values, missing)
+                    for each in arguments
+                )
+                invalidate(owner)
             case Call(arguments=arguments):
                 tree.arguments = tuple(
                     [self._linked(each, owner, values, missing) for each in arguments]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from swarmdsl.analysis.types.unit_rules import NUMBER_OF_SECONDS
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.types import BOOL, FLOAT, INT, Type, with_unit, written
+from swarmdsl.syntax.types import BOOL, FLOAT, INT, Primitive, Type, with_unit, written
 from swarmdsl.syntax.units import RADIAN
 
 
@@ -14,13 +14,14 @@ from swarmdsl.syntax.units import RADIAN
 class BuiltIn:
     """Function with its parameters; `more` allows further ones of the last kind.
 
-    `result` is None if it has the type of the arguments.
+    `result` is None if it has the type of the arguments. The last `optional` ones can be left out.
     """
 
     parameters: tuple[str, ...]
     result: Type | None
     doc: str
     more: bool = False
+    optional: int = 0
 
     def signature(self, name: str) -> str:
         """Return the declaration, as the reference shows it."""
@@ -57,5 +58,11 @@ BUILT_INS: Mapping[str, BuiltIn] = {
     ),
     "distance": BuiltIn(_PAIR, FLOAT, "The distance of two messages with `x`, `y`, perhaps `z`."),
     "len": BuiltIn(_X, INT, "The length of a string or array."),
+    "present": BuiltIn(
+        ("role",),
+        Primitive("int32"),
+        "The number of robots of a role, or of the swarm, that are there.",
+        optional=1,
+    ),
     "contains": BuiltIn(("array", "x"), BOOL, "True if an item of an array equals `x`."),
 }

@@ -109,7 +109,7 @@ class Folding:
         result is a duration.
         """
         word = str(tree.function if isinstance(tree, Call) else tree.operator)
-        if word in _ALWAYS_DEFINED:
+        if word in _ALWAYS_DEFINED or word not in OPERATIONS:
             return None
         operands = tree.arguments if isinstance(tree, Call) else tree.operands
         values = [self.value(operand) for operand in operands]

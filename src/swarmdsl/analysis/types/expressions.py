@@ -42,6 +42,7 @@ from swarmdsl.syntax.ast import (
     OperatorUse,
     Parameter,
     Query,
+    RoleUse,
     Value,
     Word,
 )
@@ -93,6 +94,8 @@ class Typing:
         match tree:
             case NameUse():
                 return self._name(tree)
+            case RoleUse():
+                return None  # the swarm that runs the machine has it
             case Value(value=value, unit=unit):
                 return _value_type(value, unit)
             case FieldUse(base=NameUse(target=EnumType() as enum), name=name):

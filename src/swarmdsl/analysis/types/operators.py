@@ -12,7 +12,7 @@ from swarmdsl.analysis.types.unit_checks import check_operands
 from swarmdsl.analysis.types.unit_rules import in_seconds, result_unit, takes_angle
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, replace
-from swarmdsl.syntax.ast import Call, OperatorUse, Value
+from swarmdsl.syntax.ast import Call, OperatorUse, RoleUse, Value
 from swarmdsl.syntax.types import (
     BOOL,
     DURATION,
@@ -77,10 +77,12 @@ class Application:
             )
             return None
         count = len(known.parameters)
-        enough = len(types) >= count if known.more else len(types) == count
+        least = count - known.optional
+        enough = len(types) >= count if known.more else least <= len(types) <= count
         if not enough:
             self._report(
                 f"{len(types)} value{'s' * (len(types) != 1)}: it takes {count}"
+                + (" at most" if known.optional else "")
                 + (" or more" if known.more else "")
             )
             return None
@@ -92,6 +94,9 @@ class Application:
             self._require(lambda t: is_number(t) and not is_float(t), self._division_hint)
         elif function == "distance":
             self._check_positions()
+        elif function == "present":
+            if not all(isinstance(each, RoleUse) for each in call.arguments):
+                self._report_operands("name a role: `present(scout)`")
         elif function == "seconds":
             self._require(lambda t: t == DURATION)
         elif known.result is not None:

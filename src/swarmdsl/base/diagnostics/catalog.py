@@ -76,6 +76,7 @@ CODES: dict[str, Code] = {
     "missing-objective": Code("SW0304", "error", "fitness `{name}` has no objective"),
     "empty-range": Code("SW0305", "error", "this range {fault}"),
     "impossible-setting": Code("SW0306", "error", "`{name}` must be at least {least}"),
+    "early-loss": Code("SW0320", "error", "a robot would be lost before its next heartbeat"),
     "default-outside": Code("SW0307", "warning", "the default of `{name}` is outside this range"),
     "empty-optimization": Code(
         "SW0308", "warning", "the optimization of swarm `{name}` varies nothing"
@@ -150,6 +151,8 @@ CODES: dict[str, Code] = {
     ),
     "needless-defer": Code("SW0531", "warning", "event `{name}` is never deferred by `{state}`"),
     "nothing-to-cancel": Code("SW0532", "warning", "no delayed sending of `{name}` to cancel"),
+    "no-heartbeat": Code("SW0541", "error", "`{name}` needs a heartbeat, which {swarms} lacks"),
+    "misplaced-membership": Code("SW0542", "error", "`{name}` {fault}"),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "missing value for {fields} in {owner}"),

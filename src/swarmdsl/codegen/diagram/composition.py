@@ -8,6 +8,7 @@ from typing import Literal
 from swarmdsl import ir
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
+from swarmdsl.codegen.swarm_printer.composition import heartbeat
 from swarmdsl.codegen.swarm_printer.expressions import expression, with_names
 from swarmdsl.codegen.swarm_printer.layout import quoted
 
@@ -29,7 +30,7 @@ def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
         "swarm",
         swarm.name,
         "swarm",
-        tuple(_optimizations(swarm, system)),
+        (*_heartbeat(swarm), *_optimizations(swarm, system)),
         doc=swarm.doc,
         origin=swarm.origin,
     )
@@ -138,6 +139,12 @@ def _flows(roles: list[_Role], system: ir.System) -> Iterator[Edge]:
             if not alone:
                 label = (*(f"{each}," for each in others), last)
                 yield Edge(f"{sender.id}=>{receiver.id}", "flow", sender.id, receiver.id, label)
+
+
+def _heartbeat(swarm: ir.Swarm) -> Iterator[tuple[str, ...]]:
+    beat = swarm.heartbeat
+    if beat is not None:
+        yield (heartbeat(beat),)
 
 
 def _environment(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edge]]:

@@ -57,7 +57,7 @@ def interfaces_to_write(system: System, extra: str) -> list[Interface]:
 def check_described(system: System, extra: str, target: str, report: Diagnostics) -> None:
     """Report used interfaces of packages to write that nothing describes."""
     packages = extra.split(",")
-    used = [(event.type, event.origin) for event in system.events]
+    used = [(event.type, event.origin) for event in system.events if not event.predefined]
     used += ((each.communication.type, each.origin) for each in system.functions)
     fields = (
         f

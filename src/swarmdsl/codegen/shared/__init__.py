@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         delays,
     )
     from swarmdsl.codegen.shared.identity import (
+        follows_members,
         uses_self,
     )
     from swarmdsl.codegen.shared.missing_values import (
@@ -74,7 +75,7 @@ else:
             ),
             "swarmdsl.codegen.shared.envelopes": "envelopes_of python_address reads_envelope",
             "swarmdsl.codegen.shared.events": "Events delays",
-            "swarmdsl.codegen.shared.identity": "uses_self",
+            "swarmdsl.codegen.shared.identity": "follows_members uses_self",
             "swarmdsl.codegen.shared.missing_values": "missing_values",
             "swarmdsl.codegen.shared.nodes": (
                 "BehaviorNode ParamValue behavior_nodes bringup_package has_node"
@@ -111,6 +112,7 @@ __all__ = [
     "envelopes_of",
     "evaluate",
     "field_type",
+    "follows_members",
     "has_node",
     "member_wiring",
     "missing_values",

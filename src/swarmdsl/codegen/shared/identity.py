@@ -10,3 +10,9 @@ from swarmdsl.ir import StateMachine
 def uses_self(machine: StateMachine) -> bool:
     """Return True if an expression of the machine reads a field of `self`."""
     return any(feature is Feature.SELF for feature, _ in uses_in_machine(machine))
+
+
+def follows_members(machine: StateMachine) -> bool:
+    """Return True if a machine handles events of members, or counts them."""
+    followed = (Feature.MEMBER_EVENT, Feature.PRESENT)
+    return any(feature in followed for feature, _ in uses_in_machine(machine))

@@ -53,14 +53,18 @@ def _of_machine(machine: StateMachine, system: System) -> Iterator[Use]:
                 yield Use(port.topic, port.type, port.direction == "in", port.origin)
         yield from _of_effects((*state.entry, *state.exit), system)
         for deferred in state.deferred:
-            event = system.event(deferred.event)
-            yield Use(event.incoming_topic, event.type, True, event.origin)
+            yield from _of_trigger(deferred, system)
         for transition in state.transitions:
             for trigger in transition.triggers:
                 if isinstance(trigger, EventTrigger):
-                    event = system.event(trigger.event)
-                    yield Use(event.incoming_topic, event.type, True, event.origin)
+                    yield from _of_trigger(trigger, system)
             yield from _of_effects(transition.effects, system)
+
+
+def _of_trigger(trigger: EventTrigger, system: System) -> Iterator[Use]:
+    event = system.event(trigger.event)
+    if not event.predefined:
+        yield Use(event.incoming_topic, event.type, True, event.origin)
 
 
 def _of_effects(effects: tuple[Effect, ...], system: System) -> Iterator[Use]:

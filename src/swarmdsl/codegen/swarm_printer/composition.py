@@ -5,7 +5,7 @@ from __future__ import annotations
 from decimal import Decimal
 
 from swarmdsl.codegen.swarm_printer.architecture import print_values
-from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.codegen.swarm_printer.expressions import duration, expression
 from swarmdsl.codegen.swarm_printer.interfaces import print_params
 from swarmdsl.codegen.swarm_printer.layout import block, documented, quoted
 from swarmdsl.codegen.swarm_printer.names import Names
@@ -13,6 +13,7 @@ from swarmdsl.ir import (
     CountRange,
     Environment,
     Fitness,
+    Heartbeat,
     Multiplicity,
     Optimization,
     ParamRange,
@@ -37,7 +38,15 @@ def print_swarm(swarm: Swarm) -> list[str]:
         if name is not None
         for line in documented(doc_of(swarm.docs, what), [f"{what} {name}"])
     ]
+    beat = swarm.heartbeat
+    if beat is not None:
+        used += documented(beat.doc, [heartbeat(beat)])
     return documented(swarm.doc, block(f"swarm {swarm.name}", [*roles, *used]))
+
+
+def heartbeat(beat: Heartbeat) -> str:
+    """Return the heartbeat as in the model: `heartbeat 1 s lost after 5 s`."""
+    return f"heartbeat {duration(beat.period)} lost after {duration(beat.timeout)}"
 
 
 def _role(role: Role) -> list[str]:

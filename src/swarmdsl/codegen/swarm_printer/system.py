@@ -61,7 +61,7 @@ def _declarations(system: System, names: Names) -> Iterator[list[str]]:
             yield print_function(function, names)
 
     yield from some_interfaces()
-    yield from (print_event(event, names) for event in system.events)
+    yield from (print_event(event, names) for event in system.events if not event.predefined)
     yield from some_functions()
     for component in system.components:
         yield print_component(component, system, names)

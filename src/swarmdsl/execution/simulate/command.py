@@ -181,7 +181,9 @@ class _Play:
         self._until = request.until if request.until is not None else scenario.until
         seed = request.seed if request.seed is not None else scenario.seed
         self._listeners: list[Callable[[Line], None]] = []
-        self._world = World(subject.system, cast, scenario, seed, self._listeners)
+        self._world = World(
+            subject.system, cast, scenario, seed, self._listeners, subject.heartbeat
+        )
 
     def replay(self, tell: Tell) -> bool:
         """Compare each trace with the model; return True if all conform."""

@@ -29,6 +29,8 @@ from swarmdsl.ir import (
 )
 from swarmdsl.ir.operations import OPERATIONS
 
+PRESENT = "present()"
+"""Key of a function in the data of a machine: the number of robots of a role that are there."""
 SELF = "self"
 """Key of the identity of the robot in the data of a machine; no variable has this name."""
 
@@ -68,6 +70,10 @@ def function_of(expression: Expression) -> Value:
             return _checked("-", lambda data, event: -value(data, event))
         case Binary(operator=symbol, left=left, right=right):
             return _binary(symbol, function_of(left), function_of(right))
+        case Call(function="present", arguments=(Literal(value=role),)):
+            return lambda data, event: data[PRESENT](role)
+        case Call(function="present"):
+            return lambda data, event: data[PRESENT](None)
         case Call(function="empty"):
             return lambda data, event: []
         case Call(function=name, arguments=arguments):

@@ -25,6 +25,8 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
+from swarmdsl.execution.simulate.expressions import PRESENT
+from swarmdsl.execution.simulate.members import Roster
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.table import first_data
@@ -91,7 +93,8 @@ def replay(
         if actor is None:
             _report_member(member, records[0].place, actors, report)
             continue
-        followed += _Replay(actor, subject, report, seen).replay(records)
+        roster = Roster(dict.fromkeys(each.robot for each in cast))
+        followed += _Replay(actor, subject, report, seen, roster).replay(records)
     return Replayed(followed, len(by_member))
 
 
@@ -134,8 +137,14 @@ class _Replay:
     """`World` of a single machine that reproduces the events of a trace."""
 
     def __init__(
-        self, actor: Actor, subject: Subject, report: Diagnostics, seen: Seen | None
+        self,
+        actor: Actor,
+        subject: Subject,
+        report: Diagnostics,
+        seen: Seen | None,
+        roster: Roster,
     ) -> None:
+        self._roster = roster
         self._seen = seen
         self._actor = actor
         self._subject = subject
@@ -146,6 +155,8 @@ class _Replay:
         self._delays: list[_Delay] = []
         self._runs: list[Run] = []
         self._last: list[str] = []
+        if actor.follows_members(subject.system):
+            actor.data[PRESENT] = roster.count
         self._first_data = deepcopy(actor.data)
         self._last_event: str | None = None
         self._instance = Instance(actor.machine, self, data=actor.data, servers=Servers())
@@ -231,6 +242,7 @@ class _Replay:
                 self._trace.begin(instance, name)
                 envelope = Envelope(**record.done.get("envelope", {}))
                 data = self._message(name, record.data)
+                self._roster.note(name, data)
                 instance.receive(Event(name, data, envelope=envelope))
         except LoopError as error:
             return str(error)
@@ -244,6 +256,9 @@ class _Replay:
         self._delays.clear()
         self._runs.clear()
         data = deepcopy(self._first_data)
+        self._roster.clear()
+        if PRESENT in data:
+            data[PRESENT] = self._roster.count
         self._instance = Instance(self._actor.machine, self, data=data, servers=Servers())
         self._trace.watch(self._instance, self._actor)
         return self._instance

@@ -43,6 +43,11 @@ class Subject:
     document: Document | None = None
     tables: dict[str, Machine] = field(default_factory=dict)
 
+    @property
+    def heartbeat(self) -> ir.Heartbeat | None:
+        """Heartbeat of the robots of the swarm."""
+        return self.swarm.heartbeat if self.swarm is not None else None
+
     def size(self, counts: Mapping[str, int]) -> int:
         """Return the number of members: by default, the minimum of each multiplicity.
 

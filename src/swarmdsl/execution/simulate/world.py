@@ -20,7 +20,9 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
 from swarmdsl.execution.simulate.durations import draw
+from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.headers import signed
+from swarmdsl.execution.simulate.members import Members
 from swarmdsl.execution.simulate.network import Network
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import (
@@ -34,7 +36,7 @@ from swarmdsl.execution.simulate.scenario import (
 )
 from swarmdsl.execution.simulate.statistics import Life
 from swarmdsl.execution.simulate.trace import Line, Trace
-from swarmdsl.ir import System
+from swarmdsl.ir import Heartbeat, System
 
 _OF_ACTIVITIES = "do."
 """Prefix of activity events, in tables of models and in our SCXML."""
@@ -54,6 +56,7 @@ class World:
         scenario: Scenario,
         seed: int,
         listeners: Sequence[Callable[[Line], None]],
+        heartbeat: Heartbeat | None = None,
     ) -> None:
         self.clock = Clock()
         self.trace = Trace(self.clock, listeners)
@@ -100,6 +103,17 @@ class World:
             self._instances[actor] = instance
             self._actors[instance] = actor
         self.robots = list(servers)
+        self.members = Members(
+            self.clock,
+            heartbeat,
+            self.robots,
+            [robot for robot in self.robots if self._observers(robot)],
+            self._hears,
+            self._tell_member,
+        )
+        for actor in self._instances:
+            if actor.robot in self.members.rosters:
+                actor.data[PRESENT] = self._presence(actor.robot)
         comes_back = any(each.lasts is not None and each.is_loss for each in scenario.faults)
         self._first_data = {
             actor: deepcopy(actor.data) for actor in (self._instances if comes_back else ())
@@ -110,6 +124,8 @@ class World:
     def begin(self) -> None:
         """Start all machines and schedule the scenario."""
         self.trace.attach()
+        if self._scenario.loss >= 1:
+            self.members.follow()
         for instance in self._instances.values():
             self.trace.begin(instance, None)
             instance.start()
@@ -155,6 +171,9 @@ class World:
         declared = self._system.events_by_name.get(event) if self._system is not None else None
         if sender and self._system is not None and declared is not None:
             data = signed(declared, data, self._system, sender, self.clock.now)
+        if declared is not None and declared.predefined:
+            for robot in dict.fromkeys(actor.robot for actor in to):
+                self.members.rosters[robot].note(event, data)
         self._deliver(Event(event, data, envelope=envelope), to)
 
     def _deliver(self, event: Event, to: Iterable[Actor]) -> None:
@@ -388,6 +407,8 @@ class World:
     def lose(self, robot: Robot) -> None:
         """Remove a robot, without executing exit effects."""
         self.network.leave(robot)
+        self.members.forget(robot)
+        self.members.follow([robot])
         for actor, instance in self._instances.items():
             if actor.robot is robot and instance.running:
                 self.trace.begin(instance, LOST)
@@ -415,16 +436,42 @@ class World:
                 instance.start()
                 self.trace.flush()
         self.network.join(robot, self.robots)
+        self.members.follow([robot])
 
     def _partition(self, fault: Fault) -> Callable[[], None]:
         def strike() -> None:
             self.network.part(fault.apart)
+            self.members.follow()
             if fault.lasts is not None:
-                self.clock.schedule(
-                    fault.lasts, lambda: self.network.heal(fault.apart, self.robots)
-                )
+                self.clock.schedule(fault.lasts, heal)
+
+        def heal() -> None:
+            self.network.heal(fault.apart, self.robots)
+            self.members.follow()
 
         return strike
+
+    # ---- members
+
+    def _hears(self, one: Robot, other: Robot) -> bool:
+        """Return True if heartbeats get from one robot to another; each one hears itself."""
+        is_silent = self._scenario.loss >= 1 and one is not other
+        return not is_silent and self.network.reaches(one, other)
+
+    def _observers(self, robot: Robot) -> list[Actor]:
+        """Return the machines of a robot that follow who is there."""
+        found = self._machines[robot.name]
+        return [actor for actor in found if actor.follows_members(self._system)]
+
+    def _presence(self, robot: Robot) -> Callable[[str | None], int]:
+        """Return the function that counts the robots that are present for a robot."""
+        return lambda role: self.members.rosters[robot].count(role)
+
+    def _tell_member(self, event: str, observer: Robot, other: Robot) -> None:
+        """Tell a robot that another one is lost, or is there again."""
+        data = {"id": other.name or "", "role": other.role}
+        self.members.rosters[observer].note(event, data)
+        self._deliver(Event(event, data), self._observers(observer))
 
     def _miss(self, event: str, robot: Robot) -> None:
         """Trace a missed deadline, once for all machines of the robot that wait for the event."""

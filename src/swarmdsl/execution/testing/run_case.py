@@ -76,7 +76,14 @@ class _CaseRun:
         if watched:
             self._watch = Watch(watched, self._cast, lambda actor: self._world.data(actor))
             listeners.append(self._watch.see)
-        self._world = World(case.subject.system, self._cast, case.scenario, seed, listeners)
+        self._world = World(
+            case.subject.system,
+            self._cast,
+            case.scenario,
+            seed,
+            listeners,
+            case.subject.heartbeat,
+        )
 
     def run_case(self) -> RunResult:
         failure = self._failed()

@@ -24,6 +24,8 @@ from swarmdsl.syntax.types import Named
 
 FOLDER = Path(__file__).resolve().parent
 FILES = ("standard_messages.txt", "standard_services.txt")
+_OWN = {("swarmdsl", "msg", "Member"): "string id\nstring role\n"}
+"""Messages of events that no model declares; robots raise them themselves."""
 _HEADING = re.compile(r"^== (\w+)/(\w+)/(\w+)\n", re.MULTILINE)
 _ONLY: dict[str, Literal[1, 2]] = {"only in ROS 1": 1, "only in ROS 2": 2}
 
@@ -73,7 +75,7 @@ def _texts() -> dict[str, dict[tuple[str, str], str]]:
 
 @cache
 def _parsed(package: str, kind: Kind, name: str) -> Interface | None:
-    text = _texts().get(package, {}).get((kind, name))
+    text = _OWN.get((package, kind, name)) or _texts().get(package, {}).get((kind, name))
     if text is None:
         return None
     source = Source(f"{package}/{kind}/{name}.{kind}", text)

@@ -49,7 +49,15 @@ class Swarm(TopLevel):
     """`swarm Name { ... }`."""
 
     name: Word
-    items: list[EnvironmentUse | FitnessUse | Role | RobotValues]
+    items: list[EnvironmentUse | FitnessUse | Heartbeat | Role | RobotValues]
+
+
+@dataclass(slots=True, eq=False)
+class Heartbeat(Documented):
+    """`heartbeat period lost after timeout` in a swarm."""
+
+    period: Expression
+    timeout: Expression
 
 
 @dataclass(slots=True, eq=False)

@@ -112,6 +112,13 @@ class Call(Node):
 
 
 @dataclass(slots=True, eq=False)
+class RoleUse(Node):
+    """Name of a role in `present(role)`; each swarm that runs the machine has its own."""
+
+    name: str
+
+
+@dataclass(slots=True, eq=False)
 class OperatorUse(Node):
     """An operator with one or two operands."""
 
@@ -120,7 +127,16 @@ class OperatorUse(Node):
 
 
 ExpressionTree = (
-    Value | NameUse | FieldUse | IndexUse | InState | Call | Query | Construction | OperatorUse
+    Value
+    | NameUse
+    | RoleUse
+    | FieldUse
+    | IndexUse
+    | InState
+    | Call
+    | Query
+    | Construction
+    | OperatorUse
 )
 
 

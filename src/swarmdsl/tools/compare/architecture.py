@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeVar
 
+from swarmdsl.codegen.swarm_printer.composition import heartbeat
 from swarmdsl.codegen.swarm_printer.delivery import delivery_settings
 from swarmdsl.ir import (
     Action,
@@ -48,7 +49,7 @@ def model_element(system: System) -> Element:
     """Tree of all declarations of a model, without library elements."""
     children = (
         *(_interface(each) for each in system.interfaces),
-        *(_event(each) for each in system.events),
+        *(_event(each) for each in system.events if not each.predefined),
         *(_function(each) for each in system.functions if not each.in_library),
         *_components(system),
         *_members(system),
@@ -281,11 +282,14 @@ def _swarm(swarm: Swarm) -> Element:
     values = properties(
         environment=_named(swarm.environment, "environment"),
         fitness=_named(swarm.fitness, "fitness"),
+        heartbeat=heartbeat(swarm.heartbeat).removeprefix("heartbeat ") if swarm.heartbeat else "",
     )
     ref = Ref("swarm", swarm.name)
     robots = (_robot(role, robot) for role in swarm.roles for robot in role.robots)
     element = Element("swarm", (swarm.name,), values, (*roles, *robots), ref, swarm.origin)
-    return with_doc(element, swarm.doc, swarm.docs)
+    beat = swarm.heartbeat
+    docs = swarm.docs if beat is None or not beat.doc else (*swarm.docs, ("heartbeat", beat.doc))
+    return with_doc(element, swarm.doc, docs)
 
 
 def _property(each: Property, system: System) -> Element:

@@ -17,6 +17,7 @@ from swarmdsl.syntax.ast import (
     Fitness,
     FitnessInput,
     FitnessUse,
+    Heartbeat,
     Member,
     Node,
     Objective,
@@ -61,6 +62,7 @@ def swarm(element: Element, builder: EntryBuilder) -> Entry:
     facts = [
         *_uses(element, builder, EnvironmentUse, "environment"),
         *_uses(element, builder, FitnessUse, "fitness"),
+        *_heartbeat(element, builder),
         ("used by", builder.used_by(element)),
     ]
     tables = (
@@ -260,6 +262,17 @@ def _uses(
             ref = item.environment if isinstance(item, EnvironmentUse) else item.fitness
             doc = doc_of(item)
             yield term, (builder.names.code(ref.span, element), *((" ", Prose(doc)) if doc else ()))
+
+
+def _heartbeat(element: Element, builder: EntryBuilder) -> Iterable[tuple[str, Cell]]:
+    assert isinstance(element.node, Swarm)
+    for item in element.node.items:
+        if isinstance(item, Heartbeat):
+            period = builder.names.code(item.period.span, element)
+            timeout = builder.names.code(item.timeout.span, element)
+            doc = doc_of(item)
+            more = (" ", Prose(doc)) if doc else ()
+            yield "heartbeat", (period, ", lost after ", timeout, *more)
 
 
 def _target(builder: EntryBuilder, node: Node | None, text: str | None = None) -> Cell:

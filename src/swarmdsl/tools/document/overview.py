@@ -69,7 +69,8 @@ def _events(builder: EntryBuilder) -> Iterator[tuple[Cell, _Users]]:
         declared = element is not None and isinstance(element.node, Event)
         if not (users.sent or users.handled or declared):
             continue
-        head: Inline = Code(((f'monitor "{event.topic}"', None),))
+        shown = event.name if event.predefined else f'monitor "{event.topic}"'
+        head: Inline = Code(((shown, None),))
         if declared and element is not None:
             head = link(element)
         yield (head,), users

@@ -18,6 +18,7 @@ from swarmdsl.syntax.ast import (
     EnvironmentUse,
     Exit,
     FitnessUse,
+    Heartbeat,
     ImportFile,
     ImportLibrary,
     ImportRos,
@@ -117,7 +118,7 @@ def _key(node: Documented) -> Key:
     match node:
         case Package() | Initial() | Entry() | Exit() | Activity() | BehaviorUse():
             return (kind,)
-        case EnvironmentUse() | FitnessUse():
+        case EnvironmentUse() | FitnessUse() | Heartbeat():
             return (kind,)
         case Transition(triggers=triggers):
             return kind, *(_normalized(each) for each in triggers)

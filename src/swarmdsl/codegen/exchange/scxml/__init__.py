@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Severity
 from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.api import Generator, OutputFile, option
+from swarmdsl.codegen.api import ALL_FEATURES, Feature, Generator, OutputFile, option
 from swarmdsl.ir import StateMachine, System
 
 if TYPE_CHECKING:
@@ -101,4 +101,5 @@ generator = Generator(
     summary="each state machine as SCXML, for any engine and for the CPSwarm code generator",
     emit=emit,
     options_type=Options,
+    supports=ALL_FEATURES - {Feature.PRESENT},
 )

@@ -46,6 +46,9 @@ ROLES = {
     ),
 }
 
+# Seconds between the heartbeats of a robot, and without them until it is lost.
+HEARTBEAT = (0.2, 1.0)
+
 
 def generate_launch_description():
     """Describe the whole swarm."""
@@ -108,6 +111,12 @@ def launch_members(context):
     return groups
 
 
+def all_members(context):
+    """Return the robots of the swarm, divided by spaces."""
+    counts = ((role, LaunchConfiguration(f'{role}_count').perform(context)) for role in ROLES)
+    return ' '.join(f'{role}[{n}]' for role, count in counts for n in range(int(count)))
+
+
 def launch_node(context, role, number, count, executable, name, part):
     """Return a node of a member, with the parameters of its role and its own."""
     member = f'{role}[{number}]' + (f'.{part}' if part else '')
@@ -115,6 +124,9 @@ def launch_node(context, role, number, count, executable, name, part):
         {
             'member': member,
             'self.count': count,
+            'heartbeat.period': HEARTBEAT[0],
+            'heartbeat.timeout': HEARTBEAT[1],
+            'heartbeat.members': all_members(context),
             'use_sim_time': LaunchConfiguration('use_sim_time').perform(context) == 'true',
         }
     ]

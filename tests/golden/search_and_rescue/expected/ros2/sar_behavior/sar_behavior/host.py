@@ -12,7 +12,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType
 from std_msgs.msg import String
 
-from . import engine, parameters
+from . import engine, members, parameters
 from .alarms import Alarms, Pauses
 from .diagnostics import Diagnostics, Losses
 from .engine import Envelope, Event, ExecutionError, Instance, LoopError, Machine, Servers
@@ -27,6 +27,7 @@ engine.FAILURES = (*engine.FAILURES, AttributeError, TypeError)
 
 _SETTINGS = (
     *SETTINGS,
+    *members.SETTINGS,
     Parameter('swarm', 'string', '', 'Namespace of the swarm; empty for the one around the own.'),
     Parameter('timeouts.server', 'duration', 5.0, 'How long a server may be missing, in s.'),
     Parameter('timeouts.cancel', 'duration', 5.0, 'How long a server may take to stop, in s.'),
@@ -37,7 +38,11 @@ _SETTINGS = (
 
 
 class Behavior(NamedTuple):
-    """A state machine and the ROS interfaces it uses; `data` creates its variables."""
+    """
+    A state machine and the ROS interfaces it uses; `data` creates its variables.
+
+    A machine that `follows_members` hears the heartbeats of other robots.
+    """
 
     machine: Machine
     data: Any
@@ -45,6 +50,7 @@ class Behavior(NamedTuple):
     topics: Any = ()
     functions: Any = MappingProxyType({})
     missing_callbacks: Any = ()
+    follows_members: bool = False
 
 
 def tree(*states):
@@ -128,6 +134,15 @@ class Host:
             self._receive,
             self._losses.add,
         )
+        self._members = members.Members(
+            node,
+            settings,
+            swarm,
+            robot,
+            self._group,
+            self._delays,
+            self._deliver if behavior.follows_members else None,
+        )
         self._types = {topic.event: topic.interface for topic in behavior.topics}
         self._injected = None
         if settings['debug.inject']:
@@ -164,6 +179,7 @@ class Host:
         for client in self._clients.values():
             client.destroy()
         self._topics.release()
+        self._members.release()
         if self._injected is not None:
             self._node.destroy_subscription(self._injected)
         self._diagnostics.release()
@@ -247,6 +263,10 @@ class Host:
         """Publish an event."""
         self._topics.send(event)
 
+    def present(self, role=None):
+        """Return how many robots of a role are there, or of all roles."""
+        return self._members.count(role)
+
     def observer(self):
         """Return the observer of the engine."""
         return self._trace
@@ -271,12 +291,14 @@ class Host:
         self._trace.on_end = lambda event: self._pauses.note(event.origin, event, self.now)
         self._trace.begin(self._instance, None)
         self._instance.start()
+        self._members.begin()
 
     def _end(self, then):
         if self._instance is not None and self._instance.running:
             self._trace.begin(self._instance, Event('node.shutdown'))
             self._instance.stop()
             self._trace.flush()
+        self._members.end()
         self._waiting.append(then)
         self._look_whether_idle()
 
