@@ -31,12 +31,14 @@ _REASONS: dict[str, dict[str, str]] = {
             "Action.doc Communication.doc CommunicationSettings.doc "
             "CommunicationSettings.docs Component.doc Component.docs Connector.doc "
             "Constant.doc CountRange.doc Environment.doc Environment.docs Event.doc Field.doc "
-            "Fitness.doc Fitness.docs Function.doc FunctionPort.doc Member.doc Member.docs "
+            "Fitness.doc Fitness.docs Function.doc FunctionPort.doc Heartbeat.doc "
+            "Member.doc Member.docs "
             "Message.doc Optimization.doc Optimization.docs Param.doc ParamRange.doc Part.doc "
             "Part.docs Port.doc RobotValues.doc RobotValues.docs Role.doc Role.docs Service.doc "
             "State.docs StateMachine.doc "
             "StateMachine.docs Swarm.doc Swarm.docs System.doc"
         ),
+        "an event looks the same, whoever raises it": "Event.predefined",
         "interfaces are not drawn; types are drawn without package and bounds": (
             "Action.external Action.feedback Action.goal Action.result Action.type "
             "Constant.name Constant.type "
@@ -75,6 +77,7 @@ _REASONS: dict[str, dict[str, str]] = {
         "diagrams have the names of what they show": ("System.name"),
     },
     "portable SCXML": {
+        "the type of the event tells it": "Event.predefined",
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
             "ParamRef.type ItemRef.type Query.type SelfField.type InState.type Unary.type"
@@ -98,7 +101,7 @@ _REASONS: dict[str, dict[str, str]] = {
             "Part.values Port.direction Port.doc Port.name Port.topic Port.type PortRef.part "
             "PortRef.port RobotValues.doc RobotValues.docs RobotValues.index RobotValues.values "
             "Role.doc Role.docs Role.member Role.multiplicity Role.name Role.robots Role.values "
-            "Swarm.doc "
+            "Heartbeat.doc Heartbeat.period Heartbeat.timeout Swarm.doc Swarm.heartbeat "
             "Swarm.docs Swarm.environment Swarm.fitness Swarm.name Swarm.roles "
             "System.components System.doc System.environments System.fitness System.members "
             "System.optimizations System.swarms"

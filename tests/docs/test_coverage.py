@@ -42,7 +42,8 @@ def test_the_reference_has_every_word_of_the_language() -> None:
 
 
 def test_the_reference_has_every_built_in_function() -> None:
-    assert BUILT_INS.keys() <= OPERATIONS.keys()
+    # The robots that are there depend on the moment.
+    assert BUILT_INS.keys() - {"present"} <= OPERATIONS.keys()
     written = "".join(line for line in LANGUAGE.text.splitlines() if line.startswith("| `"))
     assert [name for name in BUILT_INS if f"`{name}(" not in written] == []
 
