@@ -75,6 +75,8 @@ def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, 
             _EXACT,
             "subscribed on a hidden topic: `.Impl.FeedbackMessage` on `/_action/feedback`",
         ),
+        ("events of members", _EXACT, "raised by heartbeats: `follows_members=True`"),
+        ("number of present robots", _EXACT, "heard in time: `machine.world.present(`"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
         (
             "initial state of a machine that is final",

@@ -69,6 +69,8 @@ MAPPING = tuple(
             _EMULATED,
             "timer of the chart: `.send_after(`, `.cancel()`",
         ),
+        ("events of members", _REJECTED, "nodes of ROS 1 send no heartbeats (SW0903)"),
+        ("number of present robots", _REJECTED, "nodes of ROS 1 send no heartbeats (SW0903)"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `<remap from=`"),
         (
             "initial state of a machine that is final",
