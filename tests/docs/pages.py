@@ -6,7 +6,7 @@ A block of code can say more after its language:
     swarm file=robot.swarm     the same, kept under this name for later blocks of the page
     swarm with=robot.swarm     a file that begins with an import of that one
     swarm reports=SW0505       a file about which the compiler says this, and nothing else
-    swarm except=smach         a file that this target cannot express, and all others can
+    swarm except=smach,scxml   a file that these targets cannot express, and all others can
 
 Any block can be written, on the way through a page, or can be for another place:
 
