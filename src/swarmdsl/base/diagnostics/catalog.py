@@ -76,7 +76,6 @@ CODES: dict[str, Code] = {
     "missing-objective": Code("SW0304", "error", "fitness `{name}` has no objective"),
     "empty-range": Code("SW0305", "error", "this range {fault}"),
     "impossible-setting": Code("SW0306", "error", "`{name}` must be at least {least}"),
-    "early-loss": Code("SW0320", "error", "a robot would be lost before its next heartbeat"),
     "default-outside": Code("SW0307", "warning", "the default of `{name}` is outside this range"),
     "empty-optimization": Code(
         "SW0308", "warning", "the optimization of swarm `{name}` varies nothing"
@@ -84,6 +83,7 @@ CODES: dict[str, Code] = {
     "missing-fitness": Code("SW0309", "error", "swarm `{name}` is optimized but has no fitness"),
     "missing-robot-value": Code("SW0310", "error", "param `{name}` of {robots} has no value"),
     "unknown-robot": Code("SW0311", "error", "role `{role}` has no robot `{robot}`"),
+    "early-loss": Code("SW0320", "error", "a robot would be lost before its next heartbeat"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
     "port-type-mismatch": Code(

@@ -32,12 +32,14 @@ CONTEXTUAL = {
     'goal': '[{]',
     'has': '[\\[]',
     'hears': '[A-Za-z_]',
+    'heartbeat': '[A-Za-z_0-9"-]',
     'internal': '(?:(?:after|monitor|on)\\b|[\\[])',
     'keep': '[A-Za-z_0-9"-]',
     'latest': '(?:[,;}]|$)',
     'leads': '(?:to)\\b',
     'least': '[0-9"]',
     'lifespan': '[A-Za-z_0-9"-]',
+    'lost': '(?:after)\\b',
     'maximize': '[A-Za-z_0-9"-]',
     'minimize': '[A-Za-z_0-9"-]',
     'most': '[0-9"]',
@@ -87,7 +89,7 @@ FIRST = {
     'PropertySubject': frozenset(['endless', 'statemachine', 'swarm']),
     'RegionItem': frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state', 'var']),
     'StateItem': frozenset(['after', 'choice', 'deep', 'defer', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state', 'var']),
-    'SwarmItem': frozenset(['environment', 'fitness']),
+    'SwarmItem': frozenset(['environment', 'fitness', 'heartbeat']),
     'Trigger': frozenset(['aborted', 'done', 'preempted', 'succeeded']),
     'Vertex': frozenset(['choice', 'deep', 'final', 'history', 'parallel', 'state']),
 }
@@ -124,4 +126,4 @@ GROUPS = {
 # Keywords of declarations that can follow `:`, as categories.
 CATEGORIES = frozenset(['swarm'])
 # Keywords that a name can follow.
-BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'as', 'before', 'behavior', 'between', 'by', 'cancel', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'deadline', 'defer', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'remove', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'within'])
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'as', 'before', 'behavior', 'between', 'by', 'cancel', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'deadline', 'defer', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'function', 'hears', 'heartbeat', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'never', 'no', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'region', 'remove', 'seed', 'send', 'sends', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'within'])
