@@ -23,6 +23,8 @@ from swarmdsl.syntax.pegen.grammar import (
 )
 
 _DEEP = 16
+# Tokens after which a sentence ends as soon as it can: the parsers need seconds for long ones.
+_LONG = 150
 _GAPS = [" "] * 12 + ["", "", "\n", "  // a comment\n", " /* * / */ ", "\t\r\n"]
 _NEVER = 10**6
 
@@ -34,11 +36,13 @@ class Sentences:
         self.produced: set[str] = set()
         self._grammar = grammar
         self._dice = dice
+        self._tokens = 0
         self._heights = _heights(grammar)
         self._reachable = {rule: reachable(grammar, rule) for rule in grammar.rules}
 
     def sentence(self, rule: str) -> str:
         """A sentence of a rule; rules that had no part in one yet are preferred."""
+        self._tokens = 0
         return "".join(text + self._dice.choice(_GAPS) for text in self._texts(Use(rule), 0))
 
     def _is_new(self, expression: Expression) -> bool:
@@ -47,8 +51,10 @@ class Sentences:
         return any(not self._reachable[rule] <= self.produced for rule in uses)
 
     def _texts(self, expression: Expression, depth: int) -> Iterator[str]:
+        deep = depth > _DEEP or self._tokens > _LONG
         match expression:
             case Terminal(regex, literal):
+                self._tokens += 1
                 yield literal or sample(regex, self._dice)
             case Use(rule):
                 self.produced.add(rule)
@@ -60,19 +66,19 @@ class Sentences:
                 lowest = min(_height(part, self._heights) for part in parts)
                 low = [part for part in parts if _height(part, self._heights) == lowest]
                 new = [part for part in parts if self._is_new(part)]
-                if depth > _DEEP:
+                if deep:
                     choice = self._dice.choice(low)
                 else:
                     choice = self._dice.choice(new if new and self._dice.random() < 0.5 else parts)
                 yield from self._texts(choice, depth)
             case Optional(part):
-                if depth <= _DEEP and (self._dice.random() < 0.5 or self._is_new(part)):
+                if not deep and (self._dice.random() < 0.5 or self._is_new(part)):
                     yield from self._texts(part, depth)
             case Assign(_, _, part):
                 yield from self._texts(part, depth)
             case Repetition(part, least, separator):
-                most = least if depth > _DEEP else 3
-                if depth <= _DEEP and self._is_new(part):
+                most = least if deep else 3
+                if not deep and self._is_new(part):
                     least = 1
                 for number in range(self._dice.randint(least, most)):
                     if number and separator:
@@ -127,7 +133,8 @@ def sample(regex: str, dice: Random) -> str:
     """A random text that a regular expression matches."""
     while True:
         text = "".join(_pieces(_parsed(regex), dice))
-        if re.fullmatch(regex, text):  # lookaheads may refuse it
+        # Lookaheads may refuse it, and lookbehinds ask for a word and a blank before it.
+        if any(re.compile(regex).fullmatch(before + text, len(before)) for before in ("", "a ")):
             return text
         if all(str(operator) == "ASSERT" for operator, _ in _parsed(regex)):
             return ""  # what is around it decides, which the parsers have to agree on
