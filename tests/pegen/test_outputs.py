@@ -56,7 +56,7 @@ def changed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     ("file", "old", "new", "message"),
     [
         (
-            "behaviour.tx", "Activity | Entry", "Battery | Activity | Entry",
+            "behaviour.tx", "Activity | Defer", "Battery | Activity | Defer",
             ": rule Battery is used, but not defined",
         ),
         (
