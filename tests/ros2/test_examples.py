@@ -17,6 +17,7 @@ from swarmdsl.codegen.bundled.ros2.names import type_name
 
 from swarmdsl.base.naming import snake_case
 from swarmdsl.codegen.api import chosen_machines
+from swarmdsl.codegen.shared.envelopes import envelopes_of
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import (
     Communication,
@@ -61,6 +62,8 @@ class Robot:
         self.tried: defaultdict[tuple[str, Deed], float] = defaultdict(float)
         self.entered: set[str] = set()
         self._topics: dict[str, str] = {}
+        self._to_all: set[str] = set()
+        """Events in an envelope, whose address is left empty."""
         self._calls = {self._call(s) for s in self.states.values() if s.activity is not None}
         for call in self._calls:
             self._serve(call)
@@ -69,7 +72,10 @@ class Robot:
             of_swarm = event.swarm or event.topic.startswith(_OF_OTHERS)
             topic = event.topic.removeprefix(_OF_OTHERS)
             self._topics[name] = f"{self.swarm}/{topic}" if of_swarm else self._name(topic)
-            type_ = event.type
+            envelope = envelopes_of(system).get(name)
+            if envelope is not None:
+                self._to_all.add(name)
+            type_ = event.type if envelope is None else envelope.type
             fakes.publisher(self._topics[name], f"{type_.package}/msg/{type_.name}")  # type: ignore[union-attr]
         self.begin()
 
@@ -151,7 +157,8 @@ class Robot:
 
     def _do(self, kind: str, what: str, number: int) -> None:
         if kind == "event":
-            self.fakes.do("publish", topic=self._topics[what], data={}, number=number)
+            data = {"to": ""} if what in self._to_all else {}
+            self.fakes.do("publish", topic=self._topics[what], data=data, number=number)
         elif kind == "wait":
             Robot.now += LONG
             self.fakes.do("clock", time=Robot.now * 10**9)
