@@ -38,10 +38,12 @@ from ..swarm_printer.systems import systems
 from .ros1 import for_ros_1
 
 ROOT = Path(__file__).resolve().parents[2]
+MEMBERS = ROOT / "tests" / "golden" / "members" / "model.swarm"
 MODELS = [
     ROOT / "tests" / "agreement" / "machines.swarm",
     *sorted(path.parent for path in (ROOT / "examples").glob("*/README.md")),
-    *sorted((ROOT / "tests" / "golden").glob("*/model.swarm")),
+    # Machines are alone here, without members to count.
+    *sorted(set((ROOT / "tests" / "golden").glob("*/model.swarm")) - {MEMBERS}),
 ]
 CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
 DOCUMENTS = sorted((CORPUS / "scxml").glob("head_*.xml"))
