@@ -8,16 +8,15 @@ from pathlib import Path
 
 from swarmdsl.codegen import (
     Diagnostics,
-    Feature,
     OutputFile,
     Templates,
     chosen_machines,
     engine_folder,
     fits,
 )
-from swarmdsl.codegen.features import uses_in_machine
 from swarmdsl.codegen.python import docstring
 from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_path, manifest
+from swarmdsl.codegen.shared import member_uses
 from swarmdsl.ir import System
 
 from ..runtime_source import runtime_source
@@ -48,16 +47,15 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
 def _report_members(system: System, report: Diagnostics) -> None:
     """Report uses of heartbeats, which nodes of ROS 1 do not send."""
     for machine in chosen_machines(system):
-        for feature, place in uses_in_machine(machine):
-            if feature in (Feature.MEMBER_EVENT, Feature.PRESENT):
-                report.report(
-                    "unsupported-construct",
-                    place,
-                    target=TARGET,
-                    construct=feature.value,
-                    help="nodes of ROS 1 send no heartbeats: build it for ROS 2 with `--option "
-                    "smach.ros=2`, or with target `ros2`",
-                )
+        for feature, place in member_uses(machine):
+            report.report(
+                "unsupported-construct",
+                place,
+                target=TARGET,
+                construct=feature.value,
+                help="nodes of ROS 1 send no heartbeats: build it for ROS 2 with `--option "
+                "smach.ros=2`, or with target `ros2`",
+            )
 
 
 def _interfaces(

@@ -12,6 +12,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.exchange import scxml
 from swarmdsl.driver import pipeline
 
+from ..exchange.scxml_machines import with_documents
 from .engines import ENGINES, with_values
 from .known import MODELS
 from .replay import difference, engines
@@ -41,6 +42,7 @@ def subjects(path: Path) -> dict[str, tuple[Subject, str]]:
     """The machines of a model, and their documents."""
     system = pipeline.check([path]).system
     assert system is not None
+    system = with_documents(system)
     files = {f.path: f.text for f in scxml.emit(system, scxml.Options("portable"), Diagnostics())}
     return {m.name: (Subject(m, system), files[f"{m.name}.scxml"]) for m in system.machines}
 

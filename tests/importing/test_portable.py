@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,8 +16,6 @@ from swarmdsl.base.source import Source
 from swarmdsl.codegen.exchange import scxml
 from swarmdsl.codegen.exchange.scxml import ecmascript
 from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
-from swarmdsl.codegen.features import uses_in_machine
-from swarmdsl.codegen.registry import load
 from swarmdsl.codegen.swarm_printer.system import normalized
 from swarmdsl.driver import pipeline
 from swarmdsl.importing import import_scxml
@@ -41,6 +39,7 @@ from swarmdsl.ir import (
 from swarmdsl.ir.expression_printer import Dialect, translate
 from swarmdsl.syntax.types import BOOL, DURATION, INT
 
+from ..exchange.scxml_machines import with_documents
 from ..swarm_printer.round_trip import printed_and_compiled
 from ..swarm_printer.systems import systems
 
@@ -284,14 +283,7 @@ def test_an_id_that_is_a_keyword_stays_an_id(
 def test_models(model: Path, tmp_path: Path) -> None:
     system = pipeline.check([model]).system
     assert system is not None
-    written = tuple(m for m in system.machines if not any(refused(m)))
-    check(normalized(replace(system, machines=written)), tmp_path)
-
-
-def refused(machine: StateMachine) -> Iterator[bool]:
-    """Whether the target refuses each construct of a machine."""
-    supported = load("scxml").supports
-    return (feature not in supported for feature, _ in uses_in_machine(machine))
+    check(normalized(with_documents(system)), tmp_path)
 
 
 def test_events_of_members(compiled: Callable[[str], System], tmp_path: Path) -> None:

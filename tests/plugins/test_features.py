@@ -20,6 +20,7 @@ statemachine M {
   initial Plain
   state Plain {
     defer Told
+    on member_lost [present() < 2] -> Work
     on Low / send Low(level = got) after 2 s, cancel Low -> Work
   }
   state Work {
@@ -80,7 +81,10 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.COMPOSITE, ["Box"]),
         (Feature.PARALLEL, ["Both"]),
         (Feature.CHOICE, ["Decide"]),
-        (Feature.GUARD, ["event.level < 2.0", 'event.sender == ""', "got < 1.0", "got > 9.0"]),
+        (
+            Feature.GUARD,
+            ["present() < 2", "event.level < 2.0", 'event.sender == ""', "got < 1.0", "got > 9.0"],
+        ),
         (
             Feature.ASSIGNMENT,
             ["got = event.level", "got = 2.0", "got = 3.0", "got = 4.0"],
@@ -95,6 +99,8 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.SENDER, ["event.sender"]),
         (Feature.ADDRESS, ["uav[0]"]),
         (Feature.SELF, ["self.index"]),
+        (Feature.MEMBER_EVENT, ["member_lost"]),
+        (Feature.PRESENT, ["present()"]),
         (Feature.CROSS_LEVEL, ["on Low -> End"]),
         (Feature.INTO_STATE, ["internal on Low -> In"]),
         (Feature.HISTORY, ["Back"]),

@@ -25,6 +25,7 @@ from swarmdsl.ir import Action, Array, Primitive, Service, System
 
 from ..agreement.scripts import as_headers_say
 from ..engine.world import StillWorld
+from ..exchange.scxml_machines import with_documents
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = [
@@ -213,6 +214,7 @@ def test_what_the_models_have_little_of(compiled: Callable[[str], System]) -> No
 def test_models(model: Path) -> None:
     system = pipeline.check([model]).system
     assert system is not None
+    system = with_documents(system)
     for machine in system.machines:
         document = portable(machine, system)
         for seed in range(WALKS):

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from swarmdsl.codegen.shared import follows_members
 from swarmdsl.ir import System
 
 
 def for_ros_1(system: System) -> System:
-    """The same with events that never expire: topics of ROS 1 have no lifespan and no deadline."""
+    """The same with what ROS 1 has: events never expire, and nobody sends heartbeats."""
     events = (
         replace(event, delivery=replace(event.delivery, lifespan=None, deadline=None))
         if event.delivery is not None
         else event
         for event in system.events
     )
-    return replace(system, events=tuple(events))
+    machines = (machine for machine in system.machines if not follows_members(machine))
+    return replace(system, events=tuple(events), machines=tuple(machines))

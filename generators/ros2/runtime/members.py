@@ -1,6 +1,6 @@
 """Members of the swarm: heartbeats of this robot, and which other robots are heard."""
 
-from typing import NamedTuple
+from collections import namedtuple
 
 from rclpy.qos import QoSProfile
 from std_msgs.msg import String
@@ -18,11 +18,10 @@ _TOPIC = 'members'
 _DEPTH = 1000
 
 
-class Member(NamedTuple):
+class Member(namedtuple('Member', ('id', 'role'))):
     """A robot of the swarm: the data of an event about it."""
 
-    id: str
-    role: str
+    __slots__ = ()
 
     @classmethod
     def called(cls, name):

@@ -47,15 +47,16 @@ def is_member_event(node: Node | None) -> bool:
 
 def used_member_events(owners: Iterable[Declaration]) -> Iterator[tuple[File, Declaration]]:
     """Yield the events of heartbeats that declarations name."""
+    # Of a copied project, the events are copies too.
+    refs = (ref for owner in owners for _, ref in references(owner) if ref.name in MEMBER_EVENTS)
     used = {
-        ref.name
-        for owner in owners
-        for _, ref in references(owner)
-        if ref.name in MEMBER_EVENTS and is_member_event(ref.target)
+        ref.name: ref.target
+        for ref in refs
+        if isinstance(ref.target, Event) and is_member_event(ref.target)
     }
     if used:
-        file, events = member_events()
-        yield from ((file, event) for name, event in events.items() if name in used)
+        file, _ = member_events()
+        yield from ((file, used[name]) for name in MEMBER_EVENTS if name in used)
 
 
 def presence_calls(owner: TopLevel) -> list[Call]:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     )
     from swarmdsl.codegen.shared.identity import (
         follows_members,
+        member_uses,
         uses_self,
     )
     from swarmdsl.codegen.shared.missing_values import (
@@ -75,7 +76,7 @@ else:
             ),
             "swarmdsl.codegen.shared.envelopes": "envelopes_of python_address reads_envelope",
             "swarmdsl.codegen.shared.events": "Events delays",
-            "swarmdsl.codegen.shared.identity": "follows_members uses_self",
+            "swarmdsl.codegen.shared.identity": "follows_members member_uses uses_self",
             "swarmdsl.codegen.shared.missing_values": "missing_values",
             "swarmdsl.codegen.shared.nodes": (
                 "BehaviorNode ParamValue behavior_nodes bringup_package has_node"
@@ -114,6 +115,7 @@ __all__ = [
     "field_type",
     "follows_members",
     "has_node",
+    "member_uses",
     "member_wiring",
     "missing_values",
     "params_by_name",

@@ -1,9 +1,11 @@
-"""Machines that read the identity of their robot."""
+"""Machines that read the identity of their robot, or follow which others are there."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from swarmdsl.codegen.api import Feature
-from swarmdsl.codegen.features import uses_in_machine
+from swarmdsl.codegen.features import Use, uses_in_machine
 from swarmdsl.ir import StateMachine
 
 
@@ -14,5 +16,10 @@ def uses_self(machine: StateMachine) -> bool:
 
 def follows_members(machine: StateMachine) -> bool:
     """Return True if a machine handles events of members, or counts them."""
+    return any(True for _ in member_uses(machine))
+
+
+def member_uses(machine: StateMachine) -> Iterator[Use]:
+    """Yield the uses of events of members in a machine, and of their number."""
     followed = (Feature.MEMBER_EVENT, Feature.PRESENT)
-    return any(feature in followed for feature, _ in uses_in_machine(machine))
+    return (use for use in uses_in_machine(machine) if use[0] in followed)

@@ -8,7 +8,6 @@ from typing import Any
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.shared import follows_members
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.simulate.subject import MOST_MEMBERS, Subject
@@ -32,12 +31,6 @@ class Actor:
     def listens(self, event: str) -> bool:
         """Return True if a state of the machine reacts to the event."""
         return any(edge.matches(event) for edges in self.machine.edges for edge in edges)
-
-    def follows_members(self, system: ir.System | None) -> bool:
-        """Return True if the machine handles events of members, or counts them."""
-        machines = system.machines_by_name if system is not None else {}
-        of_model = machines.get(self.machine.name)
-        return of_model is not None and follows_members(of_model)
 
 
 def actors(

@@ -71,9 +71,9 @@ def function_of(expression: Expression) -> Value:
         case Binary(operator=symbol, left=left, right=right):
             return _binary(symbol, function_of(left), function_of(right))
         case Call(function="present", arguments=(Literal(value=role),)):
-            return lambda data, event: data[PRESENT](role)
+            return lambda data, event: _present(data, str(role))
         case Call(function="present"):
-            return lambda data, event: data[PRESENT](None)
+            return lambda data, event: _present(data, None)
         case Call(function="empty"):
             return lambda data, event: []
         case Call(function=name, arguments=arguments):
@@ -87,6 +87,13 @@ def function_of(expression: Expression) -> Value:
             return lambda data, event: data[ACTIVE](state)
         case Construction():
             raise AssertionError("a new message is only stored or sent")
+
+
+def _present(data: Mapping[str, Any], role: str | None) -> Any:
+    """Return the number of robots that are there; a machine alone is that of the only one."""
+    if PRESENT in data:
+        return data[PRESENT](role)
+    return int(role in (None, data[SELF]["role"]))
 
 
 def applied(name: str, values: Sequence[Value]) -> Value:

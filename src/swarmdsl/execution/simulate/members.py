@@ -10,12 +10,19 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
+from swarmdsl.codegen.shared import follows_members
 from swarmdsl.execution.simulate.clock import Alarm, Clock
 from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.ir import Heartbeat
+from swarmdsl.ir import Heartbeat, System
 
 JOINED, DEPARTED = "member_joined", "member_lost"
 """Events of robots that are heard again, and of robots that are not heard any more."""
+
+
+def following(system: System | None) -> frozenset[str]:
+    """Return the names of the machines that handle events of members, or count them."""
+    machines = system.machines if system is not None else ()
+    return frozenset(machine.name for machine in machines if follows_members(machine))
 
 
 class Roster:

@@ -26,7 +26,7 @@ from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.expressions import PRESENT
-from swarmdsl.execution.simulate.members import Roster
+from swarmdsl.execution.simulate.members import Roster, following
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.table import first_data
@@ -155,7 +155,7 @@ class _Replay:
         self._delays: list[_Delay] = []
         self._runs: list[Run] = []
         self._last: list[str] = []
-        if actor.follows_members(subject.system):
+        if actor.machine.name in following(subject.system):
             actor.data[PRESENT] = roster.count
         self._first_data = deepcopy(actor.data)
         self._last_event: str | None = None

@@ -22,7 +22,7 @@ from swarmdsl.execution.simulate.clock import Alarm, Clock
 from swarmdsl.execution.simulate.durations import draw
 from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.headers import signed
-from swarmdsl.execution.simulate.members import Members
+from swarmdsl.execution.simulate.members import Members, following
 from swarmdsl.execution.simulate.network import Network
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import (
@@ -103,6 +103,7 @@ class World:
             self._instances[actor] = instance
             self._actors[instance] = actor
         self.robots = list(servers)
+        self._following = following(system)
         self.members = Members(
             self.clock,
             heartbeat,
@@ -173,7 +174,8 @@ class World:
             data = signed(declared, data, self._system, sender, self.clock.now)
         if declared is not None and declared.predefined:
             for robot in dict.fromkeys(actor.robot for actor in to):
-                self.members.rosters[robot].note(event, data)
+                if robot in self.members.rosters:
+                    self.members.rosters[robot].note(event, data)
         self._deliver(Event(event, data, envelope=envelope), to)
 
     def _deliver(self, event: Event, to: Iterable[Actor]) -> None:
@@ -461,7 +463,7 @@ class World:
     def _observers(self, robot: Robot) -> list[Actor]:
         """Return the machines of a robot that follow who is there."""
         found = self._machines[robot.name]
-        return [actor for actor in found if actor.follows_members(self._system)]
+        return [actor for actor in found if actor.machine.name in self._following]
 
     def _presence(self, robot: Robot) -> Callable[[str | None], int]:
         """Return the function that counts the robots that are present for a robot."""

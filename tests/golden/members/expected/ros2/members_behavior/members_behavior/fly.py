@@ -13,13 +13,25 @@ class Data:
     """Data of the machine: params, which are constant after its start, and variables."""
 
     def __init__(self, parameters):
-        """Create no variables."""
+        # The robot: its id, role, index and count.
+        self.self = parameters['self']
+
+
+def guard_up(machine, event):
+    # model.swarm:26
+    return event.data.role == 'base' and event.data.id != machine.data.self.id
 
 
 STATES = tree(
     # model.swarm:25
-    State('Up', transitions=(Transition(('Go',), ('Down',), origin='model.swarm:26'),)),
-    # model.swarm:28
+    State(
+        'Up',
+        transitions=(
+            Transition(('member_lost',), ('Down',), guard=guard_up, origin='model.swarm:26'),
+            Transition(('Go',), ('Down',), origin='model.swarm:27'),
+        ),
+    ),
+    # model.swarm:29
     State('Down', Kind.FINAL),
 )
 
@@ -32,6 +44,7 @@ BEHAVIOR = Behavior(
     Machine('Fly', STATES, ('Up',)),
     data=Data,
     topics=TOPICS,
+    follows_members=True,
 )
 
 

@@ -12,7 +12,7 @@ from .states import Machine, State
 CHART = Chart(
     BEHAVIOR.machine,
     in_node_of_its_own(BEHAVIOR, 'fly'),
-    ways={'Up': (Way('Go', 'Up'),)},
+    ways={'Up': (Way('member_lost', 'Up'), Way('Go', 'Up'))},
     entries={},
 )
 
@@ -24,8 +24,8 @@ def build():
         # model.swarm:25
         StateMachine.add(
             'Up',
-            State(CHART, 'Up', ['Go', 'preempted']),
-            transitions={'Go': 'Down', 'preempted': 'preempted'},
+            State(CHART, 'Up', ['member_lost', 'Go', 'preempted']),
+            transitions={'member_lost': 'Down', 'Go': 'Down', 'preempted': 'preempted'},
         )
     return machine
 

@@ -12,7 +12,7 @@ from .states import State
 CHART = Chart(
     BEHAVIOR.machine,
     in_node_of_its_own(BEHAVIOR, 'fly'),
-    ways={'Up': (Way('Go', 'Up'),)},
+    ways={'Up': (Way('member_lost', 'Up'), Way('Go', 'Up'))},
     entries={},
 )
 
@@ -23,14 +23,14 @@ class Up(State):
 
     chart = CHART
     path = 'Up'
-    outcomes = ('Go', 'canceled')
+    outcomes = ('member_lost', 'Go', 'canceled')
 
 
 def build():
     """Build state machine Fly."""
     machine = StateMachine({'Down', 'canceled'})
     # model.swarm:25
-    machine.add_state('Up', Up(), {'Go': 'Down', 'canceled': 'canceled'})
+    machine.add_state('Up', Up(), {'member_lost': 'Down', 'Go': 'Down', 'canceled': 'canceled'})
     machine.set_start_state('Up')
     machine.set_name('Fly')
     return machine
