@@ -153,7 +153,7 @@ def test_mutants(
             wrong += 1
             binary = "\x00" in text
             assert binary or [span for span in spans if span.source.path == path], text
-    assert wrong > mutants // 2  # the mutations do something
+    assert wrong > mutants // 3  # the mutations do something
     record_property("mutants", mutants)
     record_property("wrong", wrong)
     record_property("files", files)
