@@ -148,7 +148,8 @@ def _report_missing_separators(
     known = {*wrong, *(line + 1 for line in wrong)}
     for separator in model.missing_separators:
         span = separator.span
-        if span.line in known:
+        # A repair may have put a word where the text has none.
+        if span.line in known or not span.text.strip():
             continue
         known.add(span.line)
         report.report(
