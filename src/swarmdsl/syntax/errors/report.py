@@ -61,6 +61,7 @@ _OPERANDS = {
     "`false`",
     "`event`",
     "`self`",
+    "`in`",
     "`(`",
 }
 # Left out of a message next to a phrase that covers them.
