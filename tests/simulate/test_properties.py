@@ -164,3 +164,22 @@ property Ends of Crew : each robot : in Going leads to in Resting
     assert ("Calm: false", "1 s to 16.5 s") in titles
     assert ("Ends: open", "1 s to 2.5 s") in titles
     assert ("Ends: true", "12.5 s to 16.5 s") in titles
+
+
+@pytest.mark.parametrize(("lasts", "verdict"), [('lasts = "2 s"\n', "open"), ("", "true")])
+def test_a_robot_that_comes_back_counts_again(simulate: Simulate, lasts: str, verdict: str) -> None:
+    """It starts anew and idle; the other two are busy."""
+    model = f"""{MODEL}
+property Ends of Crew : again and again all robot in Busy
+property Two of Crew : never all robot in Busy and count(robot in Busy) < 2
+"""
+    scenario = f'[[faults]]\nlost = "robot[2]"\nat = "2 s"\n{lasts}'
+    words = ("--trace", "none", "--until", "10s")
+    events = [{"event": "Start", "after": 1000}]
+    ran = simulate(model, *words, events=events, scenario=scenario)
+    assert verdicts(ran)["Ends"][0] == verdict
+    assert verdicts(ran)["Two"][0] == "true"
+    scenario += '[[faults]]\nlost = "robot[1]"\nat = "5 s"\n'
+    again = simulate(model, *words, events=events, scenario=scenario)
+    # Two are left, one of them idle if it has come back.
+    assert verdicts(again)["Two"][0] == ("true" if lasts else "false")

@@ -8,7 +8,9 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
-from swarmdsl.execution.simulate import facts, properties
+from swarmdsl.execution.monitor import facts
+from swarmdsl.execution.monitor import watch as monitors
+from swarmdsl.execution.simulate import properties
 from swarmdsl.execution.simulate.actors import actors
 from swarmdsl.execution.simulate.inputs import Input
 from swarmdsl.execution.simulate.run import run
@@ -30,7 +32,7 @@ def verdicts(example: str, events: list[str], seed: int) -> list[object]:
     cast = actors(subject, subject.create_robots(scenario.counts), scenario, Diagnostics())
     listeners: list[object] = []
     world = World(system, cast, scenario, seed, listeners)  # type: ignore[arg-type]
-    watch = properties.Watch(properties.watchable(subject), cast, world.data)
+    watch = properties.watch(properties.watchable(subject), world.data)
     listeners.append(watch.see)
     run(world, [Input(event, 7 * 10**9, None, tuple(cast)) for event in events], 10**9 * 120)
     results = watch.results(world.clock.now, ended=False)
@@ -56,6 +58,6 @@ def test_only_what_changes(
         return route._all
 
     monkeypatch.setattr(facts.Route, "trackers_of", all_trackers)
-    monkeypatch.setattr(properties._Watched, "affected", lambda watched, changed: watched.robots)
+    monkeypatch.setattr(monitors._Watched, "affected", lambda watched, changed: watched.robots)
     assert found == [verdicts(example, events, seed) for seed in range(3)]
     assert all(found)

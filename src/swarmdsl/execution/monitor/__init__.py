@@ -1,10 +1,40 @@
 """Monitors of properties: deterministic automata with clocks, one for each property.
 
 Standard library only, and nothing else of swarmdsl, so that generated packages can carry them.
-A monitor knows nothing of robots: it gets the truth of each claim at each step of a run.
+A `Watch` turns the lines of a run into the truth of claims; a `Monitor` gets the truth of each
+claim at each step, and knows nothing of robots.
 """
 
-from swarmdsl.execution.monitor.monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
-from swarmdsl.execution.monitor.patterns import Pattern, pattern_of
+from .claims import Claim, Count, Fact, Junction, Property, Robots
+from .facts import LOST, ActorLike, FactTracker, LineLike, RobotLike, Route, meant_states
+from .monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
+from .patterns import Pattern, pattern_of
+from .watch import PropertyResult, ViolatedError, Violation, Watch
 
-__all__ = ["FALSE", "OPEN", "TRUE", "Monitor", "Pattern", "Sentence", "Verdict", "pattern_of"]
+__all__ = [
+    "FALSE",
+    "LOST",
+    "OPEN",
+    "TRUE",
+    "ActorLike",
+    "Claim",
+    "Count",
+    "Fact",
+    "FactTracker",
+    "Junction",
+    "LineLike",
+    "Monitor",
+    "Pattern",
+    "Property",
+    "PropertyResult",
+    "RobotLike",
+    "Robots",
+    "Route",
+    "Sentence",
+    "Verdict",
+    "ViolatedError",
+    "Violation",
+    "Watch",
+    "meant_states",
+    "pattern_of",
+]

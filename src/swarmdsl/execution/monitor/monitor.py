@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from swarmdsl.execution.monitor.patterns import Pattern, pattern_of
+from .patterns import Pattern, pattern_of
 
 Verdict = Literal["true", "false", "open"]
 TRUE: Verdict = "true"

@@ -28,6 +28,11 @@ class Actor:
     data: Any = None
     role: str = ""
 
+    @property
+    def states(self) -> list[str]:
+        """Ids of all states of the machine."""
+        return [state.id for state in self.machine.states[1:]]
+
     def listens(self, event: str) -> bool:
         """Return True if a state of the machine reacts to the event."""
         return any(edge.matches(event) for edges in self.machine.edges for edge in edges)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from functools import partial
 from itertools import chain
@@ -25,17 +25,13 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.engine import LoopError
+from swarmdsl.execution.monitor import PropertyResult, Verdict, ViolatedError
 from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader
-from swarmdsl.execution.simulate.properties import (
-    PropertyResult,
-    ViolatedError,
-    Watch,
-    watchable,
-)
+from swarmdsl.execution.simulate.properties import watch, watchable
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
 from swarmdsl.execution.simulate.scenario import Scenario
@@ -193,7 +189,7 @@ class _Play:
             source = read_source(path, None, report, "a trace", MOST_RECORDED)
             if source is None:
                 continue
-            recording = Recording(self._subject, self._cast)
+            recording = Recording(self._subject)
             seen = recording.see if self._request.properties else None
             found = replay(source, self._subject, self._cast, report, seen)
             results = recording.results()
@@ -216,18 +212,21 @@ class _Play:
         results: list[PropertyResult] = []
         summary = Summary(self._subject, self._world)
         watched = watchable(self._subject) if self._request.properties else []
-        stops = self._request.stop_on_violation
-        watch = Watch(
+        history: dict[str, list[tuple[int, Verdict]]] = {}
+        monitors = watch(
             watched,
-            self._cast,
             self._world.data,
-            stops=stops,
-            keeps_history=self._request.timeline is not None,
+            stops=self._request.stop_on_violation,
+            told=None
+            if self._request.timeline is None
+            else lambda each, verdict, time: history.setdefault(each.name, []).append(
+                (time, verdict)
+            ),
         )
         try:
             with ExitStack() as stack:
                 stream = self._stream(stack, report)
-                picture = self._picture(watch, stack, report)
+                picture = self._picture(history, stack, report)
                 if report.has_errors:
                     tell(report)
                     return False
@@ -236,7 +235,7 @@ class _Play:
                 if stream is None or not stream.isatty():
                     self._show_board(stack)
                 if watched:
-                    self._listeners.append(watch.see)  # the last one: it can end the run
+                    self._listeners.append(monitors.see)  # the last one: it can end the run
                 try:
                     ending = _ENDINGS[self._run(tell)]
                 except ViolatedError:
@@ -247,7 +246,7 @@ class _Play:
                     interrupted, ending = True, "until it was interrupted"
                 sys.stdout.flush()
                 ended = ending == _ENDINGS["ended"]
-                results = watch.results(self._world.clock.now, ended=ended)
+                results = monitors.results(self._world.clock.now, ended=ended)
                 if picture is not None:
                     picture()
         except OSError as error:
@@ -330,7 +329,10 @@ class _Play:
         return self._write_to(path, stack, report)
 
     def _picture(
-        self, watch: Watch, stack: ExitStack, report: Diagnostics
+        self,
+        history: Mapping[str, Sequence[tuple[int, Verdict]]],
+        stack: ExitStack,
+        report: Diagnostics,
     ) -> Callable[[], object] | None:
         """Prepare drawing the timeline, if requested."""
         if self._request.timeline is None:
@@ -341,7 +343,7 @@ class _Play:
         timeline = Timeline(self._subject.name, self._cast)
         self._listeners.append(timeline.note)
         self._world.network.transmitted = timeline.transmitted
-        return lambda: stream.write(timeline.svg(self._world.clock.now, watch.history))
+        return lambda: stream.write(timeline.svg(self._world.clock.now, history))
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         try:

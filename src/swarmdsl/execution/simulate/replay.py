@@ -22,6 +22,7 @@ from swarmdsl.execution.engine import (
     Run,
     Servers,
 )
+from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
@@ -32,7 +33,7 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.table import first_data
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.simulate.trace_line import NAMES, numbers, read_line
-from swarmdsl.execution.simulate.world import LATE, LOST
+from swarmdsl.execution.simulate.world import LATE
 from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS
 

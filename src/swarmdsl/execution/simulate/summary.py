@@ -7,9 +7,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.execution.monitor import PropertyResult
 from swarmdsl.execution.simulate.coverage import Coverage
 from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.properties import PropertyResult
 from swarmdsl.execution.simulate.statistics import Life
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.verdicts import rows

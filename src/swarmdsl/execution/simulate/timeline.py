@@ -7,13 +7,13 @@ from itertools import groupby
 from typing import NamedTuple
 
 from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.network import Transmission
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.svg import Drawing
 from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.world import LOST
 
 _WIDTH = 1200
 """Width of the time axis."""

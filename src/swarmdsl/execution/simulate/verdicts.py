@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.monitor import FALSE
+from swarmdsl.execution.monitor import FALSE, PropertyResult, Violation
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.properties import (
-    PropertyResult,
-    Violation,
-    Watch,
-    watchable,
-)
+from swarmdsl.execution.simulate.properties import watch, watchable
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, as_text
 
@@ -72,9 +67,8 @@ def rows(results: Iterable[PropertyResult]) -> Iterator[tuple[str, str, str]]:
 class Recording:
     """Lines of replayed traces, watched in the order of time when all are known."""
 
-    def __init__(self, subject: Subject, cast: Sequence[Actor]) -> None:
+    def __init__(self, subject: Subject) -> None:
         self._properties = watchable(subject)
-        self._cast = cast
         self._lines: list[tuple[Line, dict[str, Any]]] = []
 
     def see(self, line: Line, data: Mapping[str, Any] | None) -> None:
@@ -87,12 +81,9 @@ class Recording:
         if not self._lines:
             return []
         known: dict[Actor, Mapping[str, Any]] = {}
-        cast = [
-            actor for actor in self._cast if any(line.actor is actor for line, _ in self._lines)
-        ]
-        watch = Watch(self._properties, cast, lambda actor: known[actor])
+        monitors = watch(self._properties, lambda actor: known[actor])
         ordered = sorted(self._lines, key=lambda each: (each[0].time, each[0].event is not None))
         for line, data in ordered:
             known[line.actor] = data
-            watch.see(line)
-        return watch.results(ordered[-1][0].time, ended=False)
+            monitors.see(line)
+        return monitors.results(ordered[-1][0].time, ended=False)

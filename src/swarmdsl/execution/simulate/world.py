@@ -17,6 +17,7 @@ from swarmdsl.execution.engine import (
     Run,
     Servers,
 )
+from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
 from swarmdsl.execution.simulate.durations import draw
@@ -483,7 +484,5 @@ class World:
                 self.trace.flush()
 
 
-LOST = "fault.lost"
-"""Trace event of a lost robot; no model event has such a name."""
 LATE = "fault.late."
 """Trace event of a missed deadline, before the name of the event."""

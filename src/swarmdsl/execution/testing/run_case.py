@@ -8,10 +8,10 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import LoopError
-from swarmdsl.execution.monitor import FALSE
+from swarmdsl.execution.monitor import FALSE, Violation, Watch
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.properties import Violation, Watch
+from swarmdsl.execution.simulate.properties import watch
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.verdicts import violation_fields
 from swarmdsl.execution.simulate.world import World
@@ -74,7 +74,7 @@ class _CaseRun:
         watched = [each for each, _ in (*case.properties, *case.violates)]
         self._watch: Watch | None = None
         if watched:
-            self._watch = Watch(watched, self._cast, lambda actor: self._world.data(actor))
+            self._watch = watch(watched, lambda actor: self._world.data(actor))
             listeners.append(self._watch.see)
         self._world = World(
             case.subject.system,
@@ -114,10 +114,10 @@ class _CaseRun:
     def _check_properties(self) -> None:
         """Fail when a property is violated that must hold."""
         if self._watch is not None and self._watch.violations:
-            places = {id(each): place for each, place in self._case.properties}
+            places = {each.name: place for each, place in self._case.properties}
             for violation in self._watch.violations:
-                if id(violation.property) in places:
-                    raise _ViolatedError(places[id(violation.property)], violation)
+                if violation.property.name in places:
+                    raise _ViolatedError(places[violation.property.name], violation)
 
     def _judge_properties(self) -> None:
         """Check the verdicts at the end."""
@@ -126,13 +126,13 @@ class _CaseRun:
         self._world.trace.flush()
         results = self._watch.results(self._world.clock.now, ended=self._world.over)
         self._check_properties()
-        verdicts = {id(each.property): each.verdict for each in results}
+        verdicts = {each.property.name: each.verdict for each in results}
         for each, place in self._case.violates:
-            if verdicts[id(each)] != FALSE:
+            if verdicts[each.name] != FALSE:
                 raise _FailedError(
                     place,
                     f"property `{each.name}` to be violated",
-                    f"its verdict is {verdicts[id(each)]}",
+                    f"its verdict is {verdicts[each.name]}",
                 )
 
     def _violation(self, place: Span, violation: Violation) -> Failure:

@@ -1,0 +1,327 @@
+"""Properties watched in one run, from the lines of its trace to verdicts."""
+
+from __future__ import annotations
+
+import operator
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from .claims import Claim, Count, Fact, Junction, Property, Robots, facts_in
+from .facts import MOMENTARY, ActorLike, FactTracker, Has, LineLike, Route
+from .monitor import FALSE, OPEN, TRUE, Monitor, Verdict
+
+REMEMBERED = 8
+"""Number of trace lines kept with a violation."""
+START = 5_000_000_000
+"""Time in nanoseconds in which machines start at one moment if nothing else happens."""
+
+Truth = Callable[[str | None], bool]
+"""Truth of a claim, for the robot of `each`."""
+COMPARISONS: Mapping[str, Callable[[Any, Any], bool]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
+
+
+class Violation(NamedTuple):
+    """Violation of a property, by a robot if it is about each one, with the last trace lines."""
+
+    property: Property
+    robot: str | None
+    time: int
+    last: tuple[Any, ...]
+
+
+class PropertyResult(NamedTuple):
+    """Verdict on a property at the end of a run; `robots` are those with the same verdict."""
+
+    property: Property
+    verdict: Verdict
+    robots: tuple[str, ...]
+    violations: tuple[Violation, ...]
+
+
+class ViolatedError(Exception):
+    """A property is violated, and the run must stop then."""
+
+
+class Watch:
+    """Monitors of some properties in one run, a listener of its trace.
+
+    Lines come in the order of time. `has` evaluates conditions; `told` is called with a property,
+    its verdict so far, and the time from which on it holds. With `stops`, a violation raises
+    ViolatedError, unless the property has a chance.
+    """
+
+    def __init__(
+        self,
+        properties: Iterable[Property],
+        has: Has,
+        *,
+        stops: bool = False,
+        told: Callable[[Property, Verdict, int], None] | None = None,
+    ) -> None:
+        self.violations: list[Violation] = []
+        self._trackers: dict[tuple[object, ...], FactTracker] = {}
+        self._has = has
+        self._stops = stops
+        self._told = told
+        self._watched = [_Watched(each, self) for each in properties]
+        self._users: dict[FactTracker, list[_Watched]] = {}
+        for each in self._watched:
+            for tracker in each.trackers:
+                self._users.setdefault(tracker, []).append(each)
+        self._routes: dict[ActorLike, Route] = {}
+        self._due: int | None = None
+        """Time before which nothing is late; it may be too early."""
+        self._happened: list[FactTracker] = []
+        self._last: deque[LineLike] = deque(maxlen=REMEMBERED)
+        self._begun = False
+
+    @property
+    def due(self) -> int | None:
+        """Time after which `advance` must be called, unless a line comes before.
+
+        Something may then be late, or the first moment over.
+        """
+        return self._due if self._begun else START
+
+    def see(self, line: LineLike) -> None:
+        """Process a line; those of the start are one step."""
+        if not self._begun and (line.event is not None or line.time > START):
+            self._begin()
+        if self._due is not None and line.time > self._due:
+            self._let_pass(line.time)
+        self._last.append(line)
+        changed: dict[FactTracker, set[str | None]] = {}
+        if self._begun:
+            for tracker in self._happened:
+                changed[tracker] = tracker.reset()
+            self._happened = []
+        actor = line.actor
+        route = self._routes.get(actor)
+        if route is None:
+            route = self._join(actor)
+        for tracker in route.trackers_of(line):
+            happens = tracker.see(line) or (tracker.momentary and tracker.holding)
+            if happens:
+                changed.setdefault(tracker, set()).add(actor.robot.name)
+                if tracker.momentary:
+                    self._happened.append(tracker)
+        if not self._begun or not changed:
+            return
+        affected = {user: None for tracker in changed for user in self._users.get(tracker, ())}
+        for each in affected:
+            robots = each.affected(changed)
+            self._note(each, each.step(line.time, robots), line.time)
+            if each.due is not None and (self._due is None or each.due < self._due):
+                self._due = each.due
+        self._look_whether_to_stop()
+
+    def advance(self, time: int) -> None:
+        """Let time pass without a line."""
+        if not self._begun and time > START:
+            self._begin()
+        if self._due is not None and time > self._due:
+            self._let_pass(time)
+            self._look_whether_to_stop()
+
+    def results(self, time: int, *, ended: bool) -> list[PropertyResult]:
+        """Return the verdicts at the end of a run."""
+        if not self._begun:
+            self._begin()
+        found = []
+        for each in self._watched:
+            verdicts = each.finish(time, ended=ended)
+            self._note(each, each.newly_violated(each.robots), time)
+            worst = next((v for v in (FALSE, OPEN) if v in verdicts.values()), TRUE)
+            robots = tuple(name for name, v in verdicts.items() if v == worst and name is not None)
+            violations = tuple(v for v in self.violations if v.property is each.property)
+            found.append(PropertyResult(each.property, worst, robots, violations))
+        return found
+
+    def tracker(self, fact: Fact | Count, role: str | None) -> FactTracker:
+        """Return the tracker of a fact of a role, shared by all properties."""
+        if isinstance(fact, Count):
+            key: tuple[object, ...] = ("in", fact.state, role, None)
+        else:
+            key = (fact.act, fact.name, role, fact.condition)
+        if key not in self._trackers:
+            self._trackers[key] = FactTracker(fact, role, self._has)
+        return self._trackers[key]
+
+    def _join(self, actor: ActorLike) -> Route:
+        """Follow a machine from its first line on."""
+        trackers = [each for each in self._trackers.values() if each.follows(actor)]
+        route = self._routes[actor] = Route(trackers)
+        for each in self._watched:
+            each.join(actor)
+        return route
+
+    def _begin(self) -> None:
+        """Take the first step, when all machines have started."""
+        self._begun = True
+        for each in self._watched:
+            self._note(each, each.step(0, each.robots), 0)
+        self._due = min((each.due for each in self._watched if each.due is not None), default=None)
+
+    def _let_pass(self, time: int) -> None:
+        for each in self._watched:
+            if each.due is not None and time > each.due:
+                self._note(each, each.advance(time), time)
+        self._due = min((each.due for each in self._watched if each.due is not None), default=None)
+
+    def _note(
+        self, watched: _Watched, violated: Iterator[tuple[str | None, int]], now: int
+    ) -> None:
+        for robot, time in violated:
+            now = min(now, time)
+            last = tuple(self._last)
+            self.violations.append(Violation(watched.property, robot, time, last))
+        if self._told is not None and watched.state != watched.told:
+            watched.told = watched.state
+            self._told(watched.property, watched.state, now)
+
+    def _look_whether_to_stop(self) -> None:
+        if self._stops and any(each.property.chance is None for each in self.violations):
+            raise ViolatedError
+
+
+class _Watched:
+    """Monitors of one property: one, or one for each robot of a role."""
+
+    def __init__(self, property_: Property, watch: Watch) -> None:
+        self.property = property_
+        self.trackers: dict[FactTracker, None] = {}
+        self.told: Verdict | None = None
+        """Verdict so far that has been told last."""
+        self._shared: set[FactTracker] = set()
+        """Facts that are not only about the robot of `each`."""
+        self._watch = watch
+        self._scope = [self._truth(each) for each in property_.scope]
+        self._claims = [self._truth(each) for each in property_.claims]
+        acts = {each.act for each in facts_in(property_.claims[0]) if isinstance(each, Fact)}
+        self._sentence = replace(property_.sentence, momentary=not acts.isdisjoint(MOMENTARY))
+        self._monitors: dict[str | None, Monitor] = {}
+        if property_.each is None:
+            self._monitors[None] = self._monitor()
+        self._violators: set[str | None] = set()
+        self.due: int | None = None
+        """Time before which nothing is late; it may be too early."""
+
+    @property
+    def robots(self) -> Iterable[str | None]:
+        """Robots that have a monitor; None for the one of all of them."""
+        return self._monitors
+
+    def join(self, actor: ActorLike) -> None:
+        """Follow a machine from its first line on."""
+        robot = actor.robot
+        if robot.role == self.property.each and robot.name not in self._monitors:
+            self._monitors[robot.name] = self._monitor()
+
+    def affected(self, changed: Mapping[FactTracker, set[str | None]]) -> Iterable[str | None]:
+        """Return the robots whose monitors must take a step."""
+        if self.property.each is None or not self._shared.isdisjoint(changed):
+            return self.robots
+        robots = set().union(*(changed[each] for each in self.trackers if each in changed))
+        return [robot for robot in robots if robot in self._monitors]
+
+    def step(self, time: int, robots: Iterable[str | None]) -> Iterator[tuple[str | None, int]]:
+        """Take a step; return the robots that violate the property now, with the times."""
+        for robot in robots:
+            monitor = self._monitors[robot]
+            if not monitor.decided:
+                scope = [truth(robot) for truth in self._scope]
+                monitor.step(time, [truth(robot) for truth in self._claims], scope)
+                if monitor.due is not None and (self.due is None or monitor.due < self.due):
+                    self.due = monitor.due
+        return self.newly_violated(robots)
+
+    def advance(self, time: int) -> Iterator[tuple[str | None, int]]:
+        """Let time pass, likewise."""
+        for monitor in self._monitors.values():
+            monitor.advance(time)
+        dues = (monitor.due for monitor in self._monitors.values())
+        self.due = min((due for due in dues if due is not None), default=None)
+        return self.newly_violated(self.robots)
+
+    @property
+    def state(self) -> Verdict:
+        """The worst verdict so far."""
+        states = {monitor.state for monitor in self._monitors.values()}
+        return next((each for each in (FALSE, OPEN) if each in states), TRUE)
+
+    def finish(self, time: int, *, ended: bool) -> Mapping[str | None, Verdict]:
+        """Return the verdicts by robot."""
+        return {
+            robot: monitor.finish(time, ended=ended) for robot, monitor in self._monitors.items()
+        }
+
+    def newly_violated(self, robots: Iterable[str | None]) -> Iterator[tuple[str | None, int]]:
+        """Yield those robots that violated the property since this was asked last."""
+        for robot in robots:
+            monitor = self._monitors[robot]
+            if monitor.violated is not None and robot not in self._violators:
+                self._violators.add(robot)
+                yield robot, monitor.violated
+
+    def _monitor(self) -> Monitor:
+        return Monitor(self._sentence)
+
+    # ---- claims
+
+    def _truth(self, claim: Claim) -> Truth:
+        if isinstance(claim, Junction):
+            parts = [self._truth(each) for each in claim.claims]
+            if claim.operator == "not":
+                (part,) = parts
+                return lambda me: not part(me)
+            together = all if claim.operator == "and" else any
+            return lambda me: together(part(me) for part in parts)
+        tracker = self._watch.tracker(claim, self._role(claim))
+        self.trackers[tracker] = None
+        if isinstance(claim, Count):
+            self._shared.add(tracker)
+            compare, number = COMPARISONS[claim.comparison], claim.number
+            return lambda me: compare(len(tracker.holding), number)
+        if claim.robots is None and claim.act != "arrives" and self.property.each is not None:
+            return lambda me: me in tracker.holding
+        self._shared.add(tracker)
+        if claim.robots is not None:
+            return _of_robots(claim.robots, tracker)
+        return lambda me: bool(tracker.holding)
+
+    def _role(self, fact: Fact | Count) -> str | None:
+        """Return the role whose robots a fact is about, None for all."""
+        if isinstance(fact, Count):
+            return fact.role
+        if fact.act == "arrives":
+            return None
+        return fact.robots.role if fact.robots is not None else self.property.each
+
+
+def _of_robots(robots: Robots, tracker: FactTracker) -> Truth:
+    if robots.quantifier == "index":
+        name = f"{robots.role}[{robots.number}]"
+        return lambda me: name in tracker.holding
+    if robots.quantifier == "number":
+        least, most = robots.least, robots.most
+        return lambda me: (
+            least <= len(tracker.holding) and (most is None or len(tracker.holding) <= most)
+        )
+
+    def count(me: str | None) -> int:
+        return len(tracker.holding) - (robots.other and me in tracker.holding)
+
+    if robots.quantifier == "some":
+        return lambda me: count(me) > 0
+    if robots.quantifier == "no":
+        return lambda me: count(me) == 0
+    return lambda me: count(me) == len(tracker.robots) - (robots.other and me in tracker.robots)
