@@ -76,9 +76,33 @@ member Robot {
 swarm Lab {
   robot : Robot[2..6]
 }
+property Finds of Lab : each robot : hears Alarm leads to in Found within 1 min
+property Sees of Lab : never some robot in Look and some robot has [tries > 9]
 """
 
 CHANGES = {
+    "a property that allows more": (
+        "within 1 min",
+        "within 2 min",
+        [
+            "~ property Finds",
+            (
+                "    ~ says is `each robot : hears Alarm leads to in Found within 2 min`, "
+                "was `each robot : hears Alarm leads to in Found within 1 min`, weaker"
+            ),
+        ],
+    ),
+    "a property of others": (
+        "hears Alarm leads",
+        "in Idle leads",
+        [
+            "~ property Finds",
+            (
+                "    ~ says is `each robot : in Idle leads to in Found within 1 min`, "
+                "was `each robot : hears Alarm leads to in Found within 1 min`"
+            ),
+        ],
+    ),
     "layout": ("state Pause {", "state   Pause\n  {", []),
     "the order of declarations": (
         'event Reset : std_msgs/Empty on "reset"\naction',

@@ -111,6 +111,7 @@ def test_formats(models: tuple[str, str], capsys: pytest.CaptureFixture[str]) ->
         "what": "type",
         "before": "std_msgs/Empty",
         "after": "std_msgs/String",
+        "strength": None,
         "breaking": "EVENT_TYPE",
         "place_before": f"{models[0]}:1",
         "place_after": f"{models[1]}:1",

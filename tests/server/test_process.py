@@ -82,6 +82,30 @@ def test_lenses_use_commands_of_the_editor(tmp_path):
     assert command["arguments"] == [uri, uses["range"]["start"], []]
 
 
+def test_a_property_has_a_lens_that_checks_it(tmp_path):
+    uri = (tmp_path / "a.swarm").as_uri()
+    text = "swarm event Go : std_msgs/Empty\nswarm One { }\nproperty Quiet of One : never Go\n"
+    document = {"uri": uri, "languageId": "swarm", "version": 1, "text": text}
+    options = {"capabilities": {}, "initializationOptions": {"commands": ["swarmdsl.simulate"]}}
+    process = subprocess.Popen(SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    for each in (
+        message(id=1, method="initialize", params=options),
+        message(method="textDocument/didOpen", params={"textDocument": document}),
+        message(id=2, method="textDocument/codeLens", params={"textDocument": {"uri": uri}}),
+    ):
+        process.stdin.write(each)
+    process.stdin.flush()
+    capabilities(process.stdout)
+    *_, lens = answer(process.stdout)["result"]
+    process.communicate(timeout=60)
+    assert lens["range"]["start"]["line"] == 2
+    assert lens["command"] == {
+        "title": "Check in simulation",
+        "command": "swarmdsl.simulate",
+        "arguments": [uri, {"kind": "property", "name": "Quiet"}],
+    }
+
+
 def test_server_on_a_loopback_port():
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

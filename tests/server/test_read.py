@@ -248,7 +248,7 @@ async def test_code_lenses(client, editor):
         resolved = await client.code_lens_resolve_async(each)
         counted[named([each.range], text)[0]] = resolved.command.title
     assert counted["Gps"] == "2 references"
-    assert counted["SearchAndRescue"] == "0 references"
+    assert counted["SearchAndRescue"] == "6 references"
     assert counted["Field"] == "1 reference"
 
 
@@ -277,6 +277,15 @@ async def test_hover_shows_a_built_in_function(client, editor):
     assert "rounded down" in found
     found = await hovered(client, editor, EXAMPLE / "new.swarm", "clamp", text)
     assert "clamp(x, low, high)\n" in found
+
+
+async def test_hover_shows_a_property_in_words(client, editor):
+    found = await hovered(client, editor, SAR, "Lands of")
+    assert "property Lands of SearchAndRescue : each uav : " in found
+    assert (
+        "\n\nproperty\n\nIn each run of swarm `SearchAndRescue`, for each `uav` by itself: "
+        "whenever it hears `MissionAbort`, then or within `5 min` it is in `Mission.Idle`.\n\n"
+    ) in found
 
 
 async def test_hover_shows_what_a_robot_knows_of_itself(client, editor):

@@ -183,3 +183,35 @@ property Two of Crew : never all robot in Busy and count(robot in Busy) < 2
     again = simulate(model, *words, events=events, scenario=scenario)
     # Two are left, one of them idle if it has come back.
     assert verdicts(again)["Two"][0] == ("true" if lasts else "false")
+
+
+PROPERTIES = """
+property Quiet of Crew : never count(robot in Going) > 2
+property Early of Crew : before Start, all robot in Idle at all times
+property Alone of Work : never in Going
+"""
+
+
+def test_one_property_is_checked_in_a_run_of_what_it_is_about(simulate: Simulate) -> None:
+    model = MODEL + PROPERTIES
+    ran = simulate(model, "--property", "Quiet", "--trace", "none", events=EVENTS)
+    assert verdicts(ran) == {"Quiet": ("true", "")}
+    assert "coverage" not in ran.err
+    ran = simulate(model, "--property", "Alone", "--trace", "none")
+    assert ran.err.startswith("Work, one machine")
+    assert verdicts(ran) == {"Alone": ("true", "")}
+    ran = simulate(model, "--property", "Quiet", "--property", "Early", "--trace", "none")
+    assert [*verdicts(ran)] == ["Quiet", "Early"]
+
+
+def test_a_property_that_cannot_be_checked(simulate: Simulate) -> None:
+    model = MODEL + PROPERTIES
+    ran = simulate(model, "--property", "Quite", "--property", "Erly")
+    assert ran.code == 1
+    assert "no property called `Quite`" in ran.err
+    assert "did you mean `Early`?" in ran.err
+    ran = simulate(model, "--swarm", "Crew", "--property", "Alone")
+    assert "no property of `Crew` called `Alone`" in ran.err
+    assert "it is about `Work`" in ran.err
+    ran = simulate(model, "--property", "Quiet", "--property", "Alone")
+    assert "no property of `Crew` called `Alone`" in ran.err

@@ -11,7 +11,7 @@ import { type Place, showReferences } from "./references.ts";
 import { Server } from "./server.ts";
 import { simulate } from "./simulate.ts";
 import { showStatus } from "./status.ts";
-import type { Subject } from "./subject.ts";
+import type { Simulated, Subject } from "./subject.ts";
 import { provideTasks } from "./tasks.ts";
 
 let server: Server | undefined;
@@ -32,11 +32,11 @@ export function activate(context: vscode.ExtensionContext): void {
     command("selectInterpreter", selectInterpreter),
     command("showLog", () => log.show()),
     command("newModel", () => newModel(context.extensionUri)),
-    command("simulate", (file?: vscode.Uri | string, subject?: Subject) => {
+    command("simulate", (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = targetFile(file);
       return uri && simulate(started, uri, subject);
     }),
-    command("simulateInRealTime", (file?: vscode.Uri | string, subject?: Subject) => {
+    command("simulateInRealTime", (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = targetFile(file);
       return uri && simulate(started, uri, subject, preview);
     }),

@@ -9,7 +9,7 @@ import * as vscode from "vscode";
 import { showBundledLimit } from "./missing.ts";
 import type { Preview } from "./preview.ts";
 import type { Server } from "./server.ts";
-import type { Subject } from "./subject.ts";
+import type { Simulated, Subject } from "./subject.ts";
 import { run } from "./tasks.ts";
 import { Trace } from "./trace.ts";
 
@@ -18,7 +18,7 @@ interface Scenario extends vscode.QuickPickItem {
 }
 
 // Keys are details of document symbols.
-const KINDS: Record<string, Subject["kind"]> = { swarm: "swarm", "state machine": "machine" };
+const KINDS: Record<string, Simulated["kind"]> = { swarm: "swarm", "state machine": "machine" };
 
 /**
  * Simulate `subject`, or let the user choose one of the file.
@@ -28,7 +28,7 @@ const KINDS: Record<string, Subject["kind"]> = { swarm: "swarm", "state machine"
 export async function simulate(
   server: Server,
   file: vscode.Uri,
-  subject?: Subject,
+  subject?: Simulated,
   preview?: Preview,
 ): Promise<void> {
   const launch = await server.swarmc();
@@ -49,7 +49,9 @@ export async function simulate(
   const folder = preview && (await mkdtemp(join(tmpdir(), "swarm-")));
   const trace = folder && join(folder, "trace.jsonl");
   const args = ["simulate", file.fsPath, `--${chosen.kind}`, chosen.name];
-  args.push(...(trace ? ["--real-time", "--trace-file", trace] : ["--trace", "text"]));
+  // Of a property, the verdict is shown.
+  const shown = chosen.kind === "property" ? "none" : "text";
+  args.push(...(trace ? ["--real-time", "--trace-file", trace] : ["--trace", shown]));
   if (scenario.uri) {
     args.push("--scenario", scenario.uri.fsPath);
   }
@@ -64,7 +66,8 @@ export async function simulate(
     await vscode.tasks.executeTask(task);
     return;
   }
-  const machine = chosen.kind === "machine" ? chosen : undefined;
+  const machine: Subject | undefined =
+    chosen.kind === "machine" ? { kind: "machine", name: chosen.name } : undefined;
   await preview.show(file, machine);
   const highlights = preview.highlight((moved) => new Trace(trace, machine?.name ?? "", moved));
   const running = await vscode.tasks.executeTask(task);
@@ -77,12 +80,12 @@ export async function simulate(
   });
 }
 
-async function chooseSubject(file: vscode.Uri): Promise<Subject | undefined> {
+async function chooseSubject(file: vscode.Uri): Promise<Simulated | undefined> {
   const outline = await vscode.commands.executeCommand<vscode.DocumentSymbol[] | undefined>(
     "vscode.executeDocumentSymbolProvider",
     file,
   );
-  const found = (outline ?? []).flatMap(({ name, detail }): Subject[] => {
+  const found = (outline ?? []).flatMap(({ name, detail }): Simulated[] => {
     const kind = KINDS[detail];
     return kind ? [{ kind, name }] : [];
   });

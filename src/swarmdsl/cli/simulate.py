@@ -66,6 +66,13 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     help="End after this virtual time.  [default: the scenario's, or 10min after the last of "
     "`--events`]",
 )
+@click.option(
+    "--property",
+    "properties",
+    metavar="NAME",
+    multiple=True,
+    help="Run what this property is about, and watch only it; may be repeated.",
+)
 @click.option("--no-properties", is_flag=True, help="Do not watch the properties of the model.")
 @click.option("--stop-on-violation", is_flag=True, help="End the run when a property is violated.")
 @click.option("--real-time", is_flag=True, help="Run in real time.")
@@ -83,6 +90,7 @@ def simulate(
     replay: tuple[Path, ...],
     seed: int | None,
     until: int | None,
+    properties: tuple[str, ...],
     no_properties: bool,
     stop_on_violation: bool,
     real_time: bool,
@@ -102,6 +110,8 @@ def simulate(
     for name, value in (("events", events), ("trace", trace), ("trace-file", trace_file)):
         if replay and value is not None:
             raise click.UsageError(f"`--replay` and `--{name}` conflict")
+    if no_properties and properties:
+        raise click.UsageError("`--no-properties` and `--property` conflict")
     if no_properties and stop_on_violation:
         raise click.UsageError("`--no-properties` and `--stop-on-violation` conflict")
     if trace == "none" and trace_file is not None:
@@ -123,6 +133,7 @@ def simulate(
         replay,
         not no_properties,
         stop_on_violation,
+        properties,
     )
     succeeded = run_simulation(request, lambda report: render(report, format_, sys.stderr))
     return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS

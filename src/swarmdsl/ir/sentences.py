@@ -11,13 +11,25 @@ from swarmdsl.ir.properties import Claim, Count, Fact, Junction, Property, Robot
 
 @dataclass(frozen=True, slots=True)
 class Named:
-    """Name of an event, a function, a swarm or the like in a sentence."""
+    """Name of an event, a function, a swarm or the like in a sentence.
+
+    A state is one of the robots of a role; without one, of the robot of `each` or the machine.
+    """
 
     kind: str
     name: str
+    role: str | None = None
 
 
-Part = str | Named | Expression
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """Condition on the values of such robots."""
+
+    expression: Expression
+    role: str | None
+
+
+Part = str | Named | Condition | Expression
 _EVENTS = ("sends", "hears", "arrives")
 
 
@@ -99,22 +111,25 @@ def _term(each: Claim) -> Iterator[Part]:
             yield from claim(each)
             yield ")"
         case Count():
-            yield f"count({each.role} in {each.state}) {each.comparison} {each.number}"
+            yield f"count({each.role} in "
+            yield Named("state", each.state, each.role)
+            yield f") {each.comparison} {each.number}"
         case Fact():
             yield from _fact(each)
 
 
 def _fact(fact: Fact) -> Iterator[Part]:
+    role = fact.robots.role if fact.robots is not None else None
     yield f"{robots(fact.robots)} " if fact.robots is not None else ""
     if fact.act == "has":
         assert fact.guard is not None
         yield "has ["
-        yield fact.guard
+        yield Condition(fact.guard, role)
         yield "]"
         return
     yield "" if fact.act == "arrives" else f"{fact.act} "
     if fact.act == "in":
-        yield fact.name
+        yield Named("state", fact.name, role)
     else:
         yield Named("event" if fact.act in _EVENTS else "function", fact.name)
 

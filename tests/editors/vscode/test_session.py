@@ -247,6 +247,13 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
         summary = window.page.locator(".terminal-wrapper .xterm-rows", has_text="never taken")
         expect(summary).not_to_have_count(0)
 
+        window.place("sar.swarm", "OnGround of")
+        lens = window.page.locator(".codelens-decoration a", has_text="Check in simulation").first
+        window.again(lens.click, window.page.locator(".quick-input-title", has_text="Scenario"))
+        window.choose("mission.toml")
+        verdict = window.page.locator(".terminal-wrapper .xterm-rows", has_text="verdict")
+        expect(verdict.last).to_contain_text(re.compile(r"OnGround\s+true"))
+
         window.command("Swarm: Follow ROS 2 Nodes...")
         window.answer("Follow ROS 2 Nodes", "/sar")
         told = window.page.locator(".notification-toast", has_text="cannot follow ROS 2 nodes")

@@ -23,7 +23,7 @@ from swarmdsl.ir import (
     Swarm,
     doc_of,
 )
-from swarmdsl.ir.sentences import Named, head, sentence
+from swarmdsl.ir.sentences import Condition, Named, head, sentence
 
 _ONE = Multiplicity(1, 1)
 
@@ -110,7 +110,7 @@ def print_property(property_: Property) -> list[str]:
         if isinstance(each, str)
         else each.name
         if isinstance(each, Named)
-        else expression(each)
+        else expression(each.expression if isinstance(each, Condition) else each)
         for each in parts
     )
     return documented(property_.doc, ["".join(texts)])

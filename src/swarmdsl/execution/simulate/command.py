@@ -77,6 +77,8 @@ class Request:
     replay: tuple[Path, ...] = ()
     properties: bool = True
     stop_on_violation: bool = False
+    only: tuple[str, ...] = ()
+    """Names of the properties that are watched; none for all."""
 
 
 def simulate(request: Request, tell: Tell) -> bool | None:
@@ -139,7 +141,7 @@ def _subject(request: Request, report: Diagnostics) -> Subject | None:
         system = checked.system
     if report.has_errors:
         return None
-    return choose(system, read, request.machine, request.swarm, report)
+    return choose(system, read, request.machine, request.swarm, report, request.only)
 
 
 def _document(path: Path, report: Diagnostics) -> Document | None:
@@ -176,6 +178,11 @@ class _Play:
         self._written: list[Path] = []
         self._until = request.until if request.until is not None else scenario.until
         seed = request.seed if request.seed is not None else scenario.seed
+        self._watched = [
+            each
+            for each in (watchable(subject) if request.properties else ())
+            if not request.only or each.name in request.only
+        ]
         self._listeners: list[Callable[[Line], None]] = []
         self._world = World(
             subject.system, cast, scenario, seed, self._listeners, subject.heartbeat
@@ -189,8 +196,8 @@ class _Play:
             source = read_source(path, None, report, "a trace", MOST_RECORDED)
             if source is None:
                 continue
-            recording = Recording(self._subject)
-            seen = recording.see if self._request.properties else None
+            recording = Recording(self._watched)
+            seen = recording.see
             found = replay(source, self._subject, self._cast, report, seen)
             results = recording.results()
             report_violations(results, report)
@@ -211,10 +218,9 @@ class _Play:
         ending = "until an endless loop"
         results: list[PropertyResult] = []
         summary = Summary(self._subject, self._world)
-        watched = watchable(self._subject) if self._request.properties else []
         history: dict[str, list[tuple[int, Verdict]]] = {}
         monitors = watch(
-            watched,
+            self._watched,
             self._world.data,
             stops=self._request.stop_on_violation,
             told=None
@@ -234,7 +240,7 @@ class _Play:
                     self._listeners.append(self._writer(stream))
                 if stream is None or not stream.isatty():
                     self._show_board(stack)
-                if watched:
+                if self._watched:
                     self._listeners.append(monitors.see)  # the last one: it can end the run
                 try:
                     ending = _ENDINGS[self._run(tell)]
@@ -258,7 +264,7 @@ class _Play:
             report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
         report_violations(results, report)
         tell(report)
-        for line in summary.text(ending, results):
+        for line in summary.text(ending, results, brief=bool(self._request.only)):
             click.echo(line, err=True)
         request = self._request
         unplayed = request.events is None and request.scenario is None

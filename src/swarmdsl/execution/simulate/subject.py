@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
 from swarmdsl import ir
@@ -119,11 +119,17 @@ def choose(
     machine: str | None,
     swarm: str | None,
     report: Diagnostics,
+    properties: Sequence[str] = (),
 ) -> Subject | None:
-    """Return the named subject, else the only swarm, else the only machine.
+    """Return the named subject, else that of `properties`, the only swarm or the only machine.
 
     None if there is none or several, which is reported.
     """
+    if properties:
+        about = _about(properties, machine or swarm, system, report)
+        if about is None or system is None:
+            return None
+        machine, swarm = (about, None) if about in system.machines_by_name else (None, about)
     swarms = {each.name: each for each in system.swarms} if system is not None else {}
     machines: dict[str, StateMachine | Document] = {each.name: each for each in documents}
     machines.update(system.machines_by_name if system is not None else {})
@@ -157,9 +163,33 @@ def _alone(name: str, machine: StateMachine | Document, system: System | None) -
     return Subject(name, system, machine=machine)
 
 
-def _unknown(word: str, name: str, known: Mapping[str, object], report: Diagnostics) -> None:
+def _about(
+    names: Sequence[str], named: str | None, system: System | None, report: Diagnostics
+) -> str | None:
+    """Return what properties are about: one subject, and the named one if there is one."""
+    known = {each.name: each for each in system.properties} if system is not None else {}
+    unknown = [name for name in names if name not in known]
+    for name in unknown:
+        _unknown("property", name, known, report)
+    about = named
+    for name in names if not unknown else ():
+        found = known[name].subject
+        about = about or found
+        if found != about:
+            place = _on_command_line("property", name)
+            kind, help_ = f"property of `{about}`", f"it is about `{found}`"
+            report.report("unresolved-name", place, kind=kind, name=name, help=help_)
+            return None
+    return about if not unknown else None
+
+
+def _on_command_line(word: str, name: str) -> Span:
     source = Source(COMMAND_LINE, f"--{word} {name}")
-    place = Span(source, len(source.text) - len(name), len(source.text))
+    return Span(source, len(source.text) - len(name), len(source.text))
+
+
+def _unknown(word: str, name: str, known: Mapping[str, object], report: Diagnostics) -> None:
     kind = "state machine" if word == "machine" else word
-    help_ = suggest(name, known, f"{kind}s")
+    help_ = suggest(name, known, "properties" if word == "property" else f"{kind}s")
+    place = _on_command_line(word, name)
     report.report("unresolved-name", place, kind=kind, name=name, help=help_)

@@ -29,8 +29,10 @@ class Summary:
         self._statistics = world.trace.statistics
         self._lives = list(world.trace.lives.values())
 
-    def text(self, ending: str, properties: Iterable[PropertyResult] = ()) -> Iterator[str]:
-        """Yield the lines of the summary; the run is over."""
+    def text(
+        self, ending: str, properties: Iterable[PropertyResult] = (), *, brief: bool = False
+    ) -> Iterator[str]:
+        """Yield the lines of the summary, or only the verdicts; the run is over."""
         world = self._world
         now = world.clock.now
         for life in self._lives:
@@ -39,6 +41,10 @@ class Summary:
         time = f"{format_duration(now)} of virtual time"
         yield f"{printable(self._subject.name)}, {members}: {time}, {ending}"
         yield ""
+        if brief:
+            *table, _ = property_table(properties)
+            yield from table
+            return
         yield from _table(("member", "in the end", "since"), self._members(), left=2)
         yield from _table(("state", "time", "entered"), self._states())
         yield from _table(("function", "called", *_OUTCOMES, "unfinished"), self._functions())

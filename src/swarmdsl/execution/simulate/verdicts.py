@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.monitor import FALSE, PropertyResult, Violation
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.properties import watch, watchable
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.properties import watch
 from swarmdsl.execution.simulate.trace import Line, as_text
+from swarmdsl.ir import Property
 
 _SHOWN = 4
 """Number of trace lines and robots that are shown."""
@@ -67,8 +67,8 @@ def rows(results: Iterable[PropertyResult]) -> Iterator[tuple[str, str, str]]:
 class Recording:
     """Lines of replayed traces, watched in the order of time when all are known."""
 
-    def __init__(self, subject: Subject) -> None:
-        self._properties = watchable(subject)
+    def __init__(self, properties: Sequence[Property]) -> None:
+        self._properties = properties
         self._lines: list[tuple[Line, dict[str, Any]]] = []
 
     def see(self, line: Line, data: Mapping[str, Any] | None) -> None:

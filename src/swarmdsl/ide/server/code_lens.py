@@ -9,18 +9,27 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Component, Member, Optimization, StateMachine, Swarm, TopLevel
+from swarmdsl.syntax.ast import (
+    Component,
+    Member,
+    Optimization,
+    Property,
+    StateMachine,
+    Swarm,
+    TopLevel,
+)
 
-Kind = Literal["machine", "member", "swarm", "component"]
+Kind = Literal["machine", "member", "swarm", "component", "property"]
 
 _KINDS: dict[type[TopLevel], Kind] = {
     StateMachine: "machine",
     Member: "member",
     Swarm: "swarm",
     Component: "component",
+    Property: "property",
 }
 _PREVIEWED: tuple[Kind, ...] = ("machine", "member", "swarm")
-_SIMULATED: tuple[Kind, ...] = ("machine", "swarm")
+_SIMULATED: tuple[Kind, ...] = ("machine", "swarm", "property")
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.analysis.node_kinds import kind_name
+from swarmdsl.analysis.property_words import in_words
 from swarmdsl.analysis.types import BUILT_INS
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
@@ -36,18 +37,6 @@ from swarmdsl.syntax.types import written
 # Shown in full if they are short.
 _SHOWN_IN_FULL = (StructType, EnumType, MessageType, ServiceType, ActionType)
 _MAX_LINES = 20
-# When a property is violated, by the first word of its pattern.
-_VIOLATED = {
-    "never": "when it holds",
-    "at": "when it does not hold, or happens too often",
-    "eventually": "in the end or too late, if it never held",
-    "within": "when it has not held in time",
-    "leads": "in the end or too late, if the second did not follow the first",
-    "only": "when the first holds before the second ever did",
-    "then": "in the end, if they did not hold in this order",
-    "again": "in the end, if it does not hold then",
-    "always": "when all have ended and it does not hold",
-}
 
 
 def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | None:
@@ -76,6 +65,8 @@ def _built_in(file: File, offset: int) -> tuple[Span, str] | None:
 def described(node: Node) -> str:
     """Return declaration, kind and documentation of a node as Markdown."""
     parts = [f"```swarm\n{declaration(node)}\n```", ", ".join([kind_name(node), *_facts(node)])]
+    if isinstance(node, Property):
+        parts.append(in_words(node))
     if isinstance(node, Documented) and node.doc:
         parts.append(node.doc)
     return "\n\n".join(parts)
@@ -91,8 +82,6 @@ def _facts(node: Node) -> Iterator[str]:
         case StateMachine():
             states = [*nodes_of(node, State), *nodes_of(node, Parallel)]
             yield f"{len(states)} state{'s' * (len(states) != 1)}"
-        case Property(body=body):
-            yield f"violated {_VIOLATED[body.kind]}"
         case EnumType() | StructType() | MessageType() | ServiceType() | ActionType():
             pass
         case _:

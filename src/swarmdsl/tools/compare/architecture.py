@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeVar
 
+from swarmdsl.analysis.resolve.properties import matches
 from swarmdsl.codegen.swarm_printer.composition import heartbeat
 from swarmdsl.codegen.swarm_printer.delivery import delivery_settings
 from swarmdsl.ir import (
@@ -25,10 +26,12 @@ from swarmdsl.ir import (
     RobotValues,
     Role,
     Service,
+    StateMachine,
     Swarm,
     System,
+    sentences,
 )
-from swarmdsl.ir.sentences import Named, sentence
+from swarmdsl.ir.sentences import sentence
 from swarmdsl.tools.compare.behaviour import machine_element, param_elements
 from swarmdsl.tools.compare.elements import (
     Element,
@@ -38,6 +41,7 @@ from swarmdsl.tools.compare.elements import (
     expression_value,
     join_values,
     properties,
+    state_kind,
     type_value,
     with_doc,
 )
@@ -294,15 +298,50 @@ def _swarm(swarm: Swarm) -> Element:
 
 def _property(each: Property, system: System) -> Element:
     kind = "statemachine" if each.subject in system.machines_by_name else "swarm"
-    says: list[str | Ref] = []
-    for part in sentence(each):
-        if isinstance(part, Named):
-            says.append(Ref(part.kind, part.name))
-        else:
-            says += [part] if isinstance(part, str) else expression_value(part)
+    says = (value for part in sentence(each) for value in _said(part, each, system))
     values = properties(about=_named(each.subject, kind), says=tuple(says))
     ref = Ref("property", each.name)
     return with_doc(Element("property", (each.name,), values, (), ref, each.origin), each.doc)
+
+
+def _said(part: sentences.Part, property_: Property, system: System) -> Value:
+    match part:
+        case str():
+            return (part,)
+        case sentences.Named("state", name, role):
+            return (_state(name, _machines(role or property_.each, property_, system)),)
+        case sentences.Named(kind, name):
+            return (Ref(kind, name),)
+        case sentences.Condition(condition, role):
+            machines = _machines(role or property_.each, property_, system)
+            return expression_value(condition, machines[0].name if machines else "")
+    return expression_value(part)
+
+
+def _machines(role: str | None, property_: Property, system: System) -> list[StateMachine]:
+    """Return the machine of a property, or those that a robot of a role runs, its own first."""
+    names: list[str | None] = [property_.subject]
+    for swarm in system.swarms:
+        if swarm.name == property_.subject:
+            robots = [each.member for each in swarm.roles if each.name == role]
+            members = [system.members_by_name[name] for name in robots]
+            parts = [part.component for member in members for part in member.parts]
+            names = [each.behavior for each in members]
+            names += [system.components_by_name[name].behavior for name in parts]
+    known = system.machines_by_name
+    return [known[name] for name in dict.fromkeys(names) if name is not None and name in known]
+
+
+def _state(name: str, machines: Iterable[StateMachine]) -> str | Ref:
+    """Return the state that a name or a path means."""
+    found = {
+        Ref(state_kind(machine.name), state.id)
+        for machine in machines
+        for state in machine.walk()
+        if matches(tuple(state.id.split(".")), name.split("."))
+    }
+    exact = {each for each in found if each.name == name} or found
+    return exact.pop() if len(exact) == 1 else name
 
 
 def _optimization(search: Optimization) -> Element:

@@ -9,6 +9,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.tools.compare.behaviour import TRANSITION_KIND, VERTEX_KIND
 from swarmdsl.tools.compare.elements import Element, Value
 from swarmdsl.tools.compare.matching import Matching, match, value_text
+from swarmdsl.tools.compare.strength import Strength
 
 
 class Action(Enum):
@@ -37,7 +38,8 @@ class Change:
 
     `top` is the declaration that contains it, and `owner` the parent element. `before` and `after`
     are the values of the property `word`, or the old and new name or place. `old` or `new` is None
-    if the element exists on one side only.
+    if the element exists on one side only. `strength` is how the sentence of a property changed,
+    if that is certain.
     """
 
     action: Action
@@ -49,6 +51,7 @@ class Change:
     property_name: str = ""
     before: str = ""
     after: str = ""
+    strength: Strength | None = None
 
     @property
     def element(self) -> Element:
@@ -85,7 +88,8 @@ class Change:
             case Action.CHANGED if not self.after:
                 return f"{self.property_name} `{self.before}` removed"
             case Action.CHANGED:
-                return f"{self.property_name} is `{self.after}`, was `{self.before}`"
+                how = f", {self.strength}" if self.strength is not None else ""
+                return f"{self.property_name} is `{self.after}`, was `{self.before}`{how}"
             case Action.REORDERED:
                 return f"{self.property_name} reordered"
         return str(self.action.value)

@@ -123,6 +123,7 @@ def _as_json(
         "what": change.property_name or None,
         "before": change.before or None,
         "after": change.after or None,
+        "strength": change.strength,
         "breaking": rules.get(id(change)),
         "place_before": at(change.old),
         "place_after": at(change.new),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from swarmdsl.analysis.property_words import in_words
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
 from swarmdsl.base.naming import snake_case
 from swarmdsl.syntax.ast import (
@@ -167,10 +168,14 @@ def fitness(element: Element, builder: EntryBuilder) -> Entry:
 
 
 def property_(element: Element, builder: EntryBuilder) -> Entry:
-    """Entry of a property: its sentence, and what it is about."""
+    """Entry of a property: its sentence, what it is about, and its meaning in words."""
     node = element.node
     assert isinstance(node, Property)
-    return builder.entry(element, [("about", _target(builder, node.about))])
+    facts: list[tuple[str, Cell]] = [
+        ("about", _target(builder, node.about)),
+        ("means", (Prose(in_words(node)),)),
+    ]
+    return builder.entry(element, facts)
 
 
 def optimization(element: Element, builder: EntryBuilder) -> Entry:
