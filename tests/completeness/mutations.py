@@ -65,8 +65,8 @@ def kind_of(node: Any) -> str:
     match node:
         case Literal(type=type_):
             return str(type_)
-        case Transition(target=target):
-            return "stays" if target is None else "leads away"
+        case Transition(target=target, internal=internal):
+            return f"{'stays' if target is None else 'leads away'} {internal}"
     return str(getattr(node, "kind", ""))
 
 

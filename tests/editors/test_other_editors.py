@@ -144,8 +144,12 @@ def test_only_keywords_are_highlighted_as_keywords(language: Any, coloured: Colo
         wanted = {
             terminal.position
             for terminal in language.parse(text)
-            if language.is_keyword(terminal.rule) or str(terminal) in ("and", "or", "not")
+            if language.is_keyword(terminal.rule)
+            or terminal.rule.rule_name == "LATER"
+            or str(terminal) in ("and", "or", "not")
         }
+        # A keyword in properties, a function in expressions: these editors cannot tell.
+        either = {found.start() for found in re.finditer(r"\bcount(?=\()", text)}
         words = {found.start(): found[1] for found in WORD.finditer(text) if found[1]}
         operators = {at for at, word in words.items() if word in ("and", "or", "not")}
         truth = {at for at, word in words.items() if word in ("true", "false")}
@@ -156,7 +160,7 @@ def test_only_keywords_are_highlighted_as_keywords(language: Any, coloured: Colo
             return [text[max(at - 20, 0) : at + 20] for at in sorted(places)]
 
         missed += [f"{file.name}: {each}" for each in shown(outcomes - found)]
-        wrong += [f"{file.name}: {each}" for each in shown(found - outcomes)]
+        wrong += [f"{file.name}: {each}" for each in shown(found - outcomes - either)]
     assert (missed, wrong) == ([], [])
 
 

@@ -193,13 +193,12 @@ def test_comments_are_documentation() -> None:
     assert "<state" not in made
 
 
-def test_conditions_on_the_way_of_states_keep_them_stable() -> None:
+def test_conditions_on_active_states_are_kept() -> None:
     made = text(SAME["active"])
 
-    assert "var in_l2 : bool = false" in made
-    assert "entry / in_l2 = true" in made
-    assert "exit / in_l2 = false" in made
-    assert "on E1 [in_l2] -> R2" in made
+    assert "var" not in made
+    assert "on E1 [in(L2)] -> R2" in made
+    assert "on E2 [not in(L1)] -> R1" in made
 
 
 # ---- what has no place

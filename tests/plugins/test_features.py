@@ -20,7 +20,7 @@ statemachine M {
   initial Plain
   state Plain {
     defer Told
-    on member_lost [present() < 2] -> Work
+    on member_lost [present() < 2 and in(Plain)] -> Work
     on Low / send Low(level = got) after 2 s, cancel Low -> Work
   }
   state Work {
@@ -83,7 +83,7 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.CHOICE, ["Decide"]),
         (
             Feature.GUARD,
-            ["present() < 2", "event.level < 2.0", 'event.sender == ""', "got < 1.0", "got > 9.0"],
+            ["present() < 2 and in(Plain)", "event.level < 2.0", 'event.sender == ""', "got < 1.0", "got > 9.0"],
         ),
         (
             Feature.ASSIGNMENT,
@@ -101,6 +101,7 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.SELF, ["self.index"]),
         (Feature.MEMBER_EVENT, ["member_lost"]),
         (Feature.PRESENT, ["present()"]),
+        (Feature.IN_STATE, ["in(Plain)"]),
         (Feature.CROSS_LEVEL, ["on Low -> End"]),
         (Feature.INTO_STATE, ["internal on Low -> In"]),
         (Feature.HISTORY, ["Back"]),

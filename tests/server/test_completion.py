@@ -132,7 +132,7 @@ PLACES = {
         {"rest"}, {"base"},
     ),
     "role of one robot": (
-        work("on Low / send Seen to |[0]") + "swarm S { rest : Robot[2] }", {"rest"}, {"spot"},
+        work("on Low / send Seen to |[0]") + "swarm S { rest : Robot[2] }", {"rest"}, {"Low"},
     ),
     "behind an event to send": (work("on Low / send Seen |"), {"to"}, {"spot"}),
     "self": (work("on Seen [|"), {"self", "event"}, {"id"}),

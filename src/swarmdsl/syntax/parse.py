@@ -144,14 +144,15 @@ def _report_missing_separators(
     """
     if not model.missing_separators:
         return
-    wrong = [found.primary.span.line for found in errors if found.primary is not None]
+    wrong = [_line_in_source(found.primary.span) for found in errors if found.primary is not None]
     known = {*wrong, *(line + 1 for line in wrong)}
     for separator in model.missing_separators:
         span = separator.span
+        line = _line_in_source(span)
         # A repair may have put a word where the text has none.
-        if span.line in known or not span.text.strip():
+        if line in known or not span.text.strip():
             continue
-        known.add(span.line)
+        known.add(line)
         report.report(
             "missing-separator",
             span,
@@ -162,6 +163,11 @@ def _report_missing_separators(
             else f"begin it on a line of its own, or write `{separator}` before it; "
             "`swarmc fmt --migrate` does so in whole files",
         )
+
+
+def _line_in_source(span: Span) -> int:
+    """Return the line in the parsed text: the offset of a segment in its file is not set yet."""
+    return Source.line_column(span.source, span.start)[0]
 
 
 def _report_faults(parsed: Parsed, report: Diagnostics) -> None:

@@ -161,8 +161,8 @@ class Candidates:
 
 
 def _is_address(use: NameUse, owner: TopLevel) -> bool:
-    """Return True for a name that is an address by itself."""
-    return any(each.id is not None and each.id.tree is use for each in nodes_of(owner, Address))
+    """Return True for a name in the place of the role of an address."""
+    return any(each.role_use is use for each in nodes_of(owner, Address))
 
 
 def visible(scope: FileScope, kinds: tuple[type[Node], ...]) -> list[Node]:
