@@ -65,9 +65,7 @@ def test_langium_reads_the_same_models():
 
     if peers.version("langium") is None:
         pytest.skip("no langium: `make bench`")
-    valid = [
-        str(file) for file, valid in models() if valid and file.name not in _NOT_FOR_LANGIUM
-    ]
+    valid = [str(file) for file, valid in models() if valid and file.name not in _NOT_FOR_LANGIUM]
     script, grammar = peers.FOLDER / "langium.mjs", peers.FOLDER / "swarm.langium"
     ran = subprocess.run(
         ["node", str(script), str(grammar), valid[0], *valid], capture_output=True, text=True

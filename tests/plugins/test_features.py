@@ -83,7 +83,13 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.CHOICE, ["Decide"]),
         (
             Feature.GUARD,
-            ["present() < 2 and in(Plain)", "event.level < 2.0", 'event.sender == ""', "got < 1.0", "got > 9.0"],
+            [
+                "present() < 2 and in(Plain)",
+                "event.level < 2.0",
+                'event.sender == ""',
+                "got < 1.0",
+                "got > 9.0",
+            ],
         ),
         (
             Feature.ASSIGNMENT,
