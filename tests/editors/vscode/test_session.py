@@ -247,6 +247,7 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
         summary = window.page.locator(".terminal-wrapper .xterm-rows", has_text="never taken")
         expect(summary).not_to_have_count(0)
 
+        window.leave()  # lenses of the server before have no commands any more
         window.place("sar.swarm", "OnGround of")
         lens = window.page.locator(".codelens-decoration a", has_text="Check in simulation").first
         window.again(lens.click, window.page.locator(".quick-input-title", has_text="Scenario"))

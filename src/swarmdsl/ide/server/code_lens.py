@@ -48,7 +48,8 @@ def code_lenses(file: File) -> Iterator[CodeLens]:
             continue
         name = owner.name.span.absolute  # type: ignore[attr-defined]
         kind = _KINDS.get(type(owner))
-        yield CodeLens("references", name)
+        if kind != "property":  # only tests name properties
+            yield CodeLens("references", name)
         if kind in _PREVIEWED:
             yield CodeLens("preview", name, kind)
         if kind in _SIMULATED:
