@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import partial
 
+from swarmdsl.analysis.checks.conjunctions import satisfiable
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
+from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.analysis.resolve.multiplicity import greatest
 from swarmdsl.analysis.resolve.properties import machines_of_fact, role_of_fact, subjects_of
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     Activity,
+    Event,
     EventTrigger,
     Fact,
+    MonitorTrigger,
     Node,
     Property,
     Send,
@@ -126,7 +131,7 @@ def _check_robots(fact: Fact, owner: Property, context: Context) -> None:
 
 def _check_possible(fact: Fact, owner: Property, context: Context) -> None:
     """Report a fact that can never hold."""
-    reason = _limit(fact) or _never_done(fact, owner)
+    reason = _limit(fact) or _never_done(fact, owner) or _never_true(fact, context)
     if reason is not None:
         context.report.report(
             "impossible-fact",
@@ -144,6 +149,9 @@ def _limit(fact: Fact) -> str | None:
         if fact.comparison not in (">", ">=", "=="):
             return "a number is never below 0" if (fact.comparison, needed) == ("<", 0) else None
     elif fact.who is not None and fact.who.lower and fact.who.lower != "*":
+        upper = fact.who.upper
+        if upper and upper != "*" and whole(upper) < whole(fact.who.lower):
+            return f"no number is in `{fact.who.lower}..{upper}`"
         role, needed = fact.who.role.target, whole(fact.who.lower)
     most = greatest(role) if role is not None else None
     if role is None or most is None or needed <= most:
@@ -164,6 +172,7 @@ def _never_done(fact: Fact, owner: Property) -> str | None:
     if not machines:
         return None
     found: set[Node | None] = set()
+    topics: set[str] = set()
     for machine in _with_reused(machines):
         if fact.function is not None:
             found |= {each.function.target for each in nodes_of(machine, Activity)}
@@ -171,12 +180,25 @@ def _never_done(fact: Fact, owner: Property) -> str | None:
             found |= {each.event.target for each in nodes_of(machine, Send)}
         else:
             found |= {each.event.target for each in nodes_of(machine, EventTrigger)}
+            topics |= {received_topic(each) for each in nodes_of(machine, MonitorTrigger)}
     ref = fact.event if fact.event is not None else fact.function
     assert ref is not None
     if ref.target is None or None in found or ref.target in found:
         return None
-    verb = {"": "waits for", "hears": "waits for", "sends": "sends"}.get(fact.act, "calls")
+    if isinstance(ref.target, Event) and received_topic(ref.target) in topics:
+        return None
+    verb = "calls" if fact.function is not None else "sends" if fact.act == "sends" else "waits for"
     return f"{who} never {verb} `{ref.name}`"
+
+
+def _never_true(fact: Fact, context: Context) -> str | None:
+    """Describe why a condition never holds; None if it can, or has an error."""
+    tree = fact.guard.tree if fact.guard is not None else None
+    if tree is None or context.typing.infer(tree) != BOOL:
+        return None
+    if satisfiable(guard_condition(tree, context.typing)):
+        return None
+    return "its condition is always false"
 
 
 def _machines_of(owner: Property) -> list[StateMachine]:

@@ -189,7 +189,7 @@ def _link_state(
         paths = [path for machine in machines for path, _ in state_paths(machine)]
         names = dict.fromkeys(".".join(path) for path in paths)
         if last not in scope.skipped_names:
-            kind = "state of " + listed([f"`{machine.name}`" for machine in machines])
+            kind = f"state of {listed([str(machine.name) for machine in machines])}"
             near = [*dict.fromkeys(path[-1] for path in paths), *names]
             report_missing_inside(kind, ref.name, ref.span, near, scope, report)
     elif len(found) > 1:

@@ -189,7 +189,9 @@ class Typing:
             help_ = _bool_hint(tree, found) if expected == BOOL else None
             if found == DURATION and is_number(expected):
                 help_ = f"`seconds({tree.span.text})` is a number in `s`"
-            if expected == DURATION and has_dimension(unit_of(found)):
+            if expected == DURATION and isinstance(tree, Value) and tree.unit == "m":
+                help_ = f"`m` is metres: write `{tree.value} min`"
+            elif expected == DURATION and has_dimension(unit_of(found)):
                 help_ = f"a duration in seconds: `1 s * ({tree.span.text} / 1 s)`"
             elif expected == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"

@@ -12,6 +12,7 @@ from swarmdsl.syntax.errors.delayed import find_delayed_error
 from swarmdsl.syntax.errors.foreign_statements import foreign_statement_hint
 from swarmdsl.syntax.errors.foreign_tokens import foreign_token_hint
 from swarmdsl.syntax.errors.hints import strange_character, token_hint
+from swarmdsl.syntax.errors.property_hints import property_hint
 from swarmdsl.syntax.parser.keywords import FIRST, RESERVED
 from swarmdsl.syntax.parser.patched_text import PatchedText
 
@@ -176,6 +177,7 @@ def _hint(words: set[str], before: re.Match[str] | None, found: re.Match[str]) -
     at, text = found.start(), found.string
     return (
         foreign_statement_hint(words, text, at)
+        or property_hint(words, text, at)
         or foreign_token_hint(words, text, at)
         or token_hint(words, before, found)
     )

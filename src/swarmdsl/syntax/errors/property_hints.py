@@ -1,0 +1,84 @@
+"""Hints for mistakes in properties: words of temporal logic, of other languages and of people."""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+
+_PROPERTY = re.compile(r"^[ \t]*property\b[^{}\n]*\Z", re.MULTILINE)
+_ALWAYS = "write `at all times` after the fact"
+_EVENTUALLY = "write `eventually` before the fact"
+_LEADS = "write `P leads to Q`"
+# The words before the unexpected token.
+_BEFORE = {
+    "always": _ALWAYS,
+    "globally": _ALWAYS,
+    "henceforth": _ALWAYS,
+    "G": _ALWAYS,
+    "finally": _EVENTUALLY,
+    "sometime": _EVENTUALLY,
+    "F": _EVENTUALLY,
+    "infinitely": "write `again and again` before the fact",
+    "until": "write `before P,`, or `after P until Q,`",
+    "whenever": _LEADS,
+    "when": _LEADS,
+    "if": _LEADS,
+    "exists": "write `some` before the role",
+}
+_ROBOTS = re.compile(r"\b(?:forall|foreach|for|every|any)\s+(?:all\s+|each\s+|every\s+)?(\w+)\Z")
+# The unexpected token itself.
+_IMPLIES = "write `P leads to Q`, or `not P or Q at all times` for one moment"
+_TIMES = "write `at most N times`"
+_FOUND = {
+    "implies": _IMPLIES,
+    "=>": _IMPLIES,
+    "==>": _IMPLIES,
+    "->": _IMPLIES,
+    "-->": _IMPLIES,
+    "exactly": _TIMES,
+    "once": _TIMES,
+    "twice": _TIMES,
+    "until": "write `after P until Q,` before the rest of the sentence",
+    "not": "write `not` before the whole fact, as in `not all robot in State`",
+}
+_TOKEN = re.compile(r"[A-Za-z_]\w*|[=\-]+>|\S")
+_SOON = re.compile(r"(?:in|for|by)\s+(\d[\d.]*\s*[A-Za-z]+)")
+_CHANCE = re.compile(r"with\s+(?:a\s+)?(?:probability|chance)(?:\s+of)?\s+([\d.]+)")
+_WHO = re.compile(r"\w+(?:\[\d+\])?\Z")
+
+
+def property_hint(expected: set[str], text: str, at: int) -> str | None:
+    """Return a hint for an unexpected token in a property, None elsewhere or if there is none."""
+    begun = _PROPERTY.search(text, 0, at)
+    token = _TOKEN.match(text, at)
+    if begun is None or token is None:
+        return None
+    said, found = begun[0].rstrip(), token[0]
+    if found == "{" and "`:`" in expected:
+        return "write `:` and one sentence"
+    if " : " not in said and ":" not in said:
+        return None
+    last = re.search(r"\w+\Z", said)
+    if robots := _ROBOTS.search(said if found == ":" else f"{said} {found}"):
+        more = re.compile(r"\s*(\w+)").match(text, token.end())
+        role = more[1] if robots[1] in ("all", "each", "every") and more else robots[1]
+        return f"write `each {role} :`"
+    if last is not None and last[0] in _BEFORE and last.start() > said.index(":"):
+        return _BEFORE[last[0]]
+    if soon := _SOON.match(text, at):
+        return f"write `within {soon[1]}`"
+    if chance := _CHANCE.match(text, at):
+        return f"write `at least {chance[1]}`"
+    if found == "%" and (number := re.search(r"[\d.]+\Z", said)):
+        return f"write `{Decimal(number[0]) / 100}`"
+    if found == "." and (who := _WHO.search(said)):
+        return f"write `{who[0]} in State`, or `{who[0]} has [x > 3]` for its variables"
+    if found == ")" and re.search(r"\bcount\s*\(\s*\w+\Z", said):
+        return f"write `{said[said.rindex('count') :]} in State)`"
+    if found == "least" and "`most`" in expected:
+        return "write each time, as in `P then not P then P`"
+    if found == "all" and "`least`" in expected:
+        return "the sentence is about all times without it: leave `at all times` out"
+    if found == "or" and re.search(r"\bbetween\b[^,]*\Z", said):
+        return "put what is joined in parentheses"
+    return _FOUND.get(found)
