@@ -6,23 +6,20 @@ of `uav_msgs/FlyActionFeedback` is `fly/_action/feedback`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from swarmdsl.codegen import Diagnostics, Span
+from swarmdsl.codegen.shared import expressions_of
 from swarmdsl.ir import (
     Action,
     Assignment,
-    Effect,
     Event,
-    Expression,
     FieldAccess,
     Message,
     Named,
-    Send,
     State,
     StateMachine,
     System,
-    TimeTrigger,
     subexpressions,
 )
 
@@ -101,33 +98,8 @@ def _stored(state: State) -> Iterator[tuple[str, tuple[str, ...], Span | None]]:
 
 
 def _fields_read(state: State) -> Iterator[FieldAccess]:
-    for value in _expressions(state):
+    for value in expressions_of(state):
         yield from (part for part in subexpressions(value) if isinstance(part, FieldAccess))
-
-
-def _expressions(state: State) -> Iterator[Expression]:
-    yield from _values(state.entry)
-    if state.activity is not None:
-        yield from (value for _, value in state.activity.arguments)
-    for transition in state.transitions:
-        for trigger in transition.triggers:
-            if isinstance(trigger, TimeTrigger):
-                yield trigger.delay
-        if transition.guard is not None:
-            yield transition.guard
-        yield from _values(transition.effects)
-    yield from _values(state.exit)
-
-
-def _values(effects: Iterable[Effect]) -> Iterator[Expression]:
-    for effect in effects:
-        match effect:
-            case Assignment(value=value):
-                yield value
-            case Send(arguments=arguments, to=to, delay=delay):
-                yield from (value for _, value in arguments)
-                yield from to.values if to is not None else ()
-                yield from (delay,) if delay is not None else ()
 
 
 def _unsupported(construct: str, event: Event, report: Diagnostics) -> None:

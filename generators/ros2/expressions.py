@@ -185,6 +185,7 @@ def _dialect(data: str) -> Dialect:
         query=python_query,
         construction=_construction,
         in_state=lambda state: f"{MACHINE}.active({state!r})",
+        elapsed=lambda state: f"{MACHINE}.elapsed({state!r})",
         division=PYTHON_DIVISION,
     )
 

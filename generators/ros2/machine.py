@@ -6,7 +6,13 @@ from collections.abc import Iterable
 
 from swarmdsl.codegen import dataclass
 from swarmdsl.codegen.python import Call, Source, comments, layout, source_place
-from swarmdsl.codegen.shared import Events, delays, entered_region, region_transitions
+from swarmdsl.codegen.shared import (
+    Events,
+    delays,
+    entered_region,
+    region_transitions,
+    timed_states,
+)
 from swarmdsl.ir import (
     Binary,
     Expression,
@@ -43,6 +49,7 @@ class Table:
     def __init__(self, machine: StateMachine, module: Module) -> None:
         self._module = module
         self._events = Events(machine, {state.id: state.id for state in machine.walk()})
+        self._timed = timed_states(machine)
         around: dict[str, State] = {}
         for state in machine.walk():
             around.update((child.id, state) for child in state.states)
@@ -85,6 +92,8 @@ class Table:
             keywords.append(("activity", activity_of(state, state.activity, self._module)))
         if state.deferred:
             keywords.append(("deferred", tuple(trigger.event for trigger in state.deferred)))
+        if state.id in self._timed:
+            keywords.append(("timed", True))
         return Call("State", tuple(arguments), tuple(keywords))
 
     def _on_entry(self, state: State, around: State | None) -> list[Source]:

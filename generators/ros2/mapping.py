@@ -47,6 +47,7 @@ MAPPING = tuple(
         ("stored result or response", _EXACT, "function of the module: `finalize=`"),
         ("variable", _EXACT, "attribute of `class Data`"),
         ("test of a state", _EXACT, "`machine.active(`"),
+        ("time in a state", _EXACT, "`machine.elapsed(`"),
         ("sender and time of an event", _EXACT, "header of the message, or `envelope.sender`"),
         ("address of a sent event", _EXACT, "in its envelope: `Envelope(to=`"),
         ("identity of the robot", _EXACT, "parameters: `self.self = parameters['self']`"),

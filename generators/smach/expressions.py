@@ -24,6 +24,7 @@ from swarmdsl.ir import (
     Binary,
     Call,
     Construction,
+    Elapsed,
     EnvelopeField,
     Expression,
     FieldAccess,
@@ -50,6 +51,8 @@ def python_expression(expression: Expression, imports: Imports) -> str:
             imports.module("rospy")
         if isinstance(part, InState):
             imports.name(f"{imports.types.package}.states", "is_active")
+        if isinstance(part, Elapsed):
+            imports.name(f"{imports.types.package}.states", "elapsed")
         if isinstance(part, EnvelopeField) and part.field == "sent":
             imports.module("rospy")
         if isinstance(part, Call) and part.function in PYTHON_ARRAY_FUNCTIONS:
@@ -152,5 +155,6 @@ _DIALECT = Dialect(
     query=python_query,
     construction=_construction,
     in_state="is_active({!r})".format,
+    elapsed="elapsed({!r})".format,
     division=PYTHON_DIVISION,
 )

@@ -25,6 +25,7 @@ _TAKEN = (
     "build",
     "callbacks",
     "concurrence",
+    "elapsed",
     "envelope",
     "copy",
     "event",

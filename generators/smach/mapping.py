@@ -55,6 +55,7 @@ MAPPING = tuple(
         ("stored result or response", _EXACT, "function of userdata: `store=`"),
         ("variable", _EXACT, "`userdata.`, one for the whole machine"),
         ("test of a state", _EXACT, "`is_active(`"),
+        ("time in a state", _EXACT, "`elapsed(`"),
         ("sender and time of an event", _EXACT, "header of the message, or `envelope.sender`"),
         ("address of a sent event", _EXACT, "in its envelope: second argument of `.send(`"),
         ("identity of the robot", _EXACT, "parameters: `userdata.self = identity()`"),

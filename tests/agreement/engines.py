@@ -10,6 +10,7 @@ import json
 import math
 import operator
 import re
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -234,6 +235,7 @@ _ECMASCRIPT = {
         **{function.__name__: function for function in (abs, max, min)},
     ),
     "Number": float,
+    "Date": SimpleNamespace(now=lambda: time.time_ns() // 1_000_000),
     "JSON": SimpleNamespace(parse=_of, stringify=_of),
     "modulo": operator.mod,
     "quotient": operator.truediv,

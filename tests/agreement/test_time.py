@@ -30,7 +30,7 @@ statemachine M {
   }
   state B {
     after 10 s -> A
-    after 100 ms -> C
+    after 100 ms [elapsed() > 50 ms and elapsed() < 5 s] -> C
   }
   state C { initial D; state D { after 100 ms -> E } final E; on done -> End }
   final End

@@ -6,22 +6,22 @@ _REASONS: dict[str, dict[str, str]] = {
     "dump": {
         "follows from the parts of the expression": (
             "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type "
+            "Elapsed.type FieldAccess.type ParamRef.type "
             "ItemRef.type Query.type SelfField.type InState.type Unary.type VariableRef.type"
         ),
     },
     "printer": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type InState.type "
-            "Unary.type"
+            "Binary.type Call.type Elapsed.type EnvelopeField.header EnvelopeField.type "
+            "EventData.type FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
+            "InState.type Unary.type"
         ),
     },
     "diff": {
         "follows from the parts of the expression": (
-            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type InState.type "
-            "Unary.type"
+            "Binary.type Call.type Elapsed.type EnvelopeField.header EnvelopeField.type "
+            "EventData.type FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
+            "InState.type Unary.type"
         ),
         "a name that nothing declares reads as another name of the swarm": ("Optimization.swarm"),
         "the name of the file where there is no package": ("System.name"),
@@ -47,9 +47,9 @@ _REASONS: dict[str, dict[str, str]] = {
             "Service.type System.interfaces"
         ),
         "follows from the parts of the expression": (
-            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type InState.type "
-            "Unary.type"
+            "Binary.type Call.type Elapsed.type EnvelopeField.header EnvelopeField.type "
+            "EventData.type FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
+            "InState.type Unary.type"
         ),
         "calls are drawn by the name of their function": (
             "Communication.name Communication.paradigm Communication.type "
@@ -79,8 +79,9 @@ _REASONS: dict[str, dict[str, str]] = {
     "portable SCXML": {
         "the type of the event tells it": "Event.predefined",
         "follows from the parts of the expression": (
-            "Binary.type Call.type EnvelopeField.header EnvelopeField.type EventData.type "
-            "ParamRef.type ItemRef.type Query.type SelfField.type InState.type Unary.type"
+            "Binary.type Call.type Elapsed.type EnvelopeField.header EnvelopeField.type "
+            "EventData.type ParamRef.type ItemRef.type Query.type SelfField.type InState.type "
+            "Unary.type"
         ),
         "comments of calls are not written": ("Communication.doc"),
         "a document is about one state machine": (
@@ -132,6 +133,8 @@ NOT_LOWERED = {
     "AliasType.name": "an alias is replaced by its type",
     "AliasType.type": "types are lowered from the resolved references",
     "Branch.otherwise": "a branch without a guard",
+    "Elapsed.function": "there is only one",
+    "Elapsed.state": "the resolved state is lowered",
     "EnumType.underlying": "the resolved type is lowered",
     "ImportFile.doc": "imports are resolved by the loader",
     "ImportFile.path": "imports are resolved by the loader",

@@ -17,6 +17,10 @@ class StillWorld:
         self.runs: dict[str, Run] = {}
         self.errors: list[str] = []
 
+    @property
+    def time(self) -> int:
+        return self.clock.now
+
     def schedule(self, delay: int, action: Callable[[], None]) -> Alarm:
         return self.clock.schedule(delay, action)
 

@@ -20,6 +20,7 @@ from swarmdsl.syntax.ast import (
     Call,
     Construction,
     Documented,
+    Elapsed,
     Element,
     EnumValue,
     Expression,
@@ -220,6 +221,10 @@ def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
             )
         case "call":
             return Call(span, words[0], tuple(operands))
+        case "elapsed":
+            path = words[1] if len(words) > 1 else None
+            state = Ref(str(path), "Vertex", path.span) if path is not None else None
+            return Elapsed(span, words[0], state)
         case "in_state":
             path = words[1]
             return InState(span, Ref(str(path), "Vertex", path.span))

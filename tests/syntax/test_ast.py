@@ -15,7 +15,7 @@ EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
 OTHERS = {
     *("Expression", "Value", "NameUse", "FieldUse", "IndexUse", "Call", "OperatorUse"),
-    *("Query", "Element", "Construction", "FieldValue", "RoleUse", "InState"),
+    *("Query", "Element", "Construction", "FieldValue", "RoleUse", "InState", "Elapsed"),
 }
 # What stands inside a line. All else begins one, and has documentation.
 INLINE = {

@@ -189,6 +189,11 @@ class Chart(engine.Observer):
         """Log a guard or an effect that could not be evaluated; the machine continues."""
         rospy.logerr('%s', error)
 
+    @property
+    def time(self):
+        """Return the ROS time in nanoseconds."""
+        return rospy.Time.now().to_nsec()
+
     def schedule(self, delay, action):
         """Call an action after a delay in nanoseconds of ROS time."""
         timer = (rospy.Time.now() + rospy.Duration(delay / 1e9), next(self._count), action)

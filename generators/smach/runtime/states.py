@@ -125,6 +125,7 @@ class Charted:
             tuple(leave),
             origin=self,
             deferred=tuple(event.name for event in self.defer),
+            timed=True,
         )
 
     def initial_path(self):
@@ -282,6 +283,11 @@ class Activity(State):
 def is_active(path):
     """Return True while a state of the machine is active; for its guards, effects and callbacks."""
     return Event.machine.active(path)
+
+
+def elapsed(path):
+    """Return for how long an active state has been active, as a duration; for the same."""
+    return rospy.Duration(0, Event.machine.elapsed(path))
 
 
 def message(message_type, fields):

@@ -17,6 +17,7 @@ from swarmdsl.ir import (
     Cancel,
     Construction,
     Effect,
+    Elapsed,
     EnvelopeField,
     EventData,
     EventTrigger,
@@ -187,6 +188,8 @@ def _uses_in_expression(expression: Expression) -> Iterator[Use]:
             yield Feature.SENDER, expression.origin
         case InState():
             yield Feature.IN_STATE, expression.origin
+        case Elapsed():
+            yield Feature.ELAPSED, expression.origin
         case SelfField():
             yield Feature.SELF, expression.origin
         case FieldAccess(base=base):

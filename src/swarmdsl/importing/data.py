@@ -16,6 +16,7 @@ from swarmdsl.importing.partial_states import PartialState
 from swarmdsl.importing.portable import PortableDescription
 from swarmdsl.importing.scxml_patterns import contents
 from swarmdsl.ir import (
+    Elapsed,
     Expression,
     InState,
     Literal,
@@ -71,7 +72,13 @@ class MachineData:
             self._is_active,
             described.identity,
             bool(described),
+            self._elapsed,
         )
+        self.timed = {
+            node.get("location", ""): draft
+            for draft in top.walk()
+            if (node := draft.payload_node("since")) is not None
+        }
         for key, datum in described.data.items():
             self.types[key] = datum.type
             self.names.given[key] = datum.name
@@ -95,7 +102,7 @@ class MachineData:
                 known = self.described.data.get(name)
                 if known is not None and not known.initial:
                     continue
-                if name and name == self.described.identity:
+                if name and (name == self.described.identity or name in self.timed):
                     continue
                 if not text and data.get("src") is None:
                     continue
@@ -229,3 +236,8 @@ class MachineData:
         if draft is None or draft not in self.tested:
             raise UnsupportedError(f"state `{state}` cannot be tested for being active")
         return InState(self.paths[draft])
+
+    def _elapsed(self, name: str) -> Expression | None:
+        """Return the time since the entry of a state, given the data with the time of entry."""
+        draft = self.timed.get(name)
+        return Elapsed(self.paths[draft]) if draft is not None else None

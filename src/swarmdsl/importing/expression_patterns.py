@@ -96,6 +96,8 @@ class TypeInference:
                 if self.is_time(tree):
                     return DURATION
                 return STRING if self.is_sender(tree) else BOOL
+            case "operation" if is_elapsed(tree):
+                return DURATION
             case "operation":
                 left, operator, right = children
                 left, right = remainder(tree) or (left, right)
@@ -169,6 +171,16 @@ def is_number(tree: Any) -> bool:
 def is_name(tree: Any, name: str) -> bool:
     """Return True for the given name."""
     return bool(tree.data == "name" and tree.children[0] == name)
+
+
+def is_elapsed(tree: Any) -> bool:
+    """Return True for the time since one that data have: `Date.now() - since`."""
+    left, operator, right = tree.children
+    if operator != "-" or left.data != "call" or right.data != "name":
+        return False
+    callee = left.children[0]
+    is_now = callee.data == "member" and str(callee.children[1]) == "now"
+    return is_now and len(left.children) == 1 and is_name(callee.children[0], "Date")
 
 
 def is_event(tree: Any) -> bool:

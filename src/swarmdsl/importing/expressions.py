@@ -30,6 +30,7 @@ from swarmdsl.importing.expression_patterns import (
     TypeInference,
     copied_value,
     function_of,
+    is_elapsed,
     is_event,
     is_name,
     number,
@@ -85,7 +86,8 @@ class Expressions:
     `refer` resolves a name for an expected type, `inside` gives the condition that a state is
     active, and `field` the type of a field, None if it is unknown. `identity` is the name of the
     data that is `self` in a model, empty if there is none; `envelopes` says whether events have a
-    sender and a time beside their message.
+    sender and a time beside their message. `elapsed` gives the time in a state from the name of the
+    data with the time of its entry; None for other data.
     """
 
     def __init__(
@@ -96,6 +98,7 @@ class Expressions:
         inside: Callable[[str], Expression],
         identity: str = "",
         envelopes: bool = False,
+        elapsed: Callable[[str], Expression | None] = lambda name: None,
     ) -> None:
         self.types = types
         self.refer = refer
@@ -103,6 +106,7 @@ class Expressions:
         self.inside = inside
         self.identity = identity
         self.envelopes = envelopes
+        self.elapsed = elapsed
 
     def read(self, text: str, expected: Type | None, event: Type | None = None) -> Expression:
         """Convert an expression; `event` is the current message. Raises UnsupportedError."""
@@ -252,6 +256,10 @@ class _ExpressionReader:
         if held is not None:
             array = self._array(held[0])
             return Call("contains", (array, self.expression(held[1], _element(array))), BOOL)
+        if is_elapsed(tree):
+            time = self.known.elapsed(str(right.children[0]))
+            if time is not None:
+                return time
         rest = remainder(tree)
         if rest is not None:
             return self._arithmetic("%", *rest, expected)

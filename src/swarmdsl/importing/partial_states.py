@@ -136,6 +136,10 @@ class _Reader:
                 (draft.entry if child.name == "onentry" else draft.exit).extend(child.children)
             elif child.name not in _KNOWN and (child.name not in _OF_CALLS or parent is None):
                 self._left_out(child, f"`<{child.name}>`", "it has no equivalent in a model")
+        since = draft.payload_node("since")
+        if since is not None:
+            noted = since.get("location")
+            draft.entry = [each for each in draft.entry if each.get("location") != noted]
         if kind is StateKind.SIMPLE and draft.children:
             draft.kind = StateKind.COMPOSITE
         if kind is StateKind.PARALLEL and not draft.children:

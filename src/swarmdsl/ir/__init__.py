@@ -31,6 +31,7 @@ if TYPE_CHECKING:
         Binary,
         Call,
         Construction,
+        Elapsed,
         EnvelopeField,
         EventData,
         Expression,
@@ -133,8 +134,8 @@ else:
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
             "swarmdsl.ir.expressions": (
-                "Binary Call Construction EnvelopeField EventData Expression FieldAccess InState "
-                "ItemRef Literal ParamRef Query SelfField Unary VariableRef mapped reads "
+                "Binary Call Construction Elapsed EnvelopeField EventData Expression FieldAccess "
+                "InState ItemRef Literal ParamRef Query SelfField Unary VariableRef mapped reads "
                 "subexpressions"
             ),
             "swarmdsl.ir.integer_ranges": "bound_of bound_of_any",
@@ -191,6 +192,7 @@ __all__ = [
     "Docs",
     "DoneTrigger",
     "Effect",
+    "Elapsed",
     "EnvelopeField",
     "Environment",
     "Event",

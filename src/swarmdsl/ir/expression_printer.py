@@ -17,6 +17,7 @@ from swarmdsl.ir import (
     Binary,
     Call,
     Construction,
+    Elapsed,
     EnvelopeField,
     EventData,
     Expression,
@@ -79,10 +80,10 @@ class Dialect:
     fact about that event, `identity` a field of `self`; `functions` renames the built-in
     functions, to `.name` if the target has a property instead, or prints a call from its
     arguments. `item` prints the name of an item in a query, `query` and `construction` print these
-    with a printer of their parts, `in_state` the test of a state from its id. `modulo` prints `%`,
-    whose result has the sign of the divisor in the language; `quotient` prints `/`, the division of
-    real numbers; `division` prints `div`, the division of integers, if the target has an operator
-    for it.
+    with a printer of their parts, `in_state` the test of a state from its id, `elapsed` the time in
+    it. `modulo` prints `%`, whose result has the sign of the divisor in the language; `quotient`
+    prints `/`, the division of real numbers; `division` prints `div`, the division of integers, if
+    the target has an operator for it.
     """
 
     literal: Callable[[Literal], str]
@@ -96,6 +97,7 @@ class Dialect:
     item: Callable[[str], str] = str
     query: Callable[[Query, Printer], str] = model_query
     in_state: Callable[[str], str] = "in({})".format
+    elapsed: Callable[[str], str] = "elapsed({})".format
     construction: Callable[[Construction, Printer], str] = model_construction
     modulo: Callable[[str, str], str] = "{} % {}".format
     quotient: Callable[[str, str], str] = "{} / {}".format
@@ -136,6 +138,8 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             return dialect.query(expression, lambda part: translate(part, dialect)), _PRIMARY
         case InState(state=state):
             return dialect.in_state(state), _PRIMARY
+        case Elapsed(state=state):
+            return dialect.elapsed(state), _PRIMARY
         case Construction():
             return dialect.construction(expression, lambda part: translate(part, dialect)), _PRIMARY
         case Call(function="div", arguments=(left, right)) if dialect.division is not None:
@@ -226,7 +230,7 @@ def uses_math(expression: Expression) -> bool:
 _PYTHON_NAMES = {
     *PYTHON_ARRAY_FUNCTIONS.values(),
     *("bounded", "copy", "data", "deepcopy", "envelope", "event", "filled", "get", "machine"),
-    *("is_active", "math", "plain", "put", "rospy", "userdata"),
+    *("elapsed", "is_active", "math", "plain", "put", "rospy", "userdata"),
 }
 
 

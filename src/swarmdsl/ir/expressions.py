@@ -162,6 +162,15 @@ class InState:
 
 
 @dataclass(frozen=True, slots=True)
+class Elapsed:
+    """`elapsed(state)`: for how long the state with the id `state` has been active."""
+
+    state: str
+    type: Type = DURATION
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Construction:
     """New message with values in some fields; the others have their defaults."""
 
@@ -184,6 +193,7 @@ Expression = (
     | ItemRef
     | Query
     | InState
+    | Elapsed
     | Construction
 )
 

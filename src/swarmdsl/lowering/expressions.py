@@ -20,6 +20,7 @@ from swarmdsl.syntax.ast import (
     Call,
     Constant,
     Construction,
+    Elapsed,
     Element,
     EnumType,
     Expression,
@@ -148,6 +149,8 @@ def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
         case InState(state=state):
             assert state.target is not None
             return ir.InState(context.states[state.target], origin=tree.span)
+        case Elapsed(owner=owner):
+            return ir.Elapsed(context.states[owner], origin=tree.span)
         case Construction(type=of, values=given):
             made = context.type_of(of)
             assert isinstance(made, ir.Named)

@@ -29,6 +29,7 @@ from swarmdsl.syntax.ast import (
     Branch,
     Call,
     Construction,
+    Elapsed,
     Element,
     EnumType,
     ExpressionTree,
@@ -227,6 +228,8 @@ def _term(tree: ExpressionTree, folding: Folding) -> Hashable:
             return (str(word), str(element.name), *terms)
         case InState(state=state):
             return ("in", state.target or state.name)
+        case Elapsed(owner=owner):
+            return ("elapsed", owner or id(tree))
         case Construction(type=type_, values=values):
             return (type_.type, *((str(e.name), _term(e.value, folding)) for e in values))
     raise AssertionError(tree)

@@ -6,7 +6,20 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.checks.livelock import EventlessSteps
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
-from swarmdsl.syntax.ast import Branch, Choice, Parallel, State, StateMachine, Transition, nodes_of
+from swarmdsl.syntax.ast import (
+    Branch,
+    Call,
+    Choice,
+    Elapsed,
+    InState,
+    Parallel,
+    State,
+    StateMachine,
+    Transition,
+    Variable,
+    nodes_of,
+    walk,
+)
 
 
 def check_guards(machine: StateMachine, context: Context) -> None:
@@ -24,6 +37,7 @@ def check_guards(machine: StateMachine, context: Context) -> None:
         for transition in transitions:
             if transition not in endless:
                 _check(transition, state, hierarchy, context)
+                _check_time(transition, context)
 
 
 def _check(
@@ -49,6 +63,25 @@ def _check(
         label="" if known else f"this is always {str(held == 'always').lower()}",
         help=help_ if known else f"change the comparisons, or {help_}",
     )
+
+
+def _check_time(transition: Transition, context: Context) -> None:
+    """Report a guard that only time changes, without a trigger: time takes no transition."""
+    guard = transition.guard
+    if transition.triggers or guard is None or guard.tree is None:
+        return
+    parts = list(walk(guard))
+    time = next((part for part in parts if isinstance(part, Elapsed)), None)
+    changes = any(
+        isinstance(part, (InState, Call)) or isinstance(getattr(part, "target", None), Variable)
+        for part in parts
+    )
+    if time is not None and not changes:
+        context.report.report(
+            "unnoticed-time",
+            time.span,
+            help="write `after` and the time in its place, or name an event with `on`",
+        )
 
 
 def _hint(

@@ -8,7 +8,7 @@ error that a check reports.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import TypeVar
 
@@ -16,6 +16,7 @@ from swarmdsl.analysis.resolve.report_unresolved import (
     report_ambiguous_state,
     report_missing_inside,
     report_missing_state,
+    report_state_not_around,
     report_state_outside,
 )
 from swarmdsl.analysis.resolve.scopes import FileScope
@@ -26,6 +27,7 @@ from swarmdsl.syntax.ast import (
     Choice,
     Container,
     DoneTrigger,
+    Elapsed,
     Expression,
     FinalState,
     History,
@@ -53,7 +55,7 @@ def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -
     """Resolve the references between the states of a machine."""
     linker = _MachineLinker(scope, report)
     linker.link(machine, (), ())
-    if nodes_of(machine, InState):
+    if [*nodes_of(machine, InState), *nodes_of(machine, Elapsed)]:
         linker.link_tests(machine, (), (), StateNesting(machine))
 
 
@@ -112,7 +114,7 @@ class _MachineLinker:
         beside: tuple[Level, ...],
         nesting: StateNesting,
     ) -> None:
-        """Resolve the states that the expressions in a container test.
+        """Resolve the states that the expressions in a container test or measure.
 
         A path is looked up like the target of a transition from there.
         """
@@ -127,17 +129,39 @@ class _MachineLinker:
                     pass  # no state is active when they get their values
                 case Choice():
                     for branch in item.branches:
-                        self._link_tests_in(branch, (inside, *outer, *beside))
+                        levels = (inside, *outer, *beside)
+                        self._link_tests_in(branch, levels, container, nesting)
                         _find_known(branch.guard, item, nesting)
                 case _:
-                    self._link_tests_in(item, (*outer, inside, *beside))
+                    levels = (*outer, inside, *beside)
+                    self._link_tests_in(item, levels, container, nesting)
                     if isinstance(item, Transition):
                         _find_known(item.guard, container, nesting)
 
-    def _link_tests_in(self, item: Node, levels: tuple[Level, ...]) -> None:
+    def _link_tests_in(
+        self, item: Node, levels: tuple[Level, ...], container: Container, nesting: StateNesting
+    ) -> None:
         for node in walk(item):
             if isinstance(node, InState):
                 self._link_vertex(node.state, levels)
+            elif isinstance(node, Elapsed):
+                self._link_elapsed(node, levels, nesting.around(container)[:-1])
+
+    def _link_elapsed(
+        self, node: Elapsed, levels: tuple[Level, ...], around: Sequence[Node]
+    ) -> None:
+        """Resolve the state whose time an expression asks for; it is one around it."""
+        if node.state is None:
+            node.owner = next(iter(around), None)
+            if node.owner is None:
+                help_ = "use it in a state: a choice beside all states is in none"
+                self._report.report("no-active-state", node.span, help=help_)
+            return
+        self._link_vertex(node.state, levels)
+        if node.state.target in around:
+            node.owner = node.state.target
+        elif node.state.target is not None:
+            report_state_not_around(node.state, around, self._report)
 
     def _link_inside(
         self,

@@ -28,9 +28,11 @@ from swarmdsl.syntax.ast import (
     NameUse,
     Node,
     Operation,
+    Parallel,
     Part,
     Port,
     Ref,
+    State,
     StateMachine,
     Swarm,
     TopLevel,
@@ -375,6 +377,17 @@ def report_state_outside(
         name=target.name,
         related=(Label(outside.name.span, "this state is not inside"),),
         help=f"{what} a state inside `{container.name}`",
+    )
+
+
+def report_state_not_around(ref: Ref[Vertex], around: Sequence[Node], report: Diagnostics) -> None:
+    """Report a state that is not always active where its time is asked for."""
+    names = [f"elapsed({each.name})" for each in around if isinstance(each, (State, Parallel))]
+    report.report(
+        "state-not-around",
+        ref.span,
+        name=ref.name,
+        help=f"write {listed(names, 'or')}" if names else None,
     )
 
 

@@ -26,6 +26,7 @@ from swarmdsl.syntax.ast import (
     Constant,
     Construction,
     Container,
+    Elapsed,
     Element,
     EnumType,
     Expression,
@@ -108,9 +109,9 @@ class ValueLinker:
                 )
 
     def _check_no_state(self, expression: Expression) -> None:
-        """Report a test of a state in a value that is computed without active states."""
+        """Report a test or time of a state in a value that is computed without active states."""
         for test in walk(expression) if expression.tree is not None else ():
-            if isinstance(test, InState):
+            if isinstance(test, (InState, Elapsed)):
                 self.report.report(
                     "no-active-state",
                     test.span,
@@ -224,8 +225,8 @@ def _values_of_all(owner: TopLevel) -> set[Expression] | None:
 
 
 def _values_without_states(owner: TopLevel) -> set[Expression] | None:
-    """Return the expressions that test states where none is active; None if all would."""
-    if not nodes_of(owner, InState):
+    """Return the expressions about states where none is active; None if all would be."""
+    if not nodes_of(owner, InState) and not nodes_of(owner, Elapsed):
         return set()
     if not isinstance(owner, StateMachine):
         return None

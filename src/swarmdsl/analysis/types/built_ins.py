@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from swarmdsl.analysis.types.unit_rules import NUMBER_OF_SECONDS
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.types import BOOL, FLOAT, INT, Primitive, Type, with_unit, written
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, Primitive, Type, with_unit, written
 from swarmdsl.syntax.units import RADIAN
 
 
@@ -58,6 +58,12 @@ BUILT_INS: Mapping[str, BuiltIn] = {
     ),
     "distance": BuiltIn(_PAIR, FLOAT, "The distance of two messages with `x`, `y`, perhaps `z`."),
     "len": BuiltIn(_X, INT, "The length of a string or array."),
+    "elapsed": BuiltIn(
+        ("state",),
+        DURATION,
+        "For how long this state has been active, or one around it.",
+        optional=1,
+    ),
     "present": BuiltIn(
         ("role",),
         Primitive("int32"),

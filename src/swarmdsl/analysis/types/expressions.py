@@ -31,6 +31,7 @@ from swarmdsl.ir.operations import SECOND
 from swarmdsl.syntax.ast import (
     Call,
     Construction,
+    Elapsed,
     Element,
     EnumType,
     ExpressionTree,
@@ -114,6 +115,8 @@ class Typing:
                 return type_of_query(tree, self)
             case InState():
                 return BOOL
+            case Elapsed():
+                return DURATION
             case Construction():
                 return type_of_construction(tree, self)
             case OperatorUse(operands=operands) | Call(arguments=operands):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from swarmdsl.syntax.ast import (
     Call,
     Constant,
+    Elapsed,
     EnumType,
     ExpressionTree,
     FieldUse,
@@ -20,12 +21,13 @@ from swarmdsl.syntax.ast import (
 def constant(tree: ExpressionTree) -> bool:
     """Return True for a constant expression.
 
-    What is reported elsewhere counts as constant: unresolved names, `self`, and tests of states.
+    What is reported elsewhere counts as constant: unresolved names, `self`, and the state of the
+    machine.
     """
     match tree:
         case NameUse(name="event"):
             return False
-        case Value() | InState() | NameUse(target=Constant() | EnumType() | None):
+        case Value() | InState() | Elapsed() | NameUse(target=Constant() | EnumType() | None):
             return True
         case FieldUse(base=base):
             return constant(base)

@@ -97,6 +97,9 @@ class Application:
         elif function == "present":
             if not all(isinstance(each, RoleUse) for each in call.arguments):
                 self._report_operands("name a role: `present(scout)`")
+        elif function == "elapsed":
+            # With the path of a state, the parser makes another node of it.
+            self._report_operands("name a state around it, `elapsed(Work)`, or none")
         elif function == "seconds":
             self._require(lambda t: t == DURATION)
         elif known.result is not None:

@@ -153,6 +153,7 @@ CODES: dict[str, Code] = {
     "nothing-to-cancel": Code("SW0532", "warning", "no delayed sending of `{name}` to cancel"),
     "no-heartbeat": Code("SW0541", "error", "`{name}` needs a heartbeat, which {swarms} lacks"),
     "misplaced-membership": Code("SW0542", "error", "`{name}` {fault}"),
+    "unnoticed-time": Code("SW0543", "warning", "time alone does not take this transition"),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "missing value for {fields} in {owner}"),
@@ -206,6 +207,7 @@ CODES: dict[str, Code] = {
         "SW0712", "error", "`{name}` is a value, and a role of swarm `{swarm}`"
     ),
     "no-active-state": Code("SW0713", "error", "no state is active here"),
+    "state-not-around": Code("SW0714", "error", "state `{name}` is not around this expression"),
     "no-such-item": Code("SW0721", "error", "array `{array}` has no item {number}"),
     "unbounded-array": Code("SW0722", "error", "array `{name}` grows without a bound"),
     "hidden-value": Code("SW0723", "error", "item `{name}` hides {hidden}"),

@@ -50,6 +50,10 @@ if TYPE_CHECKING:
     from swarmdsl.codegen.shared.part_values import (
         check_part_values,
     )
+    from swarmdsl.codegen.shared.state_expressions import (
+        expressions_of,
+        timed_states,
+    )
     from swarmdsl.codegen.shared.swarmros import (
         bridge_files,
     )
@@ -83,6 +87,7 @@ else:
             ),
             "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
             "swarmdsl.codegen.shared.part_values": "check_part_values",
+            "swarmdsl.codegen.shared.state_expressions": "expressions_of timed_states",
             "swarmdsl.codegen.shared.swarmros": "bridge_files",
             "swarmdsl.codegen.shared.units": "doc_with_unit",
             "swarmdsl.codegen.shared.wiring": "Remaps Wiring check_wiring member_wiring",
@@ -112,6 +117,7 @@ __all__ = [
     "entered_region",
     "envelopes_of",
     "evaluate",
+    "expressions_of",
     "field_type",
     "follows_members",
     "has_node",
@@ -124,5 +130,6 @@ __all__ = [
     "region_transitions",
     "result_fields",
     "sent_types",
+    "timed_states",
     "uses_self",
 ]

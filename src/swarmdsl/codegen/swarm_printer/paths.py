@@ -12,7 +12,7 @@ from typing import Any, TypeVar, cast
 from swarmdsl.base.records import dataclass, fields_of, replace
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError
-from swarmdsl.ir import InState, State, StateKind, StateMachine
+from swarmdsl.ir import Elapsed, InState, State, StateKind, StateMachine
 
 # States by name; several of one name are in different regions.
 Level = Mapping[str, Sequence[State]]
@@ -76,30 +76,37 @@ T = TypeVar("T")
 
 
 def with_tested_paths(state: State, place: Place) -> State:
-    """Return a state in whose expressions each tested state is its path from there."""
+    """Return a state in whose expressions each state is its path from there.
+
+    The innermost state of a time is left out.
+    """
     if not place.tests_states:
         return state
     levels = place.from_choice() if state.kind is StateKind.CHOICE else place.from_state(state)
     own = {name: getattr(state, name) for name in ("transitions", "activity", "entry", "exit")}
-    changed = {name: _with_paths(value, place, levels) for name, value in own.items()}
+    inmost = state.id.rpartition(".")[0] if state.kind is StateKind.CHOICE else state.id
+    changed = {name: _with_paths(value, place, levels, inmost) for name, value in own.items()}
     return replace(state, **cast("Any", changed))
 
 
-def _with_paths(node: T, place: Place, levels: tuple[Level, ...]) -> T:
+def _with_paths(node: T, place: Place, levels: tuple[Level, ...], inmost: str) -> T:
     if isinstance(node, InState):
         return cast("T", replace(node, state=place.path(node.state, levels)))
+    if isinstance(node, Elapsed):
+        path = "" if node.state == inmost else place.path(node.state, levels)
+        return cast("T", replace(node, state=path))
     if isinstance(node, tuple) and not isinstance(node, Span):
-        return cast("T", tuple(_with_paths(each, place, levels) for each in node))
+        return cast("T", tuple(_with_paths(each, place, levels, inmost) for each in node))
     if "__parts__" not in vars(type(node)):
         return node
     names = fields_of(type(node))
-    changed = {name: _with_paths(getattr(node, name), place, levels) for name in names}
+    changed = {name: _with_paths(getattr(node, name), place, levels, inmost) for name in names}
     return cast("T", replace(cast("Any", node), **changed))
 
 
 def _tests_states(node: object) -> bool:
-    """Return True if an expression in a node of the IR tests a state."""
-    if isinstance(node, InState):
+    """Return True if an expression in a node of the IR tests a state or measures its time."""
+    if isinstance(node, (InState, Elapsed)):
         return True
     if isinstance(node, tuple) and not isinstance(node, Span):
         return any(map(_tests_states, node))

@@ -16,6 +16,7 @@ from swarmdsl.ir import (
     Call,
     DoneTrigger,
     Effect,
+    Elapsed,
     Expression,
     FieldAccess,
     InState,
@@ -43,6 +44,7 @@ _IDS = {
     (DoneTrigger, "state"),
     (DoneTrigger, "final"),
     (InState, "state"),
+    (Elapsed, "state"),
 }
 _VARIABLES = {(VariableRef, "name"), (Assignment, "variable"), (ResultMapping, "variable")}
 _OPERATIONS = (Unary, Binary, Call, FieldAccess)

@@ -28,6 +28,7 @@ class Instance:
         "_busy",
         "_deferred",
         "_during",
+        "_entries",
         "_external",
         "_internal",
         "_is_deferred",
@@ -69,6 +70,8 @@ class Instance:
         # True if the last selection found that the event is deferred.
         self._is_deferred = False
         self._internal: deque[Event] | None = None
+        # Times at which timed states were entered.
+        self._entries: dict[str, int] = {}
         self._pending: list[int] | None = None
         self._runs: dict[int, Run] | None = None
         self._timers: list[Timer] | None = None
@@ -127,6 +130,15 @@ class Instance:
         active = self.configuration.active if self._during is None else self._during
         return bool(active >> self.machine.numbers[state] & 1)
 
+    def elapsed(self, state: str) -> int:
+        """Return for how long an active, timed state has been active, in nanoseconds."""
+        return self.world.time - self._entries[state]
+
+    @property
+    def time(self) -> int:
+        """Return the time of the world in nanoseconds."""
+        return self.world.time
+
     def raise_event(self, event: Event) -> None:
         """Append an event to the internal queue, which precedes events from outside."""
         if self._internal is None:
@@ -161,6 +173,10 @@ class Instance:
         if self.observer is not None:
             self.observer.sent(self, event)
         self.world.send(self, event)
+
+    def note_entry(self, state: str) -> None:
+        """Note the time at which a timed state is entered."""
+        self._entries[state] = self.world.time
 
     def stop_activity(self, state: int) -> None:
         """Cancel the activity of an exited state."""

@@ -12,6 +12,9 @@ from .world import FAILURES
 class Executor(InstanceLike, Protocol):
     """An instance, for the operations of a microstep."""
 
+    def note_entry(self, state: str) -> None:
+        """Note the time at which a timed state is entered."""
+
     def stop_activity(self, state: int) -> None:
         """Cancel the activity of an exited state."""
 
@@ -191,7 +194,10 @@ class MicrostepBuilder:
         return program
 
     def _entry_operations(self, number: int, state: State) -> list[Operation]:
-        operations: list[Operation] = [ObserverCall("entered", state), *state.entry]
+        operations: list[Operation] = [ObserverCall("entered", state)]
+        if state.timed:
+            operations.append(_Timed(state.id))
+        operations += state.entry
         ways = [
             self.machine.entries[number] if self.by_default >> number & 1 else None,
             self.from_history.get(number),
@@ -259,6 +265,18 @@ class _Stop:
 
     def __call__(self, instance: Executor, event: Event) -> None:
         instance.stop_activity(self.number)
+
+
+class _Timed:
+    """Operation that notes the time at which a state is entered."""
+
+    __slots__ = ("state",)
+
+    def __init__(self, state: str) -> None:
+        self.state = state
+
+    def __call__(self, instance: Executor, event: Event) -> None:
+        instance.note_entry(self.state)
 
 
 class _Done:

@@ -75,6 +75,10 @@ class InstanceLike(Protocol):
     running: bool
 
     @property
+    def time(self) -> int:
+        """The time in nanoseconds, from any zero; delays pass in it."""
+
+    @property
     def machine(self) -> Machine:
         """The machine that runs."""
 
@@ -92,6 +96,9 @@ class InstanceLike(Protocol):
 
     def active(self, state: str) -> bool:
         """Return True if a state is active."""
+
+    def elapsed(self, state: str) -> int:
+        """Return for how long an active, timed state has been active, in nanoseconds."""
 
     def holds(self, guard: Guard, event: Event) -> bool:
         """Return True if a guard holds."""
@@ -181,7 +188,8 @@ class State(NamedTuple):
     `initial` has the ids to enter by default in a compound state, or is a transition with an
     effect; the first child by default. A history has one transition, to its default. `donedata`
     creates the data of the `done.state` event of a final state. Events of `deferred`, which are
-    written like those of a transition, are kept until a state that does not defer them.
+    written like those of a transition, are kept until a state that does not defer them. Guards and
+    effects can ask for how long a `timed` state has been active.
     """
 
     id: str
@@ -195,6 +203,7 @@ class State(NamedTuple):
     donedata: Callable[[InstanceLike, Event], Any] | None = None
     origin: object = None
     deferred: tuple[str, ...] = ()
+    timed: bool = False
 
 
 class TableError(ValueError):

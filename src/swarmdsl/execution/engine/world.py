@@ -57,6 +57,10 @@ class World(ActivityHost, Protocol):
     instance, which take effect after the step.
     """
 
+    @property
+    def time(self) -> int:
+        """The time in nanoseconds, from any zero; delays pass in it."""
+
     def schedule(self, delay: int, action: Callable[[], None]) -> Any:
         """Call `action` after a delay in nanoseconds; return a handle for `unschedule`."""
 

@@ -14,6 +14,7 @@ from swarmdsl.ir import (
     Binary,
     Call,
     Construction,
+    Elapsed,
     EnvelopeField,
     EventData,
     Expression,
@@ -36,6 +37,9 @@ SELF = "self"
 
 ACTIVE = "in"
 """Key of the test for active states in the data; no variable has this name."""
+
+ELAPSED = "elapsed()"
+"""Key of the function that gives the time in a state; no variable has this name."""
 
 Value = Callable[[Mapping[str, Any], Any], Any]
 """Compiled expression; takes the data of the machine and the event."""
@@ -85,6 +89,8 @@ def function_of(expression: Expression) -> Value:
             return _query(expression)
         case InState(state=state):
             return lambda data, event: data[ACTIVE](state)
+        case Elapsed(state=state):
+            return lambda data, event: data[ELAPSED](state)
         case Construction():
             raise AssertionError("a new message is only stored or sent")
 

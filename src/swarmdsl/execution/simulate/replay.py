@@ -187,6 +187,11 @@ class _Replay:
 
     # ---- called by the engine
 
+    @property
+    def time(self) -> int:
+        """Return the time of the trace in nanoseconds."""
+        return self._clock.now
+
     def schedule(self, delay: int, action: Callable[[], None]) -> _Delay:
         """Keep the delay until the trace says that it is over."""
         made = _Delay(self._clock.now + delay, action)

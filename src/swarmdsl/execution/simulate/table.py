@@ -16,6 +16,7 @@ from swarmdsl import ir
 from swarmdsl.codegen.shared.default_values import default_value, field_type, sent_types
 from swarmdsl.codegen.shared.events import Events, delays
 from swarmdsl.codegen.shared.parallel_transitions import entered_region, region_transitions
+from swarmdsl.codegen.shared.state_expressions import timed_states
 from swarmdsl.execution.engine import (
     Activity,
     Effect,
@@ -30,7 +31,14 @@ from swarmdsl.execution.engine import (
     Transition,
     bounded,
 )
-from swarmdsl.execution.simulate.expressions import ACTIVE, SELF, Value, applied, function_of
+from swarmdsl.execution.simulate.expressions import (
+    ACTIVE,
+    ELAPSED,
+    SELF,
+    Value,
+    applied,
+    function_of,
+)
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ir import (
     Array,
@@ -38,6 +46,7 @@ from swarmdsl.ir import (
     Call,
     Cancel,
     Construction,
+    Elapsed,
     Expression,
     InState,
     Primitive,
@@ -102,6 +111,7 @@ class _Maker:
 
     def __init__(self, machine: ir.StateMachine, system: System) -> None:
         self.system = system
+        self.timed = timed_states(machine)
         self.types = {variable.name: variable.type for variable in machine.variables}
         self.events = Events(machine, {state.id: state.id for state in machine.walk()})
 
@@ -138,6 +148,7 @@ class _Maker:
             self.activity(state, state.activity) if state.activity is not None else None,
             origin=state,
             deferred=tuple(e for t in state.deferred for e in self.events.of_trigger(t, state)),
+            timed=state.id in self.timed,
         )
 
     def transition(self, transition: ir.Transition, state: ir.State) -> Transition:
@@ -280,11 +291,15 @@ def _guard(expression: Expression | None) -> Guard | None:
 def _view(expressions: Iterable[Expression]) -> Callable[[InstanceLike], Mapping[str, Any]]:
     """Return the function that gives expressions the data of an instance.
 
-    Expressions that test states also get the test.
+    Expressions about states also get what tests and measures them.
     """
     parts = (part for each in expressions for part in subexpressions(each))
-    if any(isinstance(part, InState) for part in parts):
-        return lambda instance: {**instance.data, ACTIVE: instance.active}
+    if any(isinstance(part, (InState, Elapsed)) for part in parts):
+        return lambda instance: {
+            **instance.data,
+            ACTIVE: instance.active,
+            ELAPSED: instance.elapsed,
+        }
     return attrgetter("data")
 
 

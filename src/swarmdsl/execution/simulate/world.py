@@ -214,6 +214,11 @@ class World:
 
     # ---- called by the engine
 
+    @property
+    def time(self) -> int:
+        """Return the virtual time in nanoseconds."""
+        return self.clock.now
+
     def schedule(self, delay: int, action: Callable[[], None]) -> Alarm:
         """Schedule a call."""
         return self.clock.schedule(delay, action)

@@ -104,6 +104,18 @@ class InState(Node):
 
 
 @dataclass(slots=True, eq=False)
+class Elapsed(Node):
+    """`elapsed(state)`: for how long a state around the expression has been active.
+
+    Without `state`, it is the innermost one; `owner` is the state that is meant.
+    """
+
+    function: Word
+    state: Ref[Any] | None
+    owner: Any = field(default=None, init=False, metadata={"elsewhere": True})
+
+
+@dataclass(slots=True, eq=False)
 class Call(Node):
     """`function(arguments)`, the function a built-in one."""
 
@@ -133,6 +145,7 @@ ExpressionTree = (
     | FieldUse
     | IndexUse
     | InState
+    | Elapsed
     | Call
     | Query
     | Construction

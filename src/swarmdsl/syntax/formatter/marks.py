@@ -10,6 +10,7 @@ from swarmdsl.syntax.ast import (
     Call,
     Construction,
     Documented,
+    Elapsed,
     EnumValue,
     Fact,
     IndexUse,
@@ -80,6 +81,10 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
             case Call() | Query() | Operation():
                 name = node.name if isinstance(node, Operation) else node.function
                 marks.tight.add(tokens.code(name.span.end)[0].start)
+            case Elapsed(function=function, state=state):
+                marks.tight.add(tokens.code(function.span.end)[0].start)
+                if state is not None:
+                    _join(marks, tokens, state.span.start, state.name)
             case InState(state=state):
                 _mark_list(marks, tokens, start, "in")
                 _join(marks, tokens, state.span.start, state.name)

@@ -14,6 +14,7 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import (
     Call,
     Construction,
+    Elapsed,
     Element,
     Expression,
     ExpressionTree,
@@ -26,6 +27,7 @@ from swarmdsl.syntax.ast import (
     Ref,
     TypeRef,
     Value,
+    Vertex,
     Word,
     depth,
 )
@@ -231,7 +233,8 @@ class ExpressionParser:
         if token not in self._not_a_name:
             following = tokens[at + 1]
             if following == "(":
-                found = self._query(at) or self._construction(at) or self._call(at)
+                found = self._elapsed(at) if token == "elapsed" else None
+                found = found or self._query(at) or self._construction(at) or self._call(at)
                 if found is not None:
                     return found
             if following == ".":
@@ -257,10 +260,30 @@ class ExpressionParser:
 
     def _in_state(self, at: int) -> _Found | None:
         """Parse the test of a state; None if it has no path."""
-        tokens, start, path = self._tokens, self._start(at), at + 2
-        if tokens[at + 1] != "(" or not self._is_word(path) or tokens[path] in self._not_a_name:
+        found = self._state(at + 2) if self._tokens[at + 1] == "(" else None
+        if found is None or self._tokens[found[1]] != ")":
             return None
-        following = path + 1
+        state, following = found
+        start, end = self._start(at), self._ends[following + 1]
+        self._size += 1
+        return InState(self._span(start, end), state), start, end, following + 1
+
+    def _elapsed(self, at: int) -> _Found | None:
+        """Parse the time in a state; None if an expression is in the parentheses."""
+        state, following = self._state(at + 2) or (None, at + 2)
+        if self._tokens[following] != ")":
+            return None
+        start, end = self._start(at), self._ends[following + 1]
+        self._size += 1
+        made = Elapsed(self._span(start, end), self._word_at(at), state)
+        return made, start, end, following + 1
+
+    def _state(self, at: int) -> tuple[Ref[Vertex], int] | None:
+        """Parse the path of a state; return it and the index of the next token."""
+        tokens = self._tokens
+        if not self._is_word(at) or tokens[at] in self._not_a_name:
+            return None
+        following = at + 1
         while (
             tokens[following] == "."
             and self._is_adjacent(following)
@@ -268,14 +291,8 @@ class ExpressionParser:
             and self._is_adjacent(following + 1)
         ):
             following += 2
-        if tokens[following] != ")":
-            return None
-        name = "".join(tokens[path:following])
-        place = self._span(self._start(path), self._ends[following])
-        following += 1
-        end = self._ends[following]
-        self._size += 1
-        return InState(self._span(start, end), Ref(name, "Vertex", place)), start, end, following
+        place = self._span(self._start(at), self._ends[following])
+        return Ref("".join(tokens[at:following]), "Vertex", place), following
 
     def _parenthesised(self, at: int) -> _Found | None:
         self._descend()

@@ -48,6 +48,7 @@ _UNSUPPORTED = {
     Feature.TARGETLESS,
     Feature.EVENTLESS,
     Feature.IN_STATE,
+    Feature.ELAPSED,
     Feature.MEMBER_EVENT,
 }
 

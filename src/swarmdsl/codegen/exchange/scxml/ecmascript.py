@@ -37,18 +37,22 @@ from swarmdsl.ir.expression_printer import Dialect, ecmascript_literal, points, 
 SELF = "self"
 """Id of the `<data>` with the identity of the robot."""
 
+NOW = "Date.now()"
+"""The time, in milliseconds."""
+
 
 def dialect(
     data: Mapping[str, str],
     system: System | None = None,
     states: Mapping[str, str] | None = None,
+    entries: Mapping[str, str] | None = None,
 ) -> Dialect:
     """Return the dialect, in which variables and params have the ids of `data`.
 
     `system` describes the messages of which expressions make new ones, `states` gives the ids of
-    states.
+    states, `entries` the ids of the data with the times at which they were entered.
     """
-    known = states or {}
+    known, since = states or {}, entries or {}
     return Dialect(
         literal=ecmascript_literal,
         variable=data.__getitem__,
@@ -80,6 +84,7 @@ def dialect(
         query=lambda query, text: query_text(query, text, data.values()),
         construction=lambda made, text: construction_text(made, text, system),
         in_state=lambda state: f"In('{known[state]}')",
+        elapsed=lambda state: f"({NOW} - {since[state]})",
         modulo=_modulo,
         quotient=_quotient,
         division=_division,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Iterable
 
 from swarmdsl.ir import StateMachine
 
@@ -17,7 +18,7 @@ RESERVED = re.compile(
     "delete|do|else|enum|eval|export|extends|false|finally|for|function|"
     "if|implements|import|in|instanceof|interface|let|new|null|package|"
     "private|protected|public|return|static|super|switch|this|throw|true|"
-    "try|typeof|undefined|var|void|while|with|yield|In|Math|NaN|Infinity|self|_.*"
+    "try|typeof|undefined|var|void|while|with|yield|In|Date|Math|NaN|Infinity|self|_.*"
 )
 
 
@@ -33,6 +34,20 @@ def data_ids(machine: StateMachine) -> dict[str, str]:
             candidate += "_"
         ids[name] = candidate
         taken.add(candidate)
+    return ids
+
+
+def entry_ids(states: Iterable[str], taken: Iterable[str]) -> dict[str, str]:
+    """Return the `<data>` id of the time at which each of some states was entered."""
+    ids: dict[str, str] = {}
+    used = set(taken)
+    for state in states:
+        # States called `A.B_C` and `A_B.C` have one candidate.
+        candidate = f"since_{state.replace('.', '_')}"
+        while candidate in used:
+            candidate += "_"
+        ids[state] = candidate
+        used.add(candidate)
     return ids
 
 

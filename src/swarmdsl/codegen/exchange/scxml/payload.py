@@ -107,9 +107,13 @@ def _delivery(delivery: Delivery | None) -> dict[str, str | None]:
 
 
 def describe_state(
-    element: etree._Element, state: State, machine: StateMachine, dialect: Dialect
+    element: etree._Element,
+    state: State,
+    machine: StateMachine,
+    dialect: Dialect,
+    since: str | None,
 ) -> None:
-    """Add the deferred events, the activity and the docs of a state."""
+    """Add the time of entry, the deferred events, the activity and the docs of a state."""
     add_doc(element, state.doc)
     _add_initial(element, state.docs)
     name = state.name if state.name != element.get("id") else None
@@ -119,6 +123,8 @@ def describe_state(
         add_payload(element, "vertex", name=name, kind=kind)
     if state.submachine is not None:
         add_payload(element, "submachine", name=state.submachine)
+    if since is not None:
+        add_payload(element, "since", location=since)
     if state.deferred:
         events = " ".join(trigger.event for trigger in state.deferred)
         add_doc(add_payload(element, "defer", event=events), doc_of(state.docs, "defer"))

@@ -16,6 +16,7 @@ from lxml import etree
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.exchange.scxml.delayed_sends import DelayedSends
 from swarmdsl.codegen.exchange.scxml.ecmascript import (
+    NOW,
     SELF,
     address,
     dialect,
@@ -24,12 +25,13 @@ from swarmdsl.codegen.exchange.scxml.ecmascript import (
     robot_alone,
     stored,
 )
-from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.codegen.exchange.scxml.ids import data_ids, entry_ids, state_ids
 from swarmdsl.codegen.exchange.scxml.payload import describe_machine, describe_state
 from swarmdsl.codegen.exchange.scxml.xml import PAYLOAD, SCXML, add, root
 from swarmdsl.codegen.shared.events import Events, delays
 from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.codegen.shared.parallel_transitions import entered_region, region_transitions
+from swarmdsl.codegen.shared.state_expressions import timed_states
 from swarmdsl.codegen.xml_tree import Places, add_comment
 from swarmdsl.ir import (
     Assignment,
@@ -61,7 +63,10 @@ def portable(machine: StateMachine, system: System, places: Places | None = None
     """Return the document of a machine; `places` gets the origins of elements."""
     places = {} if places is None else places
     data = data_ids(machine)
-    ids = state_ids(machine, {*data.values(), SELF})
+    timed = timed_states(machine)
+    timed_in_order = [state.id for state in machine.walk() if state.id in timed]
+    entries = entry_ids(timed_in_order, (*data.values(), SELF))
+    ids = state_ids(machine, {*data.values(), *entries.values(), SELF})
     document = root(
         {None: SCXML, "sw": PAYLOAD},
         name=machine.name,
@@ -70,11 +75,12 @@ def portable(machine: StateMachine, system: System, places: Places | None = None
         initial=ids[machine.initial],
     )
     describe_machine(document, machine, system, data)
-    _add_data(document, machine, system, data, places)
+    _add_data(document, machine, system, data, entries.values(), places)
     left_with_effects = frozenset(state.id for state in machine.walk() if state.exit)
     events = Events(machine, ids)
+    words = dialect(data, system, ids, entries)
     writer = _StateWriter(
-        machine, ids, dialect(data, system, ids), events, left_with_effects, places, DelayedSends()
+        machine, ids, entries, words, events, left_with_effects, places, DelayedSends()
     )
     for state in machine.states:
         writer.add_state(document, state)
@@ -87,9 +93,10 @@ def _add_data(
     machine: StateMachine,
     system: System,
     data: Mapping[str, str],
+    entries: Iterable[str],
     places: Places,
 ) -> None:
-    if not data and not uses_self(machine):
+    if not data and not uses_self(machine) and not entries:
         return
     model = add(document, "datamodel")
     values = dialect(data, system)
@@ -104,12 +111,15 @@ def _add_data(
         else:
             first = initial_value(variable.type, system)
         places[add(model, "data", id=data[variable.name], expr=first)] = variable.origin
+    for name in entries:
+        add(model, "data", id=name, expr="0")
 
 
 @dataclass(frozen=True)
 class _StateWriter:
     machine: StateMachine
     ids: Mapping[str, str]
+    entries: Mapping[str, str]
     dialect: Dialect
     events: Events
     left_with_effects: frozenset[str]
@@ -127,7 +137,10 @@ class _StateWriter:
             type=depth,
         )
         self.places[element] = state.origin
-        describe_state(element, state, self.machine, self.dialect)
+        since = self.entries.get(state.id)
+        describe_state(element, state, self.machine, self.dialect, since)
+        if since is not None:
+            add(add(element, "onentry"), "assign", location=since, expr=NOW)
         if (
             state.kind is StateKind.FINAL
             and around is not None

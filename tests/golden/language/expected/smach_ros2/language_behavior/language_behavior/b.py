@@ -73,7 +73,11 @@ def goal_a_a(machine):
 
 def guard_d(machine, event):
     # model.swarm:77
-    return event.data.mode == MODE_MANUAL and machine.active('D.Out')
+    return (
+        event.data.mode == MODE_MANUAL
+        and machine.active('D.Out')
+        and machine.elapsed('D') < 7_200_000_000_000
+    )
 
 
 def effect_d(machine, event):
@@ -216,6 +220,7 @@ STATES = tree(
         entry=(enter_d,),
         exit=(leave_d,),
         deferred=('Later',),
+        timed=True,
     ),
     # model.swarm:85
     State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:85'),)),

@@ -18,6 +18,8 @@ WORDS = {'bool': True, 'string': '', 'wstring': ''}
 class World:
     """A world without events."""
 
+    time = 0
+
     def __init__(self):
         self.started = []
 

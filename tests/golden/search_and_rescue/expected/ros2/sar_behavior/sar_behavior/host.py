@@ -236,6 +236,11 @@ class Host:
 
     # ---- world of the engine
 
+    @property
+    def time(self):
+        """Return the time of the node in nanoseconds."""
+        return self._delays.now
+
     def schedule(self, delay, action):
         """Call an action after a delay in the time of the node."""
         return self._delays.schedule(delay, action)

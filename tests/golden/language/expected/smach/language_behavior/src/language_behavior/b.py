@@ -16,7 +16,7 @@ from language_behavior.containers import Machine, StateMachine
 from language_behavior.engine import bounded
 from language_behavior.identity import identity
 from language_behavior.services import ServiceState
-from language_behavior.states import AT_ONCE, Final, History, On, State, is_active
+from language_behavior.states import AT_ONCE, Final, History, On, State, elapsed, is_active
 
 LIMIT = 3
 MODE_AUTO = 4  # Mode.AUTO
@@ -101,12 +101,7 @@ def _d():
     """Build state D."""
     machine = StateMachine(
         on=[
-            On(
-                events.E,
-                None,
-                guard=lambda userdata, event: event.mode == MODE_MANUAL and is_active('D.Out'),
-                effect=_d_e_effect,
-            ),
+            On(events.E, None, guard=_d_e_guard, effect=_d_e_effect),
             On(
                 events.CHARGE,
                 guard=lambda userdata, event: event.level < 3,
@@ -190,6 +185,11 @@ def _a_a_entry(userdata):
 def _a_entry(userdata):
     # model.swarm:49
     userdata.a_k = 0
+
+
+def _d_e_guard(userdata, event):
+    # model.swarm:77
+    return event.mode == MODE_MANUAL and is_active('D.Out') and elapsed('D') < rospy.Duration(7200.0)
 
 
 def _d_e_effect(userdata, event):
