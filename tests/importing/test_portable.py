@@ -211,7 +211,8 @@ def _plain(machine: StateMachine, system: System) -> StateMachine:
     made = replace(machine, states=tuple(map(plain, machine.states)))
     data = data_ids(machine)
     states = state_ids(machine, {*data.values(), "self"})
-    return _in_text(made, ecmascript.dialect(data, system, states))
+    entries = {state.id: state.id for state in machine.walk()}
+    return _in_text(made, ecmascript.dialect(data, system, states, entries))
 
 
 def _in_text(node: Any, words: Dialect) -> Any:

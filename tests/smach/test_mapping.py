@@ -116,6 +116,8 @@ MODELS = {
           state C { on Go -> B }
           on Stop [in(C)] -> End
         }""",
+    "time in a state": """
+        state A { on Go [elapsed() > 1 s] -> End; on Stop -> End }""",
     "sender and time of an event": """
         state A { on Call [event.sender == "a" and event.sent > 1 s] -> End }""",
     "address of a sent event": "state A { on Go / send Call to uav[0] -> End }",
