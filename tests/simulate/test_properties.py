@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -215,3 +216,17 @@ def test_a_property_that_cannot_be_checked(simulate: Simulate) -> None:
     assert "it is about `Work`" in ran.err
     ran = simulate(model, "--property", "Quiet", "--property", "Alone")
     assert "no property of `Crew` called `Alone`" in ran.err
+
+
+def test_sarif_is_one_document(simulate: Simulate) -> None:
+    model = MODEL + "\nproperty Calm of Crew : never some robot in Going\n"
+    words = ("--trace", "none", "--format", "sarif")
+    ran = simulate(model, *words, events=EVENTS)
+    (log,) = json.loads(ran.out)["runs"]
+    assert ran.code == 1
+    (result,) = (each for each in log["results"] if each["ruleId"] == "SW1606")
+    assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == "model.swarm"
+    assert "\nnote: before: " in result["message"]["text"]
+    assert verdicts(ran)["Calm"] == ("false", "at 1 s")
+    refused = simulate(model, "--format", "sarif")
+    assert "write the trace to a `--trace-file`" in refused.err

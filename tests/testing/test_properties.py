@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -65,3 +66,12 @@ def test_an_unknown_property_is_reported(run: Run) -> None:
     assert ran.code == 1
     assert "error[SW0202]: no property called `Drk`" in ran.out + ran.err
     assert "did you mean `Dark`?" in ran.out + ran.err
+
+
+def test_sarif_is_one_document(run: Run) -> None:
+    test = '[[test]]\nname = "{0}"\nproperties = "{0}"\nsteps = [{{ send = "Start" }}]\n'
+    both = test.format("Dark") + test.format("all").replace('"Start"', '"Alarm"')
+    ran = run(f'swarm = "Lamps"\n{both}', "--format", "sarif")
+    (log,) = json.loads(ran.out)["runs"]
+    assert [each["ruleId"] for each in log["results"]] == ["SW0202", "SW1606"]
+    assert "1 failed" in ran.err

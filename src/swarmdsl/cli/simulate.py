@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from swarmdsl.base.diagnostics.render import render
+from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.cli import options
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 from swarmdsl.cli.suggestions import Choice
+
+if TYPE_CHECKING:
+    from swarmdsl.base.diagnostics.collector import Diagnostic
 
 
 def _duration(_context: click.Context, _param: click.Parameter, text: str | None) -> int | None:
@@ -116,6 +120,12 @@ def simulate(
         raise click.UsageError("`--no-properties` and `--stop-on-violation` conflict")
     if trace == "none" and trace_file is not None:
         raise click.UsageError("`--trace none` and `--trace-file` conflict: omit one of them")
+    is_document = format_ in DOCUMENTS
+    if is_document and trace in ("text", "json") and trace_file is None:
+        raise click.UsageError(
+            f"`--format {format_}` and `--trace {trace}` both print: write the "
+            "trace to a `--trace-file`"
+        )
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
     request = Request(
@@ -124,7 +134,7 @@ def simulate(
         swarm,
         events,
         scenario,
-        trace,
+        "none" if is_document and trace_file is None else trace,
         trace_file,
         timeline,
         seed,
@@ -135,5 +145,10 @@ def simulate(
         stop_on_violation,
         properties,
     )
-    succeeded = run_simulation(request, lambda report: render(report, format_, sys.stderr))
+    if not is_document:
+        succeeded = run_simulation(request, lambda report: render(report, format_, sys.stderr))
+    else:
+        found: list[Diagnostic] = []
+        succeeded = run_simulation(request, found.extend)
+        render(found, format_, sys.stdout)
     return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS

@@ -9,7 +9,7 @@ from typing import TextIO
 import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostic
-from swarmdsl.base.diagnostics.render import counted, render
+from swarmdsl.base.diagnostics.render import DOCUMENTS, counted, render
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.execution.simulate.coverage import Coverage, MachineCoverage
 from swarmdsl.execution.simulate.trace import Line, as_text
@@ -23,7 +23,8 @@ _COLOURS = {"ok": "green", "FAILED": "red", "unread": "red"}
 class Console:
     """Write results and failures to `stdout`, the summary to `stderr`.
 
-    In formats for programs, only the failures go to `stdout`.
+    In formats for programs, only the failures go to `stdout`: those of a format that is one
+    document at the end.
     """
 
     def __init__(self, stdout: TextIO, stderr: TextIO, format_: str) -> None:
@@ -31,6 +32,8 @@ class Console:
         self._stream = stdout
         self._summary = stderr
         self._format = format_
+        self._kept: list[Diagnostic] = []
+        """Diagnostics of the document at the end."""
 
     def file(self, outcome: FileOutcome) -> None:
         """Begin a file, with its errors."""
@@ -38,7 +41,7 @@ class Console:
         if not outcome.read and not outcome.problems:
             self._say("  not run: the model has errors")
         self._flush()
-        render(outcome.problems, self._format, self._stream)
+        self._render(outcome.problems)
 
     def verdict(self, verdict: Verdict) -> None:
         """Print the result of a test."""
@@ -59,7 +62,7 @@ class Console:
     def problems(self, found: Iterable[Diagnostic]) -> None:
         """Print diagnostics about the whole run."""
         self._flush()
-        render(found, self._format, self._stream)
+        self._render(found)
 
     def findings(self, verdict: Verdict, found: Sequence[Diagnostic]) -> None:
         """Print the failure of a test; for people, with the last trace lines."""
@@ -68,7 +71,7 @@ class Console:
         self._flush()
         if self._format == "text":
             self._stream.write("\n")
-        render(found, self._format, self._stream)
+        self._render(found)
         if self._format == "text" and not verdict.passed:
             self._stream.write("the last trace lines:\n")
             self._stream.writelines(f"{printable(as_text(line))}\n" for line in verdict.last)
@@ -100,7 +103,15 @@ class Console:
         parts += [f"{counted(unread, 'test')} not read"] if unread else []
         parts += [f"{counted(files, 'file')} not read"] if files else []
         self._flush()
+        if self._format in DOCUMENTS:
+            render(self._kept, self._format, self._stream)
         self._summary.write(f"{', '.join(parts)} in {seconds:.2f} s\n")
+
+    def _render(self, found: Iterable[Diagnostic]) -> None:
+        if self._format in DOCUMENTS:
+            self._kept += found
+        else:
+            render(found, self._format, self._stream)
 
     def _test(self, word: str, name: str) -> None:
         self._say(f"  {self._coloured(f'{word:<6}', _COLOURS[word])}  {printable(name)}")

@@ -18,6 +18,8 @@ _MODULES = {
 }
 
 FORMATS = tuple(_MODULES)
+DOCUMENTS = ("sarif",)
+"""Formats of which a run writes one document, with all its diagnostics."""
 
 
 def render(found: Iterable[Diagnostic], format_: str, stream: TextIO) -> None:
