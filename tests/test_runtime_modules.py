@@ -25,6 +25,7 @@ PYTHON_TEMPLATES = {
     "ros2/templates/package/launch/swarm.launch.py.j2",
     "ros2/templates/package/package/callbacks.py.j2",
     "ros2/templates/package/package/machine.py.j2",
+    "ros2/templates/package/package/monitor.py.j2",
     "ros2/templates/package/package/node.py.j2",
     "ros2/templates/package/setup.py.j2",
     "ros2/templates/package/test/test_copyright.py.j2",
@@ -74,10 +75,10 @@ def test_templates_print_more_than_a_header() -> None:
 @pytest.mark.parametrize(
     ("target", "options", "folders"),
     [
-        ("ros2", {}, ["ros2"]),
+        ("ros2", {"monitors": "true"}, ["ros2"]),
         ("smach", {}, ["smach"]),
-        ("smach", {"ros": "2"}, ["ros2", "ros2_outcomes", "smach/ros2"]),
-        ("yasmin", {}, ["ros2", "ros2_outcomes", "yasmin"]),
+        ("smach", {"ros": "2", "monitors": "true"}, ["ros2", "ros2_outcomes", "smach/ros2"]),
+        ("yasmin", {"monitors": "true"}, ["ros2", "ros2_outcomes", "yasmin"]),
     ],
 )
 def test_modules_are_copied_with_a_header(

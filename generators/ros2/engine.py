@@ -1,42 +1,57 @@
-"""The engine `swarmdsl.execution.engine` as one module in the style of ROS."""
+"""The engine and the monitors of swarmdsl as one module each, in the style of ROS."""
 
 from __future__ import annotations
 
 import ast
 import builtins
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from inspect import cleandoc
+from pathlib import Path
 
-from swarmdsl.codegen import engine_folder
+from swarmdsl.codegen import engine_folder, monitors_folder
 
 # First words of docstrings that are not in the imperative, which the linters reject.
 _NOUNS = ("A", "An", "The", "What", "Which")
 # Each module needs only modules before it.
-_MODULES = ("table", "activity", "world", "arrays", "step", "configuration", "instance")
+_ENGINE = ("table", "activity", "world", "arrays", "step", "configuration", "instance")
+_MONITORS = ("patterns", "monitor", "claims", "facts", "watch")
 _GONE = "\0"
 _TOKEN = re.compile(r'"""[\s\S]*?"""|#[^\n]*|f?"(?:[^"\\\n]|\\.)*"')
 
 
 @cache
 def engine_source() -> str:
-    """Return the source of the engine without the header of a generated file.
+    """Return the source of the engine without the header of a generated file."""
+    return _as_one(engine_folder(), _ENGINE)
+
+
+@cache
+def monitors_source() -> str:
+    """Return the source of the monitors, likewise."""
+    return _as_one(monitors_folder(), _MONITORS)
+
+
+def _as_one(folder: Path, modules: Sequence[str]) -> str:
+    """Return the source of the modules of a package as one module.
 
     Strings have single quotes and docstrings of several lines begin below the quotes, as the
     linters of ROS 2 require.
     """
     # The source is read, not imported, which is faster.
-    folder = engine_folder()
     imports: dict[str, set[str]] = {}
+    whole: set[str] = set()
     sections = []
-    for module in _MODULES:
+    for module in modules:
         text = (folder / f"{module}.py").read_text(encoding="utf-8")
         tree = ast.parse(text)
         lines = text.splitlines()
         for node in tree.body:
             if isinstance(node, ast.ImportFrom) and node.level == 0 and node.module is not None:
                 imports.setdefault(node.module, set()).update(name.name for name in node.names)
+            elif isinstance(node, ast.Import):
+                whole.update(name.name for name in node.names)
             for inner in _statements(node):
                 _adapt(inner, lines)
             if _is_left_out(node):
@@ -47,10 +62,12 @@ def engine_source() -> str:
     imports["typing"] -= {"TYPE_CHECKING", "Callable"}
     imports["collections.abc"].add("Callable")
     head = [f"from __future__ import {', '.join(sorted(future))}", ""]
-    head += [
-        f"from {module} import {', '.join(sorted(names, key=str.lower))}"
-        for module, names in sorted(imports.items())
-    ]
+    statements = {
+        module: f"from {module} import {', '.join(sorted(names, key=str.lower))}"
+        for module, names in imports.items()
+    }
+    statements.update((module, f"import {module}") for module in whole)
+    head += [statements[module] for module in sorted(statements)]
     package = ast.parse((folder / "__init__.py").read_text(encoding="utf-8"))
     doc = f'"""{ast.get_docstring(package, clean=False)}"""'
     made = "\n".join([doc, "", *head, "", "", "\n\n\n".join(sections), ""])

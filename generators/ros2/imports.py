@@ -12,7 +12,7 @@ from .names import type_name
 
 WIDTH = 99
 # Names that modules of state machines use for other things.
-_TAKEN = ("BEHAVIOR", "CHART", "FUNCTIONS", "PARAMETERS", "STATES", "TOPICS")
+_TAKEN = ("BEHAVIOR", "CHART", "CONDITIONS", "FUNCTIONS", "PARAMETERS", "STATES", "TOPICS")
 
 
 class Imports:

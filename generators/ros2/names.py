@@ -10,13 +10,14 @@ from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 
 TARGET = "ros2"
 _MODULES = (
-    *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "identity", "node"),
-    *("parameters", "topics", "tracing", "values"),
+    *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "identity", "members"),
+    *("node", "parameters", "property_monitors", "robot_lines", "swarm_monitor"),
+    *("swarm_verdicts", "topics", "tracing", "values"),
 )
 # A package with such a name would hide a module that the nodes import.
 _IMPORTED = (
-    *("array", "collections", "copy", "heapq", "importlib", "itertools", "json", "math", "re"),
-    *("signal", "sys", "threading", "traceback", "typing"),
+    *("array", "collections", "copy", "functools", "heapq", "importlib", "itertools", "json"),
+    *("math", "operator", "re", "signal", "sys", "threading", "traceback", "typing"),
     *("action_msgs", "builtin_interfaces", "rcl_interfaces", "rclpy", "std_msgs"),
 )
 # Parameters that ROS declares in every node.

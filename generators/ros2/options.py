@@ -23,4 +23,5 @@ class Options(PackageOptions):
     copyright: str = option(
         "", "year and holder of the copyright, for the header of each file", check=copyright_fault
     )
+    monitors: bool = option(False, "a node for each swarm that watches the properties of the model")
     lifecycle: bool = option(False, "managed nodes: configured and activated from outside")

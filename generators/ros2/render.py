@@ -12,9 +12,10 @@ from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_p
 from swarmdsl.ir import System
 
 from ..runtime_source import runtime_source
-from .engine import engine_source
+from .engine import engine_source, monitors_source
 from .imports import WIDTH
 from .launch import configuration
+from .monitors import WatchedSwarm
 from .names import TARGET
 from .options import Options
 from .view import MachineView, PackageView, package_view
@@ -32,6 +33,7 @@ _MODULES = (
     "tracing",
     "values",
 )
+_OF_MONITORS = ("robot_lines", "swarm_monitor", "swarm_verdicts")
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
@@ -87,17 +89,26 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
         yield OutputFile(f"{root}/{root}/callbacks.py", text, keep=True, owner=root, facts=facts)
     for machine in package.machines:
         yield _machine(machine, package, legal)
+    if package.monitors:
+        yield OutputFile(f"{root}/{root}/property_monitors.py", f"{head}\n{monitors_source()}")
+        for module in _OF_MONITORS:
+            text = runtime_source(_RUNTIME / f"{module}.py", head)
+            yield OutputFile(f"{root}/{root}/{module}.py", text)
+    for monitor in package.monitors:
+        yield _monitor(monitor, package, head)
     for test in ("copyright", "machines"):
         text = _fill(f"package/test/test_{test}.py", header=head, **values)
         yield OutputFile(f"{root}/test/test_{test}.py", text)
     for test in ("flake8", "pep257"):
         text = runtime_source(_RUNTIME / "test" / f"test_{test}.py", head)
         yield OutputFile(f"{root}/test/test_{test}.py", text)
+    monitors = {monitor.launch: monitor.module for monitor in package.monitors}
     for launch in package.launches:
         text = _fill(
             "package/launch/swarm.launch.py",
             header=head,
             launch=launch,
+            monitor=monitors.get(launch.name),
             lifecycle=options.lifecycle,
             **values,
         )
@@ -124,6 +135,15 @@ def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFi
         f"{package.name}/{package.name}/{machine.module}.py",
         text.rewritten(WIDTH, narrowed),
         origin=machine.origin,
+    )
+
+
+def _monitor(monitor: WatchedSwarm, package: PackageView, head: str) -> OutputFile:
+    text = _fill("package/package/monitor.py", monitor=monitor, header=head)
+    return OutputFile(
+        f"{package.name}/{package.name}/{monitor.module}.py",
+        text.rewritten(WIDTH, narrowed),
+        origin=monitor.origin,
     )
 
 

@@ -18,24 +18,17 @@ from swarmdsl.ir import StateMachine, System
 
 from . import names, package
 from .actions import check_feedback, messages_of_actions
-from .expressions import default_value, stored
+from .expressions import default_value, python_expression, stored
 from .imports import WIDTH, Imports
 from .launch import Launch, launches
 from .machine import Row, Table
-from .module import STEP, Function, Module
+from .module import BOTH, STEP, Function, Module
+from .monitors import Entry, WatchedSwarm, conditions, watched_swarms
 from .names import NAMES
 from .options import Options
 from .params import parameters
 from .ported import ported
 from .topics import topics
-
-
-@dataclass(frozen=True)
-class Entry:
-    """A statement or an item of a table, and the comments above it."""
-
-    comments: tuple[str, ...]
-    text: str
 
 
 @dataclass(frozen=True)
@@ -49,6 +42,7 @@ class MachineView:
     parameters: tuple[Entry, ...]
     topics: tuple[Entry, ...]
     functions: tuple[Entry, ...]
+    conditions: tuple[Entry, ...]
     values: tuple[Entry, ...]
     steps: tuple[Function, ...]
     rows: tuple[Row, ...]
@@ -87,6 +81,7 @@ class PackageView:
     machines: tuple[MachineView, ...]
     callbacks: tuple[tuple[str, str], ...]
     launches: tuple[Launch, ...]
+    monitors: tuple[WatchedSwarm, ...]
     interfaces: tuple[InterfacePackage, ...]
     manifest: str
     pictures: tuple[Picture, ...]
@@ -121,6 +116,7 @@ def package_view(
             Imports(of_actions),
             callbacks,
             variant,
+            options.monitors,
             report,
         )
         for machine in machines
@@ -141,6 +137,7 @@ def package_view(
         machines=views,
         callbacks=tuple(callbacks.items()),
         launches=tuple(launched),
+        monitors=watched_swarms(system, launched, modules, report) if options.monitors else (),
         interfaces=interfaces,
         manifest=manifest(name, doc, depends, options, format_=3, build_type="ament_python"),
         pictures=pictures(system, machines),
@@ -163,6 +160,7 @@ def _machine_view(
     imports: Imports,
     callbacks: dict[str, str],
     variant: Variant,
+    monitors: bool,
     report: Diagnostics,
 ) -> MachineView:
     for own in ("Behavior", "tree"):
@@ -184,6 +182,7 @@ def _machine_view(
         if any(event.delivery is not None for event, _ in heard):
             imports.own("topics", "Delivery")
     functions = _functions(machine, system, imports, report)
+    told = _conditions(machine, system, made) if monitors else ()
     values = _values(machine, imports)
     return MachineView(
         name=machine.name,
@@ -193,6 +192,7 @@ def _machine_view(
         parameters=tuple(_item(call, param.origin, "") for param, call in declared),
         topics=tuple(_item(call, event.origin, event.doc) for event, call in heard),
         functions=functions,
+        conditions=told,
         values=values,
         steps=tuple(made.functions),
         rows=tuple(table.rows),
@@ -222,6 +222,16 @@ def _functions(
         made = Call(class_, (Source(imports.interface(call.type, kind)), call.name))
         text = layout(made, 1, f"{STEP}{name!r}: ", ",", WIDTH)
         found.append(Entry(comments(function.origin, function.doc), text))
+    return tuple(found)
+
+
+def _conditions(machine: StateMachine, system: System, made: Module) -> tuple[Entry, ...]:
+    """Return the entries of the conditions that the trace of a machine tells."""
+    found = []
+    for text, condition in conditions(machine, system).items():
+        lines = [f"{STEP}return {python_expression(condition, made.imports)}"]
+        function = made.function("holds", machine.name, BOTH, lines, condition.origin)
+        found.append(Entry((), layout(function, 1, f"{STEP}{text!r}: ", ",", WIDTH)))
     return tuple(found)
 
 

@@ -68,6 +68,9 @@ class Options(PackageOptions):
         check=copyright_fault,
         only="ros=2",
     )
+    monitors: bool = option(
+        False, "a node for each swarm that watches the properties of the model", only="ros=2"
+    )
     lifecycle: bool = option(
         False, "managed nodes: configured and activated from outside", only="ros=2"
     )

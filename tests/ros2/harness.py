@@ -152,6 +152,21 @@ class Fakes:
                 assert left > 0, f"{key} {value} was seen {len(found)} times in {self.seen}"
                 self._condition.wait(left)
 
+    def wait_for(
+        self, key: str, value: Any, wanted: Callable[[dict[str, Any]], bool]
+    ) -> dict[str, Any]:
+        """Wait until something wanted was seen; the first of it."""
+        end = time.monotonic() + PATIENCE
+        with self._condition:
+            while True:
+                found = [each for each in self.seen if each.get(key) == value]
+                for each in found:
+                    if wanted(each):
+                        return each
+                left = end - time.monotonic()
+                assert left > 0, f"{key} {value} is not as wanted, at last {found[-1:]}"
+                self._condition.wait(left)
+
     def _read(self) -> None:
         assert self.process.stdout is not None
         try:

@@ -40,7 +40,8 @@ class Behavior(NamedTuple):
     """
     A state machine and the ROS interfaces it uses; `data` creates its variables.
 
-    A machine that `follows_members` hears the heartbeats of other robots.
+    A machine that `follows_members` hears the heartbeats of other robots. Its trace has the truth
+    of the `conditions` that properties name.
     """
 
     machine: Machine
@@ -50,6 +51,7 @@ class Behavior(NamedTuple):
     functions: Any = MappingProxyType({})
     missing_callbacks: Any = ()
     follows_members: bool = False
+    conditions: Any = MappingProxyType({})
 
 
 def tree(*states):
@@ -283,8 +285,12 @@ class Host:
 
     def _begin(self):
         data = self._behavior.data(self._values)
-        zero = self._delays.now
-        self._trace = Trace(self._member, lambda: self._delays.now - zero, self._output.tell)
+        self._trace = Trace(
+            self._member,
+            lambda: self._delays.now,
+            self._behavior.conditions,
+            self._output.tell,
+        )
         self._instance = Instance(
             self._behavior.machine,
             self,

@@ -1,25 +1,37 @@
 """Trace of the machine: a line for each macrostep, as in `swarmc simulate --trace json`."""
 
+from itertools import count
 import json
 
 from rclpy.logging import LoggingSeverity
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
+from . import engine
 from .engine import Observer, Run
 from .parameters import StartError
-from .values import to_json
+from .values import MILLISECOND, to_json
 
+HISTORY = 1000
+"""Number of lines that a node keeps for those who subscribe later."""
 _LAST = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-_HISTORY = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+_HISTORY = QoSProfile(depth=HISTORY, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Trace(Observer):
-    """Passes each line to a listener, with the transitions that were taken."""
+    """
+    Passes each line to a listener, with the transitions that were taken.
 
-    def __init__(self, member, clock, listener):
+    Each line has the time since the start, and when that was: `began`, in milliseconds since 1970.
+    `conditions` are watched functions of the machine, by their text in the model.
+    """
+
+    def __init__(self, member, clock, conditions, listener):
         self._member = member
         self._clock = clock
+        self._began = clock()
+        self._numbers = count()
+        self._conditions = conditions
         self._listener = listener
         self._line = None
         self._taken = []
@@ -34,7 +46,9 @@ class Trace(Observer):
         self._instance = instance
         self._taken = []
         self._line = {
-            't': self._clock() // 1_000_000,
+            't': (self._clock() - self._began) // MILLISECOND,
+            'began': self._began // MILLISECOND,
+            'number': next(self._numbers),
             'member': self._member,
             'event': event.name if event is not None else None,
             'configuration': [],
@@ -60,7 +74,20 @@ class Trace(Observer):
             return
         final = self._instance.final
         line['configuration'] = [final] if final else self._instance.configuration.innermost
+        if final:
+            line['ended'] = True
+        if self._conditions:
+            line['values'] = {
+                text: self._holds(condition) for text, condition in self._conditions.items()
+            }
         self._listener(line, self._taken, final)
+
+    def _holds(self, condition):
+        """Return the truth of a condition; one without a value does not hold."""
+        try:
+            return bool(condition(self._instance, None))
+        except engine.FAILURES:
+            return False
 
     def received(self, instance, event):
         """Begin a line for a delay or an activity; `begin` does so for other events."""
@@ -92,7 +119,7 @@ class Trace(Observer):
     def scheduled(self, instance, event, delay):
         """Note an event that will be sent."""
         if self._line is not None:
-            sent = {'event': event.name, 'to': event.envelope.to, 'after': delay // 1_000_000}
+            sent = {'event': event.name, 'to': event.envelope.to, 'after': delay // MILLISECOND}
             self._line.setdefault('scheduled', []).append(sent)
 
     def withdrawn(self, instance, event):

@@ -11,6 +11,7 @@ from builtin_interfaces.msg import Duration, Time
 from .engine import ExecutionError
 
 SECOND = 1_000_000_000
+MILLISECOND = 1_000_000
 
 _SEQUENCE = re.compile(r'sequence<(?P<element>.+?)(?:, (?P<bound>\d+))?>')
 _ARRAY = re.compile(r'(?P<element>.+)\[(?P<size>\d+)\]')

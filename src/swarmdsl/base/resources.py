@@ -26,6 +26,11 @@ def engine() -> Path:
     return _PACKAGE / "execution" / "engine"
 
 
+def monitors() -> Path:
+    """Return the folder of the sources of monitors, which generated packages copy."""
+    return _PACKAGE / "execution" / "monitor"
+
+
 def grammar() -> Path:
     """Return the folder of the grammar files."""
     return (checkout_root() or _PACKAGE) / "grammar"

@@ -70,6 +70,7 @@ if TYPE_CHECKING:
     )
     from swarmdsl.codegen.engine import (
         engine_folder,
+        monitors_folder,
     )
     from swarmdsl.codegen.source_map import (
         MappedText,
@@ -115,7 +116,7 @@ else:
                 "OutputFile Support all_machines chosen_machines emit_of option"
             ),
             "swarmdsl.codegen.diagram.readme": "Picture member_pictures pictures",
-            "swarmdsl.codegen.engine": "engine_folder",
+            "swarmdsl.codegen.engine": "engine_folder monitors_folder",
             "swarmdsl.codegen.source_map": "MappedText TracedStr at",
             "swarmdsl.codegen.templates": "Templates",
             "swarmdsl.codegen.user_code_marks": "fits",
@@ -167,6 +168,7 @@ __all__ = [
     "is_ros_package_name",
     "listed",
     "member_pictures",
+    "monitors_folder",
     "option",
     "pictures",
     "python_item",

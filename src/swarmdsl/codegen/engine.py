@@ -1,4 +1,4 @@
-"""Source code of the state machine engine, copied into generated packages."""
+"""Source code of the state machine engine and of monitors, copied into generated packages."""
 
 from __future__ import annotations
 
@@ -10,3 +10,8 @@ from swarmdsl.base import resources
 def engine_folder() -> Path:
     """Return the folder with the modules of the engine."""
     return resources.engine()
+
+
+def monitors_folder() -> Path:
+    """Return the folder with the modules of the monitors of properties."""
+    return resources.monitors()

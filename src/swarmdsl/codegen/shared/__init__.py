@@ -50,6 +50,10 @@ if TYPE_CHECKING:
     from swarmdsl.codegen.shared.part_values import (
         check_part_values,
     )
+    from swarmdsl.codegen.shared.property_texts import (
+        condition_text,
+        sentence_text,
+    )
     from swarmdsl.codegen.shared.state_expressions import (
         expressions_of,
         timed_states,
@@ -87,6 +91,7 @@ else:
             ),
             "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
             "swarmdsl.codegen.shared.part_values": "check_part_values",
+            "swarmdsl.codegen.shared.property_texts": "condition_text sentence_text",
             "swarmdsl.codegen.shared.state_expressions": "expressions_of timed_states",
             "swarmdsl.codegen.shared.swarmros": "bridge_files",
             "swarmdsl.codegen.shared.units": "doc_with_unit",
@@ -108,6 +113,7 @@ __all__ = [
     "bringup_package",
     "check_part_values",
     "check_wiring",
+    "condition_text",
     "constant",
     "default_fields",
     "default_result",
@@ -130,6 +136,7 @@ __all__ = [
     "region_transitions",
     "result_fields",
     "sent_types",
+    "sentence_text",
     "timed_states",
     "uses_self",
 ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 
+from swarmdsl.codegen.shared.property_texts import parts_text, sentence_text
 from swarmdsl.codegen.swarm_printer.architecture import print_values
 from swarmdsl.codegen.swarm_printer.expressions import duration, expression
 from swarmdsl.codegen.swarm_printer.interfaces import print_params
@@ -23,7 +24,7 @@ from swarmdsl.ir import (
     Swarm,
     doc_of,
 )
-from swarmdsl.ir.sentences import Condition, Named, head, sentence
+from swarmdsl.ir.sentences import head
 
 _ONE = Multiplicity(1, 1)
 
@@ -104,16 +105,8 @@ def print_optimization(optimization: Optimization) -> list[str]:
 
 def print_property(property_: Property) -> list[str]:
     """Print a property as one sentence."""
-    parts = [*head(property_), " : ", *sentence(property_)]
-    texts = (
-        each
-        if isinstance(each, str)
-        else each.name
-        if isinstance(each, Named)
-        else expression(each.expression if isinstance(each, Condition) else each)
-        for each in parts
-    )
-    return documented(property_.doc, ["".join(texts)])
+    text = f"{parts_text(head(property_))} : {sentence_text(property_)}"
+    return documented(property_.doc, [text])
 
 
 def _range(values: CountRange | ParamRange) -> str:

@@ -48,7 +48,7 @@ class Monitor:
 
     @property
     def decided(self) -> bool:
-        """True if no further step can change the verdict."""
+        """Return True if no further step can change the verdict."""
         return self.violated is not None or self._over
 
     @property
@@ -110,7 +110,7 @@ class Monitor:
 
     @property
     def _waits_for_end(self) -> bool:
-        """True if only the end of a part of the run makes a violation certain."""
+        """Return True if only the end of a part of the run makes a violation certain."""
         return self._scope in ("before", "between")
 
     def _begins(self, scope: Sequence[bool]) -> bool:

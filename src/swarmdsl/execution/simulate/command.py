@@ -199,7 +199,7 @@ class _Play:
             recording = Recording(self._watched)
             seen = recording.see
             found = replay(source, self._subject, self._cast, report, seen)
-            results = recording.results()
+            results = recording.results(found.end)
             report_violations(results, report)
             which = f"{printable(str(path))}: " if several else ""
             lines = f"{found.lines} line{'s' if found.lines != 1 else ''}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
@@ -32,7 +32,7 @@ from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.table import first_data
 from swarmdsl.execution.simulate.trace import Line, Trace
-from swarmdsl.execution.simulate.trace_line import NAMES, numbers, read_line
+from swarmdsl.execution.simulate.trace_line import NAMES, is_verdict, numbers, read_line
 from swarmdsl.execution.simulate.world import LATE
 from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS
@@ -56,14 +56,15 @@ class _Record:
 
 @dataclass(frozen=True)
 class Replayed:
-    """Number of conforming lines and members of a trace."""
+    """Number of conforming lines and members of a trace, and the time of its last line."""
 
     lines: int
     members: int
+    end: int
 
 
-Seen = Callable[[Line, Mapping[str, Any]], None]
-"""Listener to a line of the model and the data of its machine after it."""
+Seen = Callable[[Line, Mapping[str, Any], int], None]
+"""Listener to a line of the model, the data of its machine after it, and its place in the trace."""
 
 
 def replay(
@@ -75,13 +76,15 @@ def replay(
 ) -> Replayed:
     """Replay a trace; report the first difference of each member.
 
-    Listener `seen` gets the lines as in the model, those of one member after the other.
+    Times are since the first start. Listener `seen` gets the lines as in the model, those of one
+    member after the other.
     """
+    records = list(_records(source, report))
+    end = max((record.time for record in records), default=0)
     by_member: dict[str | None, list[_Record]] = {}
-    for start, end in zip(source.line_starts, [*source.line_starts[1:], None], strict=True):
-        place = Span(source, start, len(source.text) if end is None else end - 1)
-        if place.text.strip():
-            _read(place, by_member, report)
+    for record in records:
+        if not is_verdict(record.done):
+            by_member.setdefault(record.done.get("member"), []).append(record)
     actors = {actor.name: actor for actor in cast}
     followed = 0
     for member, records in by_member.items():
@@ -96,7 +99,7 @@ def replay(
             continue
         roster = Roster(dict.fromkeys(each.robot for each in cast))
         followed += _Replay(actor, subject, report, seen, roster).replay(records)
-    return Replayed(followed, len(by_member))
+    return Replayed(followed, len(by_member), end)
 
 
 def _impersonate(actor: Actor, member: str, subject: Subject) -> None:
@@ -107,15 +110,27 @@ def _impersonate(actor: Actor, member: str, subject: Subject) -> None:
         actor.data = first_data(subject.machine, subject.system, actor.data, robot)
 
 
-def _read(place: Span, by_member: dict[str | None, list[_Record]], report: Diagnostics) -> None:
-    """Parse a line; report an invalid one."""
-    value = read_line(place.text)
-    if isinstance(value, dict):
-        record = _Record(value["t"] * MILLISECOND, value["event"], value.get("data"), value, place)
-        by_member.setdefault(value.get("member"), []).append(record)
-        return
-    help_ = "`swarmc simulate --trace json` and nodes of target `ros2` write trace lines"
-    report.report("bad-trace-line", place, reason=value, help=help_)
+def _records(source: Source, report: Diagnostics) -> Iterator[_Record]:
+    """Yield the lines of a trace; report invalid ones.
+
+    Nodes write when they began, so that their times have a common beginning.
+    """
+    found = []
+    for start, end in zip(source.line_starts, [*source.line_starts[1:], None], strict=True):
+        place = Span(source, start, len(source.text) if end is None else end - 1)
+        if place.text.strip():
+            value = read_line(place.text)
+            if isinstance(value, dict):
+                found.append((value, place))
+            else:
+                help_ = (
+                    "`swarmc simulate --trace json` and nodes of target `ros2` write trace lines"
+                )
+                report.report("bad-trace-line", place, reason=value, help=help_)
+    zero = min((value["began"] for value, _ in found if "began" in value), default=0)
+    for value, place in found:
+        time = value["t"] + max(value.get("began", zero) - zero, 0)
+        yield _Record(time * MILLISECOND, value.get("event"), value.get("data"), value, place)
 
 
 def _report_member(
@@ -182,7 +197,7 @@ class _Replay:
                 return number
             self._last = line.configuration
             if self._seen is not None:
-                self._seen(line, self._instance.data)
+                self._seen(line, self._instance.data, record.place.start)
         return len(records)
 
     # ---- called by the engine
@@ -230,16 +245,17 @@ class _Replay:
                     return "it starts a second time"
                 self._trace.begin(instance, None)
                 instance.start()
+            elif name == LOST:
+                # Of a machine that has ended, too: its robot is gone, or starts again.
+                self._trace.begin(instance, name)
+                instance.running = False
             elif name.startswith(LATE) and instance.running:
                 self._trace.begin(instance, name)
             elif not instance.running:
                 return "it is active after its end" if instance.final else "it has not started"
-            elif name in (SHUTDOWN, LOST):
+            elif name == SHUTDOWN:
                 self._trace.begin(instance, name)
-                if name == LOST:
-                    instance.running = False
-                else:
-                    instance.stop()
+                instance.stop()
             elif name.startswith(("after.", "send.")):
                 return self._end_delay(name)
             elif name.startswith("do."):

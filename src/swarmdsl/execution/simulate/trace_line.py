@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from typing import Any
 
 NAMES = ("configuration", "entered", "exited", "started", "cancelled", "sent")
@@ -52,11 +53,19 @@ def read_line(text: str | bytes) -> dict[str, Any] | str:
     return _fault(value) or value
 
 
+def is_verdict(value: Mapping[str, Any]) -> bool:
+    """Return True for a line in which a monitor on robots tells a verdict on a property."""
+    return isinstance(value.get("property"), str)
+
+
 def _fault(value: dict[str, Any]) -> str:
     """Return the reason why a line is invalid, or ""."""
-    time = value.get("t")
-    if not isinstance(time, int) or isinstance(time, bool) or not 0 <= time <= _LONGEST:
-        return "`t` must be a number of milliseconds"
+    for key in ("t", "began"):
+        time = value.get(key, 0 if key == "began" else None)
+        if not isinstance(time, int) or isinstance(time, bool) or not 0 <= time <= _LONGEST:
+            return f"`{key}` must be a number of milliseconds"
+    if is_verdict(value):
+        return ""
     if not isinstance(value.get("event", 0), (str, type(None))):
         return "`event` must be an event name or `null`"
     if not isinstance(value.get("member"), (str, type(None))):

@@ -69,21 +69,26 @@ class Recording:
 
     def __init__(self, properties: Sequence[Property]) -> None:
         self._properties = properties
-        self._lines: list[tuple[Line, dict[str, Any]]] = []
+        self._lines: list[tuple[int, Line, dict[str, Any]]] = []
 
-    def see(self, line: Line, data: Mapping[str, Any] | None) -> None:
-        """Keep a line with the data of its machine."""
+    def see(self, line: Line, data: Mapping[str, Any] | None, place: int) -> None:
+        """Keep a line with the data of its machine, and its place in the trace."""
         if self._properties:
-            self._lines.append((line, dict(data or {})))
+            self._lines.append((place, line, dict(data or {})))
 
-    def results(self) -> list[PropertyResult]:
-        """Return the verdicts on the traces; a log can end at any time."""
+    def results(self, end: int) -> list[PropertyResult]:
+        """Return the verdicts on the traces until a time; a log can end at any time."""
         if not self._lines:
             return []
         known: dict[Actor, Mapping[str, Any]] = {}
         monitors = watch(self._properties, lambda actor: known[actor])
-        ordered = sorted(self._lines, key=lambda each: (each[0].time, each[0].event is not None))
-        for line, data in ordered:
+        for _, line, data in sorted(self._lines, key=_order):
             known[line.actor] = data
             monitors.see(line)
-        return monitors.results(ordered[-1][0].time, ended=False)
+        return monitors.results(end, ended=False)
+
+
+def _order(each: tuple[int, Line, Mapping[str, Any]]) -> tuple[int, bool, int]:
+    """Return the key of a line: at one time, machines start first."""
+    place, line, _ = each
+    return line.time, line.event is not None, place

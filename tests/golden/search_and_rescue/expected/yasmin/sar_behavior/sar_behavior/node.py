@@ -2,6 +2,7 @@
 """Node of a state machine, which starts and ends with the machine."""
 
 import faulthandler
+from functools import partial
 import os
 import queue
 import signal
@@ -42,12 +43,17 @@ class StateMachineNode(Node):
 
 
 def run(behavior, name, args=None):
-    """Run the node until its machine ends or a signal comes, and end the process."""
+    """Run the node of a machine until it ends or a signal comes, and end the process."""
+    run_node(partial(StateMachineNode, behavior), name, args)
+
+
+def run_node(make, name, args=None):
+    """Run the node that `make` returns until it ends or a signal comes, and end the process."""
     # Not a threading.Event: a signal may interrupt a thread that holds its lock.
     ending = queue.SimpleQueue()
     for each in (signal.SIGINT, signal.SIGTERM):
         signal.signal(each, lambda *_: ending.put(None))
-    spinner = _Spinner(behavior, name, args, lambda: ending.put(None))
+    spinner = _Spinner(make, name, args, lambda: ending.put(None))
     spinner.start()
     ending.get()
     code = spinner.end()
@@ -65,9 +71,9 @@ class _Spinner(threading.Thread):
     thread is enough for all of them.
     """
 
-    def __init__(self, behavior, name, args, on_end):
+    def __init__(self, make, name, args, on_end):
         super().__init__(name='node', daemon=True)
-        self._behavior = behavior
+        self._make = make
         self._name = name
         self._args = args
         self._on_end = on_end
@@ -109,13 +115,13 @@ class _Spinner(threading.Thread):
         code = int(self._is_broken or self._node.failed)
         _end_in(_LATE, code)
         self._is_to_end = True
-        if self._executor is not None:
+        if self._executor is not None and not self._is_broken:
             self._executor.create_task(int)  # wakes it
         self.join()
         return code
 
     def _spin(self):
-        self._node = StateMachineNode(self._behavior, self._name, self._on_end)
+        self._node = self._make(self._name, self._on_end)
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(self._node)
         self._begun.set()

@@ -1,0 +1,31 @@
+"""Properties in the words of the model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.ir import Expression, Property
+from swarmdsl.ir.sentences import Condition, Named, Part, sentence
+
+
+def condition_text(condition: Expression) -> str:
+    """Return what robots have, without its brackets: `box > 3`."""
+    return expression(condition)
+
+
+def sentence_text(property_: Property) -> str:
+    """Return a property without its name: `each robot : in Work only after Start`."""
+    return parts_text(sentence(property_))
+
+
+def parts_text(parts: Iterable[Part]) -> str:
+    """Return parts of a sentence as text."""
+    return "".join(
+        each
+        if isinstance(each, str)
+        else each.name
+        if isinstance(each, Named)
+        else expression(each.expression if isinstance(each, Condition) else each)
+        for each in parts
+    )

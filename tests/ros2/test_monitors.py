@@ -1,0 +1,149 @@
+"""The monitor of a swarm on a real ROS 2: violations, silence, and robots that come and go."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.driver import pipeline
+from swarmdsl.execution.simulate.actors import actors
+from swarmdsl.execution.simulate.properties import watchable
+from swarmdsl.execution.simulate.replay import replay
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.verdicts import Recording
+
+HERE = Path(__file__).parent
+DIAGNOSTICS = "/diagnostics"
+OK, WARN, ERROR = [0], [1], [2]
+
+
+class Depot:
+    """Two carriers, their monitor, and a tool that reads diagnostics."""
+
+    def __init__(self, ros: Any, variant: Callable[..., Path], **options: str) -> None:
+        self.ros = ros
+        ros.prefer(variant("tests/ros2/models", monitors="true", **options))
+        self.fakes = ros.fakes()
+        self.fakes.do("subscribe", topic=DIAGNOSTICS, kind="diagnostic_msgs/msg/DiagnosticArray")
+        self.carriers: list[Any] = []
+        for number in range(2):
+            self.fakes.publisher(f"/depot/carrier_{number}/take", "std_msgs/msg/Int32")
+            self.fakes.publisher(f"/depot/carrier_{number}/leave", "std_msgs/msg/Empty")
+
+    def monitor(self, **parameters: Any) -> Any:
+        """Start the monitor."""
+        given = {"members": "carrier[0] carrier[1]", **parameters}
+        return self.ros.node("lab_behavior.depot_monitor", "/depot", **given)
+
+    def carrier(self, number: int, module: str = "carrying") -> Any:
+        """Start a carrier."""
+        member = f"carrier[{number}]"
+        space = f"/depot/carrier_{number}"
+        node = self.ros.node(f"lab_behavior.{module}", space, member=member)
+        node.wait_in("Empty")
+        self.fakes.listeners(f"{space}/take", f"{space}/leave")
+        self.carriers.append(node)
+        return node
+
+    def take(self, number: int, load: int) -> None:
+        self.fakes.publish(f"/depot/carrier_{number}/take", data=load)
+
+    def leave(self, number: int) -> None:
+        self.fakes.publish(f"/depot/carrier_{number}/leave")
+
+    def status(self, property_: str, level: list[int], text: str) -> dict[str, Any]:
+        """Wait until a property is told on that level."""
+
+        def of_property(message: dict[str, Any]) -> Iterator[dict[str, Any]]:
+            for status in message["data"]["status"]:
+                wanted = status["level"] == level and text in str(status)
+                if status["name"] == f"depot/depot_monitor: {property_}" and wanted:
+                    yield status
+
+        found = self.fakes.wait_for("message", DIAGNOSTICS, lambda m: any(of_property(m)))
+        return next(of_property(found))
+
+
+Told = dict[str, tuple[str, list[tuple[str | None, int]]]]
+"""Verdict on each property, and who violated it at what time in milliseconds."""
+
+
+def told(lines: Iterable[dict[str, Any]]) -> Told:
+    """Return what a monitor has told at last."""
+    return {
+        line["property"]: (
+            line["verdict"],
+            [(each["robot"], each["t"]) for each in line["violations"]],
+        )
+        for line in lines
+        if "property" in line
+    }
+
+
+def replayed(*traces: Iterable[dict[str, Any]]) -> Told:
+    """Replay traces of the depot on the model, as `swarmc simulate --replay` does."""
+    system = pipeline.check([HERE / "models"]).system
+    assert system is not None
+    (swarm,) = (each for each in system.swarms if each.name == "Depot")
+    subject = Subject("Depot", system, swarm=swarm)
+    report = Diagnostics()
+    cast = actors(subject, subject.create_robots({}), Scenario(), report)
+    text = "".join(f"{json.dumps(line)}\n" for trace in traces for line in trace)
+    recording = Recording(watchable(subject))
+    found = replay(Source("trace.jsonl", text), subject, cast, report, recording.see)
+    assert not list(report)
+    return {
+        result.property.name: (
+            result.verdict,
+            [(each.robot, each.time // 1_000_000) for each in result.violations],
+        )
+        for result in recording.results(found.end)
+    }
+
+
+def test_violations_are_told_as_in_a_replay(ros: Any, variant: Callable[..., Path]) -> None:
+    depot = Depot(ros, variant)
+    monitor = depot.monitor()
+    first, second = depot.carrier(0), depot.carrier(1)
+    depot.take(0, 3)
+    depot.take(0, 1)
+    first.wait_for("Take", 2)
+    depot.take(1, 1)
+    second.wait_in("Loaded")
+    depot.leave(0)
+    first.wait_in("Empty")
+    status = depot.status("OneLoaded", ERROR, "false at ")
+    assert {"key": "verdict", "value": "false"} in status["values"]
+    assert status["hardware_id"] == "/depot"
+    depot.status("Light", ERROR, "false by carrier[0] at ")
+
+    # The second one is silent, so time alone breaks a promise.
+    depot.status("Brought", ERROR, "by carrier[1] at ")
+    depot.leave(1)
+    depot.status("SomeLoad", WARN, "false in this run at ")
+    depot.leave(1)
+    second.wait_in("Away")
+    assert second.exit_code() == 0
+    assert first.terminate() == 0
+    depot.status("AllAway", OK, "open")
+    assert monitor.terminate() == 0
+    found = told(monitor.trace)
+    assert {name: verdict for name, (verdict, _) in found.items()} == {
+        "Light": "false",
+        "OneLoaded": "false",
+        "Brought": "false",
+        "OnlyTaken": "true",
+        "AllAway": "open",
+        "SomeLoad": "false",
+    }
+    assert found == replayed(monitor.trace)
+    assert found == replayed(first.trace, second.trace)
+    assert "property Light is violated by carrier[0] at " in monitor.log
+    assert "each carrier : never has [load > 3] (depot.swarm:27)" in monitor.log
+    assert "OnlyTaken: true" in monitor.log
+    assert not any(line["conditions"] for line in monitor.trace if "property" in line)
