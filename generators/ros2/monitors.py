@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from swarmdsl.codegen import Diagnostics, Span, dataclass, fresh
+from swarmdsl.codegen import Diagnostics, Span, code_cell, dataclass, fresh
 from swarmdsl.codegen.python import Call, Source, comments, layout, source_place
 from swarmdsl.codegen.shared import condition_text, constant, envelopes_of, sentence_text
 from swarmdsl.ir import (
@@ -39,7 +39,10 @@ class Entry:
 
 @dataclass(frozen=True)
 class WatchedSwarm:
-    """Swarm with its properties; `machines` are those of its roles and parts, with their nodes."""
+    """Swarm with its properties; `machines` are those of its roles and parts, with their nodes.
+
+    `about` is a section for the README of the package.
+    """
 
     swarm: str
     launch: str
@@ -47,6 +50,7 @@ class WatchedSwarm:
     imports: tuple[str, ...]
     machines: tuple[Entry, ...]
     properties: tuple[Entry, ...]
+    about: str
     origin: Span | None
 
 
@@ -109,8 +113,25 @@ def _watched(
         machines=machines,
         properties=tuple(map(written.entry, properties)),
         imports=tuple(imports.lines()),
+        about=_about(launch, module, properties),
         origin=launch.origin,
     )
+
+
+def _about(launch: Launch, module: str, properties: Iterable[Property]) -> str:
+    rows = "\n".join(f"| {each.name} | {code_cell(sentence_text(each))} |" for each in properties)
+    return f"""## Monitor of {launch.swarm}
+
+Node `{module}` watches the properties of the swarm in its namespace. The launch file starts it.
+
+| property | |
+|---|---|
+{rows}
+
+It tells verdicts on `/diagnostics`, and on `~/verdicts` as lines of JSON. Its parameters are
+`members` (the robots that are to be heard), `wait` (seconds that a line may be on its way),
+`wait.start`, `diagnostics.period`, `swarm` and `trace.file`.
+"""
 
 
 def _machines(launch: Launch, modules: Mapping[str, str], system: System) -> Iterator[Entry]:

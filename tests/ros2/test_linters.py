@@ -37,7 +37,8 @@ def test_examples_pass(lint: Callable[[list[Path]], list[str]], packages: list[P
 def test_managed_nodes_pass(
     lint: Callable[[list[Path]], list[str]], variant: Callable[..., Path]
 ) -> None:
-    package = variant("tests/ros2/models", lifecycle="true", copyright="2026 Example Robotics")
+    options = {"lifecycle": "true", "monitors": "true", "copyright": "2026 Example Robotics"}
+    package = variant("tests/ros2/models", **options)
     assert lint([package]) == []
 
 
