@@ -188,6 +188,23 @@ def test_a_machine_has_the_params_of_its_members_that_it_uses(compiled: Compiled
     ]
 
 
+def test_a_value_that_depends_on_the_robot_is_no_default(compiled: Compiled) -> None:
+    """The machine has no param of the robot, and its own may have the same name."""
+    (machine,) = compiled("""
+      endless statemachine Ticking {
+        param delay : duration = 1 s
+        initial Wait
+        state Wait { after delay -> Wait }
+      }
+      sensor Clock { behavior Ticking; param delay : duration }
+      member R { param delay : duration; clock : Clock { delay = delay * 2 } }
+    """).machines
+
+    (delay,) = machine.params
+    assert delay.default is None
+    assert delay.declared == ir.Literal(1_000_000_000, ir.Primitive("duration"))
+
+
 def test_members_that_disagree_leave_no_default(compiled: Compiled) -> None:
     (machine,) = compiled(
         f"{BEHAVING} member R {{ behavior M; param theirs : int32 = 2; param own : int32 = 5 }}"

@@ -289,13 +289,21 @@ def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
 def _values(
     owner: Member | Component, context: Context
 ) -> Iterator[dict[str, ir.Expression | None]]:
-    """Yield the values of an owner's params: for a component, in each of its parts."""
+    """Yield the values of an owner's params: for a component, in each of its parts.
+
+    A value that depends on params of the robot is None: each robot has its own.
+    """
     defaults = {
         param.name: param.default for param in lower_params(all_items(owner, Param), context)
     }
     parts = context.parts.get(owner, []) if isinstance(owner, Component) else []
     for part in parts:
-        given = dict(lower_values(part.values, owner, context))
+        given = {
+            name: None
+            if any(isinstance(each, ir.ParamRef) for each in ir.subexpressions(value))
+            else value
+            for name, value in lower_values(part.values, owner, context)
+        }
         yield {**defaults, **given}
     if not parts:
         yield defaults

@@ -9,8 +9,17 @@ from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.multiplicity import MOST_DIGITS, greatest
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.numerals import integer
-from swarmdsl.syntax.ast import Member, Param, PartValue, RobotValues, Role, Swarm
-from swarmdsl.syntax.types import Primitive
+from swarmdsl.syntax.ast import (
+    EnumType,
+    Member,
+    Param,
+    Part,
+    PartValue,
+    RobotValues,
+    Role,
+    Swarm,
+)
+from swarmdsl.syntax.types import Named, Primitive
 
 _MOST_NAMED = 5
 """Number of robots without a value up to which a message names each."""
@@ -28,11 +37,13 @@ def check_robot_values(swarm: Swarm, context: Context) -> None:
         if robot.role.target is not None:
             _check_index(robot, robot.role.target, context)
             _check_values(robot.values, robot.role.target.member.target, context)
+    parts: set[Part] = set()
     for role in swarm.items:
         if isinstance(role, Role):
             _check_values(role.values, role.member.target, context)
             own = [robot for robot in first.values() if robot.role.target is role]
             _check_complete(role, own, context)
+            _check_parts(role, parts, context)
 
 
 def _check_index(robot: RobotValues, role: Role, context: Context) -> None:
@@ -73,8 +84,7 @@ def _check_complete(role: Role, robots: Iterable[RobotValues], context: Context)
     most = greatest(role)
     for param in all_items(member, Param):
         name = str(param.name)
-        # Messages and arrays have no constants: their values are given when a robot starts.
-        if param.default is not None or name in given or not isinstance(param.type.type, Primitive):
+        if not _is_required(param, context) or name in given:
             continue
         having = {number for number, names in own.items() if name in names}
         if most is not None and sum(number < most for number in having) == most:
@@ -88,6 +98,53 @@ def _check_complete(role: Role, robots: Iterable[RobotValues], context: Context)
             help=f"write `{role.name} : {_head(role)} {{ {name} = ... }}`, "
             f"or give the param a default",
         )
+
+
+def _check_parts(role: Role, known: set[Part], context: Context) -> None:
+    """Report the params of parts that have no value, once for a part; `known` gets the parts."""
+    member = role.member.target
+    if member is None or member in context.incomplete:
+        return
+    for part in all_items(member, Part):
+        component = part.component.target
+        if part in known or component is None or component in context.incomplete:
+            continue
+        known.add(part)
+        given = {str(value.name) for value in part.values}
+        for param in all_items(component, Param):
+            if _is_required(param, context) and str(param.name) not in given:
+                _report_part(role, part, param, context)
+
+
+def _report_part(role: Role, part: Part, param: Param, context: Context) -> None:
+    context.report.report(
+        "missing-robot-value",
+        role.name.span,
+        name=param.name,
+        robots=f"`{role.name}.{part.name}`",
+        related=(
+            Label(param.name.span, "declared here, without a default"),
+            Label(part.name.span, "not set here"),
+        ),
+        help=f"write `{part.name} : {part.component.span.text} {{ {param.name} = ... }}`, "
+        f"or give the param a default",
+    )
+
+
+def _is_required(param: Param, context: Context) -> bool:
+    """Return True for a param that the model must give a value.
+
+    Times, messages and arrays have no constants: their values are given when a robot starts.
+    """
+    if param.default is not None:
+        return False
+    match param.type.type:
+        case Primitive(name=name):
+            return name != "time"
+        case Named() as type_:
+            return isinstance(context.interfaces.get(type_), EnumType)
+        case _:
+            return False
 
 
 def _head(role: Role) -> str:
