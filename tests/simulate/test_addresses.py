@@ -129,6 +129,73 @@ def test_an_event_from_outside_has_no_sender(simulate: Simulate) -> None:
     assert (second["to"], "nobody" in second) == (["uav[2]"], False)
 
 
+def test_a_robot_does_not_hear_what_comes_in_its_name(simulate: Simulate) -> None:
+    events = [{"event": "Found", "sender": "uav[2]"}]
+    scenario = "[[messages]]\nevent = 'Found'\nat = '2 s'\nsender = 'uav[0]'"
+
+    ran = simulate(told("send Stop"), "--until", "3s", events=events, scenario=scenario)
+
+    found = [line for line in ran.trace if line["event"] == "Found"]
+    assert [(line["member"], line["envelope"]["sender"]) for line in found] == [
+        ("uav[0]", "uav[2]"),
+        ("uav[1]", "uav[2]"),
+        ("uav[1]", "uav[0]"),
+        ("uav[2]", "uav[0]"),
+    ]
+
+
+def test_a_sender_is_a_robot_of_the_swarm(simulate: Simulate) -> None:
+    wrong = simulate(told("send Stop"), events=[{"event": "Found", "sender": "uav[3]"}])
+    scenario = "[[messages]]\nevent = 'Found'\nat = '2 s'\nsender = 'uav'"
+    other = simulate(told("send Stop"), scenario=scenario)
+
+    for ran, name in ((wrong, "uav[3]"), (other, "uav")):
+        assert ran.code == 1
+        assert f"error[SW0202]: no robot called `{name}`" in ran.err
+
+
+ALONE = """
+  endless statemachine Alone {
+    var before : uint32 = self.index
+    initial A
+    state A { on Start / send Found(id = self.role, level = self.count) to self.id }
+  }
+"""
+
+
+def test_a_machine_alone_runs_on_a_robot(simulate: Simulate) -> None:
+    scenario = "[self]\nid = 'uav[1]'\ncount = 4"
+    ran = simulate(ALONE, events=[{"event": "Start"}], scenario=scenario)
+    unsaid = simulate(ALONE, events=[{"event": "Start"}], scenario="[self]\nid = 'uav[1]'")
+
+    assert ran.trace[-1]["member"] == "uav[1]"
+    assert ran.trace[-1]["to"] == ["uav[1]"]
+    assert "uav[1]" in ran.err.split("in the end")[1]
+    assert (unsaid.code, unsaid.trace[-1]["to"]) == (0, ["uav[1]"])
+
+
+@pytest.mark.parametrize(
+    ("text", "told_"),
+    [
+        ("id = 3", "`id` takes the id of a robot, not `3`"),
+        ("id = 'uav[3]'\ncount = 3", "`count` takes a whole number from 4, not `3`"),
+        ("name = 'uav[3]'", "`[self]` has no key `name`"),
+    ],
+)
+def test_mistakes_in_the_robot_of_a_machine(simulate: Simulate, text: str, told_: str) -> None:
+    ran = simulate(ALONE, scenario=f"[self]\n{text}")
+
+    assert ran.code == 1
+    assert told_ in ran.err
+
+
+def test_robots_of_a_swarm_know_who_they_are(simulate: Simulate) -> None:
+    ran = simulate(told("send Stop"), scenario="[self]\nid = 'uav[1]'")
+
+    assert ran.code == 1
+    assert "error[SW0012]: a scenario has no key `self`" in ran.err
+
+
 def test_the_sender_of_an_event_is_a_name(simulate: Simulate) -> None:
     ran = simulate(told("send Stop"), events=[{"event": "Found", "sender": 3}])
     assert "SW0013" in ran.err

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from typing import Any, cast
 
 from swarmdsl import ir
@@ -98,9 +98,11 @@ class Context:
         """Return the context inside a reused machine."""
         return replace(self, variables=variables, values=values)
 
-    def with_event(self, type_: ir.Type, *, of_swarm: bool) -> Context:
-        """Return the context in which `event` is a message of that type."""
-        return replace(self, typing=self.typing.on_event(type_, of_swarm=of_swarm))
+    def with_event(self, types: Sequence[ir.Type], *, of_swarm: bool) -> Context:
+        """Return the context of events with messages of these types: `event` is one of them."""
+        alike = all(each == types[0] for each in types)
+        typing = self.typing.on_event(types[0], known=alike, of_swarm=of_swarm)
+        return replace(self, typing=typing)
 
     def type_of(self, ref: TypeRef) -> ir.Type:
         """Return the type of a resolved type reference; for an enum its integer type."""

@@ -126,8 +126,10 @@ def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
         case FieldUse(base=NameUse(name="event") as event, name=name) if context.typing.is_envelope(
             name
         ):
-            message = ir.EventData(_type_of(event, context), event.span)
-            header = _header(message, str(name), tree.span, context)
+            header = None
+            if context.typing.has_event:
+                message = ir.EventData(_type_of(event, context), event.span)
+                header = _header(message, str(name), tree.span, context)
             return ir.EnvelopeField(str(name), ENVELOPE_FIELDS[name], header, tree.span)
         case FieldUse(base=base, name=name):
             return _field(lower_tree(base, context), str(name), tree.span, context)

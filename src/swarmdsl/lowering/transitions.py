@@ -91,10 +91,11 @@ def _transition(
     a transition on that has no trigger.
     """
     context = frame.context
-    types = [_message_type(trigger, context) for trigger in transition.triggers]
-    if types and types[0] is not None:
+    messages = [_message_type(trigger, context) for trigger in transition.triggers]
+    types = [type_ for type_ in messages if type_ is not None]
+    if types and len(types) == len(messages):
         of_swarm = all(map(is_of_swarm, transition.triggers))
-        context = context.with_event(types[0], of_swarm=of_swarm)
+        context = context.with_event(types, of_swarm=of_swarm)
     waiting = [t for t in transition.triggers if not _is_immediate(t, owner)]
     triggers = tuple(_trigger(trigger, owner, frame) for trigger in waiting)
     made = ir.Transition(

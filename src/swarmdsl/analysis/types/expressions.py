@@ -104,8 +104,8 @@ class Typing:
             case FieldUse(base=NameUse(name="self"), name=name):
                 return self._own(name)
             case FieldUse(base=NameUse(name="event"), name=name) if (
-                self.has_event and name in ENVELOPE_FIELDS
-            ):
+                self.has_event or self.of_swarm
+            ) and name in ENVELOPE_FIELDS:
                 return self._fact(name)
             case FieldUse(base=base, name=name):
                 return self.field(self.infer(base), name, name.span)
@@ -132,6 +132,7 @@ class Typing:
                     use.span,
                     help="use it in a guard or effect of a transition on one event",
                 )
+                return None
             return self.event
         if use.name == "self":
             self.report.report(
@@ -296,10 +297,13 @@ class Typing:
     def is_envelope(self, name: str) -> bool:
         """Return True for a field of `event` that is a fact about the event, not its message.
 
-        A field of the message hides it.
+        A field of the message hides it. Several swarm events with different messages have no
+        message in common, but such facts.
         """
-        if not self.has_event or name not in ENVELOPE_FIELDS:
+        if name not in ENVELOPE_FIELDS:
             return False
+        if not self.has_event:
+            return self.of_swarm
         fields = self.interfaces.fields(self.event) if isinstance(self.event, Named) else None
         return self.of_swarm if fields is None else all(each.name != name for each in fields)
 

@@ -75,7 +75,7 @@ def actors(
 
 def _table(robot: Robot, part: ir.Part | None) -> str:
     """Return the table of a scenario with the params of a role, or of a machine alone."""
-    if not robot.role:
+    if not robot.kind:
         return "[params]"
     return f"[params.{robot.role}]" if part is None else f'[params."{robot.role}.{part.name}"]'
 

@@ -102,7 +102,7 @@ def _prepare(request: Request, report: Diagnostics) -> _Play | None:
     scenario = _scenario(request.scenario, subject, report)
     if scenario is None:
         return None
-    robots = subject.create_robots(scenario.counts)
+    robots = subject.create_robots(scenario.counts, scenario.alone)
     cast = actors(subject, robots, scenario, report)
     if report.has_errors:
         return None

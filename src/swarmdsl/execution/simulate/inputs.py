@@ -111,12 +111,11 @@ class Reader:
             self._wrong(_at(place, "after"), "after", "a number of milliseconds from 0", after)
             return None
         to = self._recipients(value.get("member"), name, place)
-        if to is None or not self._is_known(name, place):
+        sender = self._sender(value, place)
+        if to is None or sender is None or not self._is_known(name, place):
             return None
-        sender = value.get("sender", "")
-        if not isinstance(sender, str):
-            self._wrong(_at(place, "sender"), "sender", "the id of a robot", sender)
-            return None
+        if sender and value.get("member") is None:
+            to = tuple(actor for actor in to if actor.robot.name != sender)
         data = value.get("data")
         event = self._declared(name)
         if event is not None and self._subject.system is not None:
@@ -150,6 +149,19 @@ class Reader:
             return None
         listening = tuple(each for each in named if each.listens(event))
         return listening or tuple(named)
+
+    def _sender(self, value: dict[str, Any], place: Span) -> str | None:
+        """Return the robot in whose name an event comes; alone, a machine can hear any."""
+        sender = value.get("sender", "")
+        if not isinstance(sender, str):
+            self._wrong(_at(place, "sender"), "sender", "the id of a robot", sender)
+            return None
+        robots = {actor.robot.name or "": None for actor in self._actors}
+        if not sender or sender in robots or self._subject.swarm is None:
+            return sender
+        at, help_ = _at(place, sender), suggest(sender, robots, "robots")
+        self.report.report("unresolved-name", at, kind="robot", name=sender, help=help_)
+        return None
 
     def _is_known(self, name: str, place: Span) -> bool:
         """Return True if the event exists; machines have more than the model declares."""

@@ -101,13 +101,17 @@ class FunctionBehavior:
 
 @dataclass(frozen=True)
 class Message:
-    """Event from outside, once or periodically; `to` selects robots."""
+    """Event from outside, once or periodically; `to` selects robots.
+
+    `sender` is the robot in whose name it comes, empty for an event from outside of the swarm.
+    """
 
     event: str
     at: Length
     every: int | None = None
     to: tuple[str, ...] | None = None
     data: Any = None
+    sender: str = ""
 
 
 @dataclass(frozen=True)
@@ -134,7 +138,8 @@ class Scenario:
     """A scenario as plain data; by default, every function succeeds.
 
     The keys of `functions` are a function name and a word that selects robots: a type of member, a
-    role, a robot, or "" for all. `params` has values by such words.
+    role, a robot, or "" for all. `params` has values by such words. `alone` is the robot that a
+    machine without a swarm runs on.
     """
 
     seed: int = 0
@@ -146,6 +151,7 @@ class Scenario:
     loss: float = 0.0
     messages: tuple[Message, ...] = ()
     faults: tuple[Fault, ...] = ()
+    alone: Robot = field(default_factory=Robot)
 
     def behavior(self, function: str, robot: Robot) -> FunctionBehavior:
         """Return the behavior of a robot's function; the most specific setting wins."""

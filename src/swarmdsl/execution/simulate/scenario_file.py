@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import replace
 from swarmdsl.driver.config.toml import Document
 from swarmdsl.execution.simulate.actors import params, words
 from swarmdsl.execution.simulate.durations import MILLISECOND
@@ -15,7 +16,7 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.values import Way, fitted, fitted_result
 from swarmdsl.ir import Communication, Type
 
-TABLES = ("seed", "until", "count", "params", "network", "functions", "messages", "faults")
+TABLES = ("seed", "until", "self", "count", "params", "network", "functions", "messages", "faults")
 _SHARES = ("aborted", "preempted", "never")
 _FUNCTION = ("duration", "stopping", *_SHARES, "results", "of")
 
@@ -38,7 +39,8 @@ class _Reader:
         top = self.top
         top.check_keys(TABLES, "a scenario")
         counts = self.counts()
-        self.robots = self.subject.create_robots(counts)
+        alone = self.robot_alone()
+        self.robots = self.subject.create_robots(counts, alone)
         self.members = list(dict.fromkeys(w for robot in self.robots for w in robot.words))
         network = top.inside("network")
         network.check_keys(("latency", "loss"), "`[network]`")
@@ -50,6 +52,7 @@ class _Reader:
         }
         return Scenario(
             counts=counts,
+            alone=alone,
             params=self.params(),
             functions=self.functions(),
             messages=tuple(m for m in map(self.message, top.items("messages")) if m is not None),
@@ -71,6 +74,22 @@ class _Reader:
             if count is not None:
                 found[name] = count
         return found
+
+    def robot_alone(self) -> Robot:
+        """Read the robot that a machine alone runs on."""
+        if "self" not in self.top:
+            return Robot()
+        table = self.top.inside("self")
+        if self.subject.machine is None:
+            help_ = "only a state machine of a model that runs alone, with `machine`, has it"
+            place = self.top.key_place("self")
+            self.report.report("unknown-key", place, name="self", owner="a scenario", help=help_)
+            return Robot()
+        table.check_keys(("id", "count"), "`[self]`")
+        name = table.text("id", "the id of a robot") if "id" in table else None
+        robot = Robot.called(name) if name else Robot()
+        count = table.whole("count", robot.index + 1) if "count" in table else None
+        return robot if count is None else replace(robot, count=count)
 
     def params(self) -> dict[str, dict[str, Any]]:
         """Read param values by the word that selects members."""
@@ -177,7 +196,7 @@ class _Reader:
 
     def message(self, table: Table) -> Message | None:
         """Read an event from outside."""
-        table.check_keys(("event", "at", "every", "to", "data"), "a message")
+        table.check_keys(("event", "at", "every", "to", "data", "sender"), "a message")
         if not self.needs(table, "event", "at"):
             return None
         system = self.subject.system
@@ -199,7 +218,14 @@ class _Reader:
         if every is not None and every < MILLISECOND:
             table.wrong(("every",), "a time of 1 ms or more", table.values["every"])
         to = table.names("to", self.members, "member") if "to" in table else None
-        return Message(event, at, every, to, data) if at is not None else None
+        sender = self.sender(table) if "sender" in table else ""
+        return Message(event, at, every, to, data, sender or "") if at is not None else None
+
+    def sender(self, table: Table) -> str | None:
+        """Read the robot in whose name an event comes; alone, a machine can hear any."""
+        if self.subject.swarm is None:
+            return table.text("sender", "the id of a robot")
+        return table.name("sender", [robot.name for robot in self.robots if robot.name], "robot")
 
     def fault(self, table: Table) -> Fault | None:
         """Read a fault."""

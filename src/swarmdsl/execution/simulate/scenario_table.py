@@ -131,6 +131,14 @@ class Table:
         self.wrong((key,), words, value)
         return None
 
+    def text(self, key: str, what: str) -> str | None:
+        """Read a string that is not empty."""
+        value = self.values[key]
+        if isinstance(value, str) and value:
+            return value
+        self.wrong((key,), what, value)
+        return None
+
     def name(self, key: str, known: Iterable[str], what: str) -> str | None:
         """Read one of the known names."""
         return self._name((key,), self.values[key], known, what)

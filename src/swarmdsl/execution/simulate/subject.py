@@ -58,10 +58,10 @@ class Subject:
     def _number(self, role: ir.Role, counts: Mapping[str, int]) -> int:
         return counts.get(role.name, max(role.multiplicity.lower, 1))
 
-    def create_robots(self, counts: Mapping[str, int]) -> list[Robot]:
-        """Create the members, up to MOST_MEMBERS."""
+    def create_robots(self, counts: Mapping[str, int], alone: Robot | None = None) -> list[Robot]:
+        """Create the members, up to MOST_MEMBERS; `alone` is that of a machine without a swarm."""
         if self.swarm is None:
-            return [Robot()]
+            return [alone or Robot()]
         members = (
             Robot(f"{role.name}[{number}]", role.name, role.member, number, count)
             for role in self.swarm.roles

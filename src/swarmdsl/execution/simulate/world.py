@@ -136,7 +136,7 @@ class World:
         for message in self._scenario.messages:
             said[message.event] += 1
             for robot in self.robots:
-                if is_selected(robot, message.to):
+                if is_selected(robot, message.to) and robot.name != message.sender:
                     chance = self._chance.stream(
                         robot.name, "hears", message.event, said[message.event]
                     )
@@ -376,7 +376,8 @@ class World:
         def arrive() -> None:
             if message.every is not None and robot not in self.network.gone:
                 self.clock.schedule(message.every, arrive)
-            self.deliver(message.event, message.data, self.listeners(message.event, robot))
+            to = self.listeners(message.event, robot)
+            self.deliver(message.event, message.data, to, message.sender)
 
         return arrive
 

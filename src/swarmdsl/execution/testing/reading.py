@@ -110,7 +110,9 @@ class _Reader:
         share = passing.share("passing") if "passing" in passing else 1.0
         if subject is None or scenario is None:
             return None
-        cast = actors(subject, subject.create_robots(scenario.counts), scenario, table.report)
+        cast = actors(
+            subject, subject.create_robots(scenario.counts, scenario.alone), scenario, table.report
+        )
         if not cast:
             return None
         reader = StepReader(Names(subject, cast, table.report), table.report)

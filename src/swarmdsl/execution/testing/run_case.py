@@ -66,7 +66,7 @@ def run_case(case: Case, seed: int, listener: Callable[[Line], None]) -> RunResu
 class _CaseRun:
     def __init__(self, case: Case, seed: int, listener: Callable[[Line], None]) -> None:
         self._case = case
-        robots = case.subject.create_robots(case.scenario.counts)
+        robots = case.subject.create_robots(case.scenario.counts, case.scenario.alone)
         # Actors are not reusable: a run changes their data.
         self._cast = actors(case.subject, robots, case.scenario, Diagnostics())
         self._recorder = Recorder(self._cast, lambda actor: self._world.data(actor))

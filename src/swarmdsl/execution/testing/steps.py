@@ -13,7 +13,7 @@ from swarmdsl.base.suggest import suggest
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.table import OUTCOMES
-from swarmdsl.execution.simulate.values import fitted, fitted_result, kind
+from swarmdsl.execution.simulate.values import fitted, fitted_result
 from swarmdsl.execution.testing.case import (
     ALL,
     ANY,
@@ -105,10 +105,15 @@ class StepReader:
 
     def _send(self, table: Table) -> Send | None:
         place = table.value_place(("send",))
-        event = _text(table, "send", "the name of an event")
+        event = table.text("send", "the name of an event")
         who = self._members(table, "to") if "to" in table else self._names.all_machines()
         if event is None or not who or not self._names.is_known("event", event, place):
             return None
+        sender = self._sender(table) if "sender" in table else ""
+        if sender is None:
+            return None
+        if sender and "to" not in table:
+            who = [n for n in who if self._names.cast[n].robot.name != sender]
         listening = [n for n in who if self._names.cast[n].listens(event)]
         if not listening:
             self._report.report("unheard-event", place, name=event)
@@ -119,14 +124,18 @@ class StepReader:
             data = fitted(type_, {}, system)
             if "data" in table:
                 data = table.fitted(lambda value, way: fitted(type_, value, system, way), "data")
-        robot = _text(table, "sender", "the id of a robot") if "sender" in table else None
-        if robot is None and "sender" in table:
-            return None
-        return Send(place, event, data, tuple(listening), robot or "")
+        return Send(place, event, data, tuple(listening), sender)
+
+    def _sender(self, table: Table) -> str | None:
+        """Read the robot in whose name an event comes; alone, a machine can hear any."""
+        if self._names.subject.swarm is None:
+            return table.text("sender", "the id of a robot")
+        robots = dict.fromkeys(actor.robot.name for actor in self._names.cast)
+        return table.name("sender", [name for name in robots if name], "robot")
 
     def _end(self, table: Table) -> End | None:
         place = table.value_place(("end",))
-        function = _text(table, "end", "the name of a function")
+        function = table.text("end", "the name of a function")
         outcome = table.name("as", OUTCOMES, "outcome") if "as" in table else "succeeded"
         who = self._members(table, "of") if "of" in table else self._names.all_machines()
         if function is None or outcome is None or not who:
@@ -231,7 +240,7 @@ class StepReader:
             claim = Claim(place, text, quantity, tuple(values), values=values)
         else:
             what = "the name of an event" if verb == "sends" else "the name of a function"
-            name = _text(table, verb, what)
+            name = table.text(verb, what)
             place = table.value_place((verb,))
             action = _ACTION_KINDS[verb]
             able = self._names.machines_able(who, word, action, name, place) if name else []
@@ -245,7 +254,7 @@ class StepReader:
                 text += f" with `{describe_fields(data, data)}`"
             address = None
             if "to" in table:
-                address = _text(table, "to", "the id of a robot, or a role")
+                address = table.text("to", "the id of a robot, or a role")
                 if address is None:
                     return None
                 in_swarm = self._names.subject.swarm is not None
@@ -297,7 +306,7 @@ class StepReader:
         return [(name, table.value_place(way)) for name, way in zip(each, ways, strict=True)]
 
     def _members(self, table: Table, key: str) -> list[int]:
-        word = _text(table, key, "the name of a member, of a role or of a type of member")
+        word = table.text(key, "the name of a member, of a role or of a type of member")
         return self._names.members(word, table.value_place((key,))) if word is not None else []
 
     def _only(self, table: Table, keys: tuple[str, ...], what: str) -> str | None:
@@ -330,13 +339,3 @@ def _words(table: Table, key: str | None) -> str:
     if key in (None, "who"):
         return name
     return f"{key} {name}"
-
-
-def _text(table: Table, key: str, what: str) -> str | None:
-    value = table.values[key]
-    if isinstance(value, str) and value:
-        return value
-    table.report.report(
-        "wrong-value", table.value_place((key,)), name=key, expected=what, found=kind(value)
-    )
-    return None

@@ -138,9 +138,10 @@ def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:
                 for each in transition.triggers
                 if isinstance(each, (EventTrigger, MonitorTrigger))
             ]
-            types = [_message(each) for each in triggers]
+            types = [_message(each) for each in triggers] or [None]
+            alike = all(each == types[0] for each in types)
             of_swarm = bool(triggers) and all(map(is_of_swarm, triggers))
-            return typing.on_event(types[0] if types else None, of_swarm=of_swarm)
+            return typing.on_event(types[0], known=alike, of_swarm=of_swarm)
     return typing
 
 

@@ -48,10 +48,7 @@ def find_references(
     assert source.path is not None  # it was read from a file
     if source.path.name.endswith(SUFFIX):
         paths = {Path(os.path.realpath(path)) for path in files}
-        found = _references_in(source, old, new, _tests(before, paths), _tests(after, paths))
-        if old in _roles(before) and old not in _roles(after):
-            return _with_senders(found, source, old, new)
-        return found
+        return _references_in(source, old, new, _tests(before, paths), _tests(after, paths))
     document = parse_toml(source, Diagnostics())
     if document is None or not document.values.keys() <= set(TABLES):
         return References()
@@ -64,20 +61,6 @@ def find_references(
     # A scenario does not name its swarm or state machine: all candidates must agree.
     agree = all(each == readings[0] for each in readings)
     return readings[0] if readings and agree else References()
-
-
-def _roles(system: System) -> set[str]:
-    return {role.name for swarm in system.swarms for role in swarm.roles}
-
-
-def _with_senders(found: References, source: Source, old: str, new: str) -> References:
-    """Add the senders of events: any string can be one, so that no reader of tests rejects it."""
-    pattern = re.compile(rf'\bsender\s*=\s*["\']({re.escape(old)})(?:\[[0-9]+\])?["\']')
-    places = [each.span(1) for each in pattern.finditer(source.text)]
-    known = {start for start, _, _ in found.changes}
-    more = [(start, end, new) for start, end in places if start not in known]
-    others = found.others - {start for start, _ in places}
-    return References(sorted([*found.changes, *more]), others)
 
 
 def _references_in(
