@@ -272,7 +272,7 @@ def test_a_role_that_another_swarm_has_too(swarmc, yard) -> None:
     (yard / "yard.swarm").write_text(model)
     ran = swarmc("rename", "Yard.cart", "van")
     assert (ran.code, "SW1505" in ran.err) == (1, True)
-    assert "no role in swarm `Farm` called `van`" in ran.err
+    assert "it is also a role of another swarm that runs `Roll`" in ran.err
     assert (yard / "yard.swarm").read_text() == model
 
 
@@ -404,3 +404,47 @@ def test_what_stays_where_nothing_says_what_it_means(swarmc, yard) -> None:
     )
     assert "other.toml" not in ran.err
     assert "keeps this name" not in ran.err
+
+
+IDENTIFIED = """endless statemachine Watching {
+  var last : string = "cart[0]"
+  initial A
+  state A {
+    on member_lost [event.role == "cart" and present(cart) < 2 or event.id == "cart[1]"] -> A
+    after 2 s [self.role != "cart"] -> A
+    after 3 s [last == "cart[1]"] -> A
+  }
+}
+
+member Cart { behavior Watching }
+
+swarm Yard {
+  heartbeat 1 s lost after 5 s
+  cart : Cart[2]
+}
+"""
+
+
+def test_a_role_in_comparisons(swarmc, yard) -> None:
+    """Strings that may mean something else are told."""
+    (yard / "yard.swarm").write_text(IDENTIFIED)
+    ran = swarmc("rename", "Yard.cart", "van")
+    lines = IDENTIFIED.splitlines()
+    for number in (4, 5, 14):
+        lines[number] = lines[number].replace("cart", "van")
+    assert (yard / "yard.swarm").read_text().splitlines() == lines
+    assert [line for line in ran.err.splitlines() if "-->" in line] == [
+        " --> yard.swarm:2:23",
+        " --> yard.swarm:7:24",
+    ]
+
+
+def test_a_role_in_comparisons_of_two_swarms(swarmc, yard) -> None:
+    """The comparison would be with a role that the other swarm does not have."""
+    model = IDENTIFIED.replace(" and present(cart) < 2", "")
+    model += "swarm Farm { heartbeat 1 s lost after 5 s; cart : Cart }\n"
+    (yard / "yard.swarm").write_text(model)
+    ran = swarmc("rename", "Yard.cart", "van")
+    assert ran.code == 1
+    assert "it is also a role of another swarm that runs `Watching`" in ran.err
+    assert (yard / "yard.swarm").read_text() == model

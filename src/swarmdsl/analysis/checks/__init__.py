@@ -21,6 +21,7 @@ from swarmdsl.analysis.checks.enums import check_enum
 from swarmdsl.analysis.checks.events import check_events
 from swarmdsl.analysis.checks.expressions import check_expressions
 from swarmdsl.analysis.checks.guards import check_guards
+from swarmdsl.analysis.checks.identities import check_identities
 from swarmdsl.analysis.checks.ignored_events import check_ignored_events
 from swarmdsl.analysis.checks.initialization import check_initialization
 from swarmdsl.analysis.checks.interfaces import (
@@ -88,6 +89,7 @@ PROJECT_PASSES: Sequence[Callable[[Project, Context], None]] = (
     check_events,
     check_ignored_events,
     check_addresses,
+    check_identities,
     check_membership,
     check_subjects,
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from swarmdsl.analysis.checks.context import Context
@@ -15,13 +14,12 @@ from swarmdsl.analysis.resolve.addresses import (
     roles_of,
     values_like_roles,
 )
+from swarmdsl.analysis.resolve.identities import robot_named
 from swarmdsl.analysis.resolve.multiplicity import greatest
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.suggest import suggest
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import Address, Role, Send, StateMachine, Swarm, nodes_of
-
-_ROBOT = re.compile(r"(.*)\[(\d{1,18})\]", re.DOTALL)
 
 
 def check_addresses(project: Project, context: Context) -> None:
@@ -72,8 +70,7 @@ def _constant_ids(
         value = context.typing.folding.value(tree)
         if not isinstance(value, str):
             continue
-        robot = _ROBOT.fullmatch(value)
-        name, number = (robot[1], int(robot[2])) if robot else (value, None)
+        name, number = robot_named(value)
         for crew in crews:
             if machine in crew.machines:
                 role = crew.roles.get(name)

@@ -20,7 +20,6 @@ from swarmdsl.syntax.ast import (
     Role,
     StateMachine,
     Swarm,
-    Value,
     nodes_of,
 )
 
@@ -60,20 +59,6 @@ def named_roles(machine: StateMachine, crews: Iterable[Crew]) -> Iterator[NamedR
             if address.named_role is not None:
                 name, span = address.named_role
                 yield NamedRole(address, name, span, crew.swarm, crew.roles.get(name))
-
-
-def written_roles(machine: StateMachine, crews: Iterable[Crew]) -> Iterator[NamedRole]:
-    """Yield the roles in ids that an address writes as a string, `"uav[2]"`."""
-    for address in nodes_of(machine, Address):
-        tree = address.id.tree if address.id is not None else None
-        if not (isinstance(tree, Value) and isinstance(tree.value, str)):
-            continue
-        name = tree.value.partition("[")[0]
-        start = tree.span.start + 1
-        span = Span(tree.span.source, start, start + len(name))
-        for crew in crews:
-            if machine in crew.machines and name in crew.roles and span.text == name:
-                yield NamedRole(address, name, span, crew.swarm, crew.roles[name])
 
 
 def values_like_roles(machine: StateMachine, crew: Crew) -> Iterator[tuple[NameUse, Role]]:

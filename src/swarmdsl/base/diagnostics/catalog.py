@@ -154,6 +154,9 @@ CODES: dict[str, Code] = {
     "no-heartbeat": Code("SW0541", "error", "`{name}` needs a heartbeat, which {swarms} lacks"),
     "misplaced-membership": Code("SW0542", "error", "`{name}` {fault}"),
     "unnoticed-time": Code("SW0543", "warning", "time alone does not take this transition"),
+    "unknown-identity": Code(
+        "SW0544", "warning", "no robot of swarm {swarms} has the {what} `{name}`"
+    ),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "missing value for {fields} in {owner}"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.analysis.node_kinds import KINDS
-from swarmdsl.analysis.resolve.addresses import crews_of, named_roles, swarms_of, written_roles
+from swarmdsl.analysis.resolve.identities import role_uses
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
 from swarmdsl.analysis.resolve.set_params import set_params
@@ -15,7 +15,6 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.project.libraries import imported_name, place_of
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
-    Address,
     EnumType,
     FieldUse,
     NameUse,
@@ -97,11 +96,9 @@ def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
     for use in nodes_of(owner, NameUse):
         if use.target is not None:
             yield _last_segment(use.span, use.name, use.target)
-    if isinstance(owner, StateMachine) and nodes_of(owner, Address):
-        crews = crews_of(swarms_of(scope.project))
-        for named in (*named_roles(owner, crews), *written_roles(owner, crews)):
-            if named.role is not None:
-                yield Occurrence(named.span.absolute, named.role)
+    if isinstance(owner, StateMachine):
+        for span, role in role_uses(owner, scope.project):
+            yield Occurrence(span.absolute, role)
     for type_ in nodes_of(owner, TypeRef):
         found = scope.find(type_.name)
         if len(found) == 1:

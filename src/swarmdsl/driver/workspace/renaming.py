@@ -10,14 +10,20 @@ from collections import Counter
 from pathlib import Path
 
 from swarmdsl.analysis.node_kinds import KINDS, kind_of
+from swarmdsl.analysis.resolve.identities import role_uses
 from swarmdsl.base.diagnostics.collector import Severity
 from swarmdsl.base.source import Span
 from swarmdsl.base.text_edits import Edits
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.bound_params import bound_together
-from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
+from swarmdsl.driver.workspace.references import (
+    Occurrence,
+    occurrence_at,
+    occurrences_of,
+    owners,
+)
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Field, Node, Parameter, Port
+from swarmdsl.syntax.ast import Field, Node, Parameter, Port, Role, StateMachine
 from swarmdsl.syntax.parser.keywords import RESERVED
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -56,7 +62,9 @@ def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Spa
     spans = _spans(found.node, workspace)
     if any(span.text != found.span.text for span in spans):
         raise RefusedError(f"`{found.span.text}` has a different name where it is used")
-    objection = _conflict(workspace, found, spans, name) if name != found.span.text else None
+    objection = None
+    if name != found.span.text:
+        objection = _shared(workspace, found, spans) or _conflict(workspace, found, spans, name)
     if objection is not None:
         raise RefusedError(objection)
     return spans
@@ -84,6 +92,20 @@ def _conflict(workspace: Workspace, found: Occurrence, spans: list[Span], name: 
         if again is None:
             return other
         return None if len(_spans(again.node, workspace)) == len(spans) else other
+
+
+def _shared(workspace: Workspace, found: Occurrence, spans: list[Span]) -> str | None:
+    """Return the objection to a role whose name in a machine is one of another swarm, too."""
+    if not isinstance(found.node, Role):
+        return None
+    for file in workspace.project.files:
+        for machine in owners(file):
+            if not isinstance(machine, StateMachine):
+                continue
+            for span, role in role_uses(machine, workspace.project):
+                if role is not found.node and span.absolute in spans:
+                    return f"it is also a role of another swarm that runs `{machine.name}`"
+    return None
 
 
 def _spans(node: Node, workspace: Workspace) -> list[Span]:

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swarmdsl.analysis.resolve.identities import robot_named
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.read_files import MOST_DATA, read_file
 from swarmdsl.base.records import dataclass
@@ -15,11 +16,13 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config import find_file, find_settings
 from swarmdsl.driver.format_files import write
 from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.references import owners
 from swarmdsl.driver.workspace.renaming import RefusedError, replaced
 from swarmdsl.driver.workspace.renaming import rename as places_of
 from swarmdsl.driver.write_bounds import may_write_models
 from swarmdsl.project.read_source import read_source
 from swarmdsl.project.search import found_below
+from swarmdsl.syntax.ast import Role, Value, nodes_of
 from swarmdsl.tools.refactor.names import NamedElement, all_elements, find_elements, suggest_path
 from swarmdsl.tools.scaffold.names import command_line_span
 
@@ -69,6 +72,8 @@ def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) 
     )
     layouts = [rewritten(str(path), read_file(path), made) for path, made in changes.items()]
     _check_style(workspace, spans, new, report)
+    if isinstance(found.node, Role):
+        _check_strings(workspace, found.path[-1], spans, report)
     names = [layout.name for layout in layouts]
     if not may_write_models(names, paths, report) or not (dry_run or write(layouts, report)):
         return RenameResult(report, workspace.files)
@@ -117,6 +122,21 @@ def _check_style(workspace: Workspace, spans: list[Span], new: str, report: Diag
     with workspace.overriding(replaced(spans, new)):
         found = [each for each in workspace.report if each.name == "naming-style"]
     report.include(each for each in found if each.message not in known)
+
+
+def _check_strings(
+    workspace: Workspace, old: str, spans: Sequence[Span], report: Diagnostics
+) -> None:
+    """Report strings that are ids of a renamed role, but that may mean something else."""
+    changed = {(span.source.path, span.start - 1) for span in spans}
+    for file in workspace.project.files:
+        for owner in owners(file) if not file.library else ():
+            for text in nodes_of(owner, Value):
+                source, start, _ = text.span.absolute
+                named = isinstance(text.value, str) and robot_named(text.value)[0] == old
+                if named and (source.path, start) not in changed:
+                    hint = "change it too if it is the name of a robot or of the role"
+                    report.report("still-named", text.span, name=old, help=hint)
 
 
 def _test_changes(

@@ -1,0 +1,79 @@
+"""Checks of comparisons with the names of robots and roles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.resolve.addresses import Crew, crews_of
+from swarmdsl.analysis.resolve.identities import Comparison, comparisons, robot_named
+from swarmdsl.analysis.resolve.multiplicity import greatest
+from swarmdsl.base.diagnostics.collector import listed
+from swarmdsl.base.suggest import suggest
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import EventTrigger, StateMachine, Swarm
+
+
+def check_identities(project: Project, context: Context) -> None:
+    """Report comparisons with a robot or role that no swarm which runs the machine has."""
+    used = [node for _, node in context.used]
+    crews: list[Crew] | None = None
+    for node in used:
+        found = list(comparisons(node)) if isinstance(node, StateMachine) else ()
+        if not found:
+            continue
+        if crews is None:
+            crews = crews_of(each for each in used if isinstance(each, Swarm))
+        running = [crew for crew in crews if node in crew.machines]
+        if any(crew.swarm in context.incomplete for crew in running):
+            continue
+        for each in found if running else ():
+            # An event from outside and a machine alone have an empty name.
+            value = str(each.value.value)
+            if value and _is_fact(each, context) and not any(_has(c, each) for c in running):
+                _report(each, running, context)
+
+
+def _is_fact(comparison: Comparison, context: Context) -> bool:
+    """Return False for a field of the message with the name of a fact about the event."""
+    events = [each for each in comparison.triggers if isinstance(each, EventTrigger)]
+    if not events or comparison.fact.name != "sender":
+        return True
+    return len(events) == len(comparison.triggers) and context.with_event(list(events)).is_envelope(
+        "sender"
+    )
+
+
+def _has(crew: Crew, comparison: Comparison) -> bool:
+    name = str(comparison.value.value)
+    if comparison.of_role:
+        return name in crew.roles
+    role, number = robot_named(name)
+    if role not in crew.roles or number is None:
+        return False
+    most = greatest(crew.roles[role])
+    return most is None or number < most
+
+
+def _report(comparison: Comparison, running: Sequence[Crew], context: Context) -> None:
+    name = str(comparison.value.value)
+    role, number = robot_named(name)
+    roles = dict.fromkeys(each for crew in running for each in crew.roles)
+    help_ = None
+    if context.report.wants_hint("unknown-identity"):
+        if comparison.of_role and role in roles:
+            help_ = f"this is a robot; its role is `{role}`"
+        elif not comparison.of_role and number is None and role in roles:
+            help_ = f"this is a role; its robots are `{role}[0]` and so on"
+        elif role in roles:
+            help_ = "robots are counted from 0"
+        else:
+            help_ = suggest(role, roles, "roles")
+    context.report.report(
+        "unknown-identity",
+        comparison.value.span,
+        swarms=listed([str(crew.swarm.name) for crew in running], "or"),
+        what="role" if comparison.of_role else "id",
+        name=name,
+        help=help_,
+    )
