@@ -148,6 +148,25 @@ def test_events_in_envelopes(compiled: Compile) -> None:
     }
 
 
+def test_events_between_the_machines_of_a_robot(compiled: Compile) -> None:
+    """A swarm event is for other robots: the envelope tells the robot that it is its own."""
+    model = """
+      swarm event Seen : std_msgs/Empty
+      swarm event Lost : std_msgs/Empty
+      endless statemachine Look { initial A; state A { after 1 s / send Seen, send Lost -> A } }
+      endless statemachine Act { initial A; state A { on Seen -> A } }
+      sensor Eye { behavior Look }
+      member Scout { behavior Act; eye : Eye }
+      member Other { behavior Look }
+      swarm S { scout : Scout[2]; other : Other }
+    """
+    files = {path: content["services"] for path, content in emitted(compiled(model)).items()}
+    for name in ("scout.cfg", "other.cfg"):
+        sent = {each["source"]: each["message"] for each in files[name]["outgoingEvents"]}
+        assert sent["seen"] == "test_events/SeenEnvelope"
+        assert "test_events" not in sent.get("lost", "")
+
+
 def test_what_the_bridge_cannot_take(compiled: Compile) -> None:
     system = compiled(
         """

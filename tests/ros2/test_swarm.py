@@ -92,6 +92,22 @@ def test_a_swarm_event_reaches_the_others_and_not_its_sender(ros: Any) -> None:
     assert nodes[0].wait_for("SawExit")["data"]["width"] == 0.25
 
 
+def test_a_swarm_event_of_a_part_is_for_other_robots(ros: Any) -> None:
+    """A robot does not hear what another one of its nodes sends."""
+    first, second = (
+        ros.node("lab_behavior.minding", f"/posts/post_{number}", member=f"post[{number}]")
+        for number in range(2)
+    )
+    for node in (first, second):
+        node.wait_in("Listen")
+    ros.node("lab_behavior.calling", "/posts/post_0", member="post[0].whistle")
+    second.wait_for("Called", 3)
+
+    ros.node("lab_behavior.calling", "/posts/post_1", member="post[1].whistle")
+    heard = first.wait_for("Called")
+    assert heard["envelope"]["sender"] == "post[1]"
+
+
 def test_robots_know_who_they_are(ros: Any) -> None:
     """One is a part of a launched robot; the other was started alone, with its name."""
     fakes = ros.fakes()

@@ -134,6 +134,15 @@ PLACES = {
     "role of one robot": (
         work("on Low / send Seen to |[0]") + "swarm S { rest : Robot[2] }", {"rest"}, {"Low"},
     ),
+    "counted role": (
+        work("on Low [present(|) > 1]") + "swarm S { lead : Robot; rest : Robot[2] }",
+        {"lead", "rest"}, {"spot", "Low"},
+    ),
+    "event of members": (work("on |"), {"Seen", "Low", "member_lost", "member_joined"}, {"spot"}),
+    "deferred event of members": (work("defer me|"), {"Seen", "member_lost"}, {"spot"}),
+    "declared event of members": (
+        work("on member|") + "event member_lost : std_msgs/Empty", {"member_lost"}, {"spot"},
+    ),
     "behind an event to send": (work("on Low / send Seen |"), {"to"}, {"spot"}),
     "self": (work("on Seen [|"), {"self", "event"}, {"id"}),
     "field of a field": (work("on Seen [event.place.|] -> Over"), {"x", "y", "z"}, {"id"}),

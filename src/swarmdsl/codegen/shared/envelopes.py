@@ -1,8 +1,9 @@
 """Envelopes: messages of ROS around those of swarm events that have no place for what is asked.
 
 A header of a message may tell its sender and its time; if it does not, or if the event has an
-address, an interface package of its own declares a message around it. Events whose sender, time
-and address nobody asks for keep their type.
+address, an interface package of its own declares a message around it. So it does for an event
+that one machine of a robot sends and another one handles: it is for other robots, and the envelope
+tells which one it is from. All other events keep their type.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ _TEXT, _TIME = Primitive("string"), Primitive("time")
 def envelopes_of(system: System) -> Mapping[str, Message]:
     """Return the envelope of each swarm event that needs one, by the name of the event."""
     needing = {name for machine in system.machines for name in _needing(machine)}
+    needing |= _between_machines(system)
     package, names = f"{snake_case(system.name)}_events", FreshNames()
     return {
         event.name: Message(
@@ -47,7 +49,7 @@ def envelopes_of(system: System) -> Mapping[str, Message]:
             origin=event.origin,
         )
         for event in system.events
-        if event.name in needing and isinstance(event.type, Named)
+        if event.swarm and event.name in needing and isinstance(event.type, Named)
     }
 
 
@@ -57,18 +59,50 @@ def reads_envelope(content: Iterable[Expression | Effect]) -> bool:
     return any(isinstance(part, EnvelopeField) and part.header is None for part in parts)
 
 
+def _between_machines(system: System) -> set[str]:
+    """Return the events that one machine of a robot sends, and another one of it handles."""
+    found = set()
+    components, machines = system.components_by_name, system.machines_by_name
+    for member in system.members:
+        parts = [components[part.component].behavior for part in member.parts]
+        run = [machines[name] for name in (member.behavior, *parts) if name is not None]
+        for number, sender in enumerate(run if len(run) > 1 else ()):
+            others = (*run[:number], *run[number + 1 :])
+            found |= _sent(sender) & {name for other in others for name in _handled(other)}
+    return found
+
+
+def _sent(machine: StateMachine) -> set[str]:
+    return {each.event for each in _effects(machine) if isinstance(each, Send)}
+
+
+def _handled(machine: StateMachine) -> set[str]:
+    return {
+        trigger.event
+        for state in machine.walk()
+        for transition in state.transitions
+        for trigger in transition.triggers
+        if isinstance(trigger, EventTrigger)
+    }
+
+
+def _effects(machine: StateMachine) -> Iterator[Effect]:
+    for state in machine.walk():
+        yield from (*state.entry, *state.exit)
+        for transition in state.transitions:
+            yield from transition.effects
+
+
 def _needing(machine: StateMachine) -> Iterator[str]:
     for state in machine.walk():
-        effects = [*state.entry, *state.exit]
         for transition in state.transitions:
-            effects += transition.effects
             guard = () if transition.guard is None else (transition.guard,)
             if reads_envelope((*guard, *transition.effects)):
                 triggers = transition.triggers
                 yield from (each.event for each in triggers if isinstance(each, EventTrigger))
-        for effect in effects:
-            if isinstance(effect, Send) and effect.to is not None:
-                yield effect.event
+    for effect in _effects(machine):
+        if isinstance(effect, Send) and effect.to is not None:
+            yield effect.event
 
 
 def _values(content: Iterable[Expression | Effect]) -> Iterator[Expression]:

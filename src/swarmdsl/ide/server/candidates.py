@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from swarmdsl.analysis.resolve.addresses import machines_in, roles_of, swarms_of
 from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.membership import member_events, presence_calls
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import content, regions, vertices
 from swarmdsl.driver.workspace import Workspace
@@ -18,8 +19,11 @@ from swarmdsl.syntax.ast import (
     Component,
     Constant,
     Container,
+    DeferredEvent,
     DoneTrigger,
     EnumType,
+    Event,
+    EventTrigger,
     FieldUse,
     FinalState,
     FitnessInput,
@@ -74,8 +78,11 @@ class Candidates:
                     yield enum.values
                 else:
                     yield fields_of(field, owner, self._workspace.project)
+        counted = {each for call in presence_calls(owner) for each in call.arguments}
+        if any(PLACEHOLDER in each.span.text for each in counted):
+            yield self._roles()
         for use in nodes_of(owner, NameUse):
-            if PLACEHOLDER in use.name:
+            if PLACEHOLDER in use.name and use not in counted:
                 kinds = (Variable, Param, FitnessInput)
                 own = [node for kind in kinds for node in nodes_of(self._around, kind)]
                 if isinstance(self._around, StateMachine):
@@ -119,6 +126,11 @@ class Candidates:
         if kind is None or not issubclass(kind, TopLevel):
             return ()
         package = ".".join(path)
+        if not package and isinstance(holder, (DeferredEvent, EventTrigger)):
+            _, of_members = member_events()
+            declared = self._scope.names(Event)
+            undeclared = [node for name, node in of_members.items() if name not in declared]
+            return [*self._visible((kind,)), *undeclared]
         return [
             node
             for node in self._visible((kind,))
