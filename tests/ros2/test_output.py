@@ -286,6 +286,99 @@ def test_the_launch_file_starts_every_member(
         launch(left_count="5")
 
 
+WATCHED = """
+package lab
+event Take : std_msgs/Int32 on "take"
+swarm event Home : std_msgs/Empty
+swarm event Seen : std_msgs/Empty
+statemachine Carrying {
+  param most : int32 = 3
+  var load : int32 = 0
+  initial Empty
+  state Empty { on Take / load = event.data, send Home -> Loaded }
+  state Loaded { on Home -> Empty; on Seen -> Away }
+  final Away
+}
+member Carrier { behavior Carrying }
+member Spare {}
+swarm Depot { carrier : Carrier[2] }
+swarm Empty { spare : Spare }
+property Light of Depot : each carrier : never has [load > most]
+property Few of Depot : 1..2 carrier in Loaded leads to no carrier in Loaded within 1500 ms
+property Home1 of Depot : between Seen and carrier[1] in Away, carrier[1] hears Home at most 2 times
+"""
+
+
+def test_monitors_have_the_properties_of_a_swarm(generate: Generate, tmp_path: Path) -> None:
+    files = generate(WATCHED, monitors="true")
+    write(files, tmp_path)
+    text = files["lab_behavior/lab_behavior/depot_monitor.py"].text
+    for written in (
+        "Fact('has', condition='load > most')",
+        "Sentence('leads', within=1_500_000_000)",
+        "Fact('in', 'Loaded', robots=Robots('carrier', 'number', least=1, most=2))",
+        "Sentence('times', scope='between', times=2)",
+        "robots=Robots('carrier', 'index', number=1)",
+        "'carrier': Machine('carrying', ('Empty', 'Loaded', 'Away')),",
+    ):
+        assert written in text, text
+    machine = files["lab_behavior/lab_behavior/carrying.py"].text
+    assert "return machine.data.load > machine.data.most" in machine
+    assert "'load > most': holds_carrying," in machine
+    setup = files["lab_behavior/setup.py"].text
+    assert "'depot_monitor = lab_behavior.depot_monitor:main'," in setup
+    assert "## Monitor of Depot" in files["lab_behavior/README.md"].text
+    assert not any("monitor" in path for path in generate(MODEL))
+
+
+def test_what_monitors_cannot_watch_is_reported(
+    reported: Callable[..., list[tuple[str, str, str]]],
+) -> None:
+    without = WATCHED[: WATCHED.index("property")]
+    more = """
+property Outside of Depot : eventually Home
+property Alone of Carrying : eventually in Away
+property Nobody of Empty : never spare in Away
+"""
+    assert reported(without + more) == []
+    found = reported(without + more.replace("spare in Away", "Seen"), monitors="true")
+    assert [(name, place) for name, _, place in found] == [
+        ("no-place", "Home"),
+        ("no-place", "Alone"),
+        ("no-place", "Nobody"),
+    ]
+    assert "robots send it too, and do not tell who sent it" in found[0][1]
+    (nothing,) = reported(without, monitors="true")
+    assert "option `monitors`, because the model has no property" in nothing[1]
+
+
+@pytest.mark.parametrize("lifecycle", ["false", "true"])
+def test_the_launch_file_starts_the_monitor(
+    generate: Generate, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lifecycle: str
+) -> None:
+    text = WATCHED
+    write(generate(text, monitors="true", lifecycle=lifecycle), tmp_path)
+    package = tmp_path / "lab_behavior"
+
+    def launch(**arguments: str) -> list[dict[str, Any]]:
+        path = package / "launch" / "depot.launch.py"
+        return launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, **arguments)
+
+    first, *others = launch(trace_dir="traces")
+    assert (first["kind"], first["namespace"], first["name"]) == ("Node", "/depot", "monitor")
+    assert first["executable"] == "depot_monitor"
+    assert first["parameters"] == [
+        {
+            "members": "carrier[0] carrier[1]",
+            "use_sim_time": False,
+            "trace.file": "traces/monitor.jsonl",
+        }
+    ]
+    assert [each["name"] for each in others] == ["carrying", "carrying"]
+    assert [each["name"] for each in launch(monitor="false")] == ["carrying", "carrying"]
+    assert [each["name"] for each in launch(member="carrier[1]")] == ["carrying"]
+
+
 def test_whole_numbers_stay_in_their_types(generate: Generate) -> None:
     files = generate(
         BARE.replace("on Go -> Gone", "on Go / n = n * n, wide = n, n = m -> Gone").replace(

@@ -93,10 +93,10 @@ class RobotLines:
         self._waiting = []
         self._heard = count()
         self._passed = -1
-        self._unknown = Counter()
+        self._unknown = 0
         self._missing = Counter()
         self._late = Counter()
-        self._returned = Counter()
+        self._returned = set()
         self.zero = None
         """When the run began, None before the first line."""
 
@@ -113,7 +113,7 @@ class RobotLines:
             if any(not isinstance(record[key], list) for key in _LISTS) or began + time < 0:
                 raise ValueError(text)
         except (AttributeError, KeyError, TypeError, ValueError):
-            self._unknown['lines without a known member'] += 1
+            self._unknown += 1
             return None
         self._first = now if self._first is None else self._first
         self._expected.pop(source.actor.robot.name, None)
@@ -125,7 +125,7 @@ class RobotLines:
                 self._add_lost(source, began - 1, now)
             source.began, source.next = began, 0
         elif source.is_lost:
-            self._returned[source.actor.name] += 1
+            self._returned.add(source.actor.name)
         self._missing[source.actor.name] += number - source.next
         source.next, source.last, source.is_lost = number + 1, record, False
         source.is_over = record['event'] == _SHUTDOWN or 'ended' in record
@@ -175,15 +175,14 @@ class RobotLines:
     def conditions(self):
         """Yield what the verdicts depend on: what was not heard, or too late."""
         for name in self._expected:
-            yield f'{name} has not been heard'
-        for counts, what in (
-            (+self._missing, 'lines of {} were not heard'),
-            (+self._late, 'lines of {} came too late'),
-            (self._returned, 'times {} was lost and heard again'),
-            (self._unknown, '{} were left out'),
-        ):
+            yield f'{name} not heard'
+        for counts, what in ((+self._missing, 'not heard'), (self._late, 'too late')):
             for name, number in sorted(counts.items()):
-                yield f'{number} {what.format(name)}'
+                yield f'{_lines(number)} of {name} {what}'
+        for name in sorted(self._returned):
+            yield f'{name} lost and heard again'
+        if self._unknown:
+            yield f'{_lines(self._unknown)} without a known member left out'
 
     @property
     def _due(self):
@@ -237,3 +236,7 @@ class RobotLines:
             values=record.get('values', {}),
             record=record,
         )
+
+
+def _lines(number):
+    return f'{number} line' if number == 1 else f'{number} lines'
