@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ from typing import Any
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
+from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import actors
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.replay import replay
@@ -147,3 +149,58 @@ def test_violations_are_told_as_in_a_replay(ros: Any, variant: Callable[..., Pat
     assert "each carrier : never has [load > 3] (depot.swarm:27)" in monitor.log
     assert "OnlyTaken: true" in monitor.log
     assert not any(line["conditions"] for line in monitor.trace if "property" in line)
+
+
+def test_a_monitor_that_comes_late_and_a_robot_that_is_killed(
+    ros: Any, variant: Callable[..., Path]
+) -> None:
+    depot = Depot(ros, variant)
+    first, second = depot.carrier(0), depot.carrier(1)
+    depot.take(0, 4)
+    first.wait_in("Loaded")
+    depot.leave(0)
+    first.wait_in("Empty")
+
+    # It hears what the nodes have kept for it.
+    monitor = depot.monitor(wait__start=30.0)
+    depot.status("Light", ERROR, "false by carrier[0] at ")
+    second.process.send_signal(signal.SIGKILL)
+    monitor.until(lambda t: any(each.get("event") == LOST for each in t), "a robot is lost")
+
+    # Lost robots do not count.
+    depot.leave(0)
+    first.wait_in("Away")
+    depot.status("AllAway", OK, "true")
+    again = depot.carrier(1)
+    depot.take(1, 1)
+    again.wait_in("Loaded")
+    depot.leave(1)
+    again.wait_in("Empty")
+    monitor.until(
+        lambda t: any(each.get("taken") == ["Loaded->1"] and own(each, again) for each in t),
+        "the robot that has started again is heard",
+    )
+
+    assert monitor.terminate() == 0
+    found = told(monitor.trace)
+    assert found["AllAway"] == ("true", [])
+    assert found["OneLoaded"] == ("true", [])
+    assert found == replayed(monitor.trace)
+    assert [each["event"] for each in monitor.trace if own(each, again)][:3] == [None, LOST, None]
+    assert not any(line["conditions"] for line in monitor.trace if "property" in line)
+
+
+def own(line: dict[str, Any], node: Any) -> bool:
+    """Return True for a line of the robot of a node."""
+    return bool(line.get("member") == node.parameters["member"])
+
+
+def test_who_is_not_heard_is_told(ros: Any, variant: Callable[..., Path]) -> None:
+    depot = Depot(ros, variant)
+    monitor = depot.monitor(wait__start=0.1, wait=0.1)
+    depot.carrier(0)
+    depot.status("OneLoaded", WARN, "true, but carrier[1] not heard")
+    assert monitor.terminate() == 0
+    assert "OneLoaded: true, but carrier[1] not heard" in monitor.log
+    last = [each for each in monitor.trace if "property" in each][-1]
+    assert last["conditions"] == ["carrier[1] not heard"]

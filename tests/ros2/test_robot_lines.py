@@ -128,6 +128,11 @@ def test_a_robot_that_starts_again_was_lost() -> None:
         (400, None),
     ]
     assert found[1].configuration == ["Idle"]
+
+    # It is lost once, where its end was noticed.
+    lines.lose("robot[0]", ZERO + 500)
+    lines.hear(line(900, 0, None, 900), ZERO + 900)
+    assert [each.event for each in lines.rest()] == ["fault.lost", None]
     assert list(lines.conditions()) == []
 
 

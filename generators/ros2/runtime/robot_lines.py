@@ -120,8 +120,8 @@ class RobotLines:
         if (began, number) < (source.began, source.next):
             return source.actor.name
         if began > source.began:
-            if source.last is not None:
-                # It has started again.
+            if source.last is not None and not source.is_lost:
+                # It has started again unnoticed.
                 self._add_lost(source, began - 1, now)
             source.began, source.next = began, 0
         elif source.is_lost:
