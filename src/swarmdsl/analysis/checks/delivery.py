@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.delays import leaves
 from swarmdsl.base.diagnostics.collector import Label
@@ -16,10 +18,13 @@ from swarmdsl.syntax.ast import (
     StateMachine,
     Transition,
     nodes_of,
+    walk,
 )
 from swarmdsl.syntax.types import DURATION, INT
 
 _WORDS = {"best": "best effort"}
+_Beside = tuple[Parallel, Region, Sequence[object]]
+"""A parallel state, the region of it that a state is in, and what is beside this region."""
 MOST_KEPT = 2**31 - 1
 """Largest depth of a queue in ROS."""
 
@@ -96,28 +101,77 @@ def check_lossy_events(machine: StateMachine, context: Context) -> None:
     """
     if not context.report.wants("lossy-event"):
         return
-    states: list[State | Parallel] = [*nodes_of(machine, State), *nodes_of(machine, Parallel)]
-    for state in states:
-        if not any(_has_activities(item) for item in state.items if not isinstance(item, Activity)):
-            continue
-        for transition in state.items:
-            if not isinstance(transition, Transition) or not leaves(transition):
-                continue
-            for trigger in transition.triggers:
-                event = trigger.event.target if isinstance(trigger, EventTrigger) else None
-                if event is not None and any(each.kind == "best" for each in event.delivery):
-                    context.report.report(
-                        "lossy-event",
-                        trigger.span,
-                        name=event.name,
-                        state=state.name,
-                        related=(Label(event.name.span, "its delivery is best effort"),),
-                        help="declare the event as `reliable`",
-                    )
+    for item in machine.items:
+        _check_state(item, (), context)
+
+
+def _check_state(item: object, around: tuple[_Beside, ...], context: Context) -> None:
+    """Check the transitions of a state and of those inside it; `around` are regions around it."""
+    if isinstance(item, Parallel):
+        for region in item.items:
+            if isinstance(region, Region):
+                others = [each for each in item.items if each is not region]
+                for vertex in region.items:
+                    _check_state(vertex, (*around, (item, region, others)), context)
+    elif isinstance(item, State):
+        for inside in item.items:
+            _check_state(inside, around, context)
+    if isinstance(item, (State, Parallel)):
+        for transition in item.items:
+            if isinstance(transition, Transition) and leaves(transition):
+                ended = _ended(item, transition, around)
+                if ended is not None:
+                    _report_lossy(transition, ended, context)
+
+
+def _ended(
+    state: State | Parallel, transition: Transition, around: tuple[_Beside, ...]
+) -> State | Parallel | None:
+    """Return the composite state whose activities a transition ends: its own, or one around it."""
+    own = [item for item in state.items if not isinstance(item, Activity)]
+    if any(map(_has_activities, own)) or _runs_activities(state):
+        return state
+    target = transition.target.target if transition.target is not None else None
+    for parallel, region, others in around:
+        stays = target is None or any(node is target for node in walk(region))
+        if not stays and any(map(_has_activities, others)):
+            return parallel
+    return None
+
+
+def _report_lossy(transition: Transition, ended: State | Parallel, context: Context) -> None:
+    for trigger in transition.triggers:
+        event = trigger.event.target if isinstance(trigger, EventTrigger) else None
+        if event is not None and any(each.kind == "best" for each in event.delivery):
+            context.report.report(
+                "lossy-event",
+                trigger.span,
+                name=event.name,
+                state=ended.name,
+                related=(Label(event.name.span, "its delivery is best effort"),),
+                help="declare the event as `reliable`",
+            )
 
 
 def _has_activities(item: object) -> bool:
     if isinstance(item, Activity):
         return True
     inner = item.items if isinstance(item, (State, Parallel, Region)) else ()
-    return any(map(_has_activities, inner))
+    return _runs_activities(item) or any(map(_has_activities, inner))
+
+
+def _runs_activities(item: object) -> bool:
+    """Return True for a submachine state with activities inside its machine."""
+    if not isinstance(item, State) or item.machine is None or item.machine.target is None:
+        return False
+    return any(nodes_of(each, Activity) for each in _reused(item.machine.target, set()))
+
+
+def _reused(machine: StateMachine, known: set[StateMachine]) -> set[StateMachine]:
+    """Return a machine and those that it reuses; one that contains itself is an error."""
+    if machine not in known:
+        known.add(machine)
+        for state in nodes_of(machine, State):
+            if state.machine is not None and state.machine.target is not None:
+                _reused(state.machine.target, known)
+    return known
