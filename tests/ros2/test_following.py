@@ -266,6 +266,25 @@ def uav(robot: Callable[..., Any], fakes: Any, **parameters: Any) -> Any:
     return node
 
 
+def test_a_monitor_watches_it(library: Library, ros: Any, variant: Callable[..., Path]) -> None:
+    ros.prefer(variant("tests/ros2/models", monitors="true", **library.options))
+    fakes = ros.fakes()
+    fakes.publisher("/depot/carrier_0/take", "std_msgs/msg/Int32")
+    monitor = ros.node("lab_behavior.depot_monitor", "/depot", members="carrier[0]")
+    space = "/depot/carrier_0"
+    node = ros.node(f"lab_behavior.carrying{library.suffix}", space, member="carrier[0]")
+    node.wait_in("Empty")
+    fakes.listeners(f"{space}/take")
+    fakes.publish(f"{space}/take", data=4)
+
+    def is_false(trace: list[dict[str, Any]]) -> bool:
+        return any(line.get("property") == "Light" and line["verdict"] == "false" for line in trace)
+
+    monitor.until(is_false, "property Light is violated")
+    assert monitor.terminate() == 0
+    assert "Light: false by carrier[0] at " in monitor.log
+
+
 def test_a_mission_that_is_aborted(robot: Callable[..., Any], fakes: Any) -> None:
     fakes.action(*TAKE_OFF, "succeeded")
     fakes.action(*COVERAGE, "never", stopping=0.3)
