@@ -13,10 +13,12 @@ from swarmdsl.ir import (
     Expression,
     Fact,
     Junction,
+    ParamRef,
     Property,
     Robots,
     StateMachine,
     System,
+    subexpressions,
 )
 from swarmdsl.ir.sentences import facts_in
 
@@ -61,7 +63,11 @@ def watched_swarms(
     found: list[WatchedSwarm] = []
     launched = {each.swarm: each for each in launches}
     for name, launch in launched.items():
-        about = [each for each in system.properties if each.subject == name]
+        about = [
+            each
+            for each in system.properties
+            if each.subject == name and _is_told(each, launch, modules, system, report)
+        ]
         if about:
             taken = (*modules.values(), *(each.module for each in found))
             module = fresh(f"{launch.name}_monitor", taken)
@@ -91,7 +97,7 @@ def conditions(machine: StateMachine, system: System) -> dict[str, Expression]:
             for fact in _facts(property_) if property_.subject == swarm.name else ():
                 if isinstance(fact, Fact) and fact.guard is not None:
                     role = fact.robots.role if fact.robots is not None else property_.each
-                    if role in roles:
+                    if role in roles and _unknown_param(fact.guard, machine) is None:
                         found[condition_text(fact.guard)] = fact.guard
     return found
 
@@ -143,6 +149,45 @@ def _machines(launch: Launch, modules: Mapping[str, str], system: System) -> Ite
             states = tuple(state.id for state in machines[node.executable].walk())
             call = Call("Machine", (node.name, states))
             yield Entry((), layout(call, 1, f"{_STEP}{who!r}: ", ",", WIDTH))
+
+
+def _is_told(
+    property_: Property,
+    launch: Launch,
+    modules: Mapping[str, str],
+    system: System,
+    report: Diagnostics,
+) -> bool:
+    """Return True if nodes know what a property asks for; report it otherwise."""
+    machines = {
+        role.name: system.machines_by_name[name]
+        for name, module in modules.items()
+        for role in launch.roles
+        for node in role.nodes
+        if node.part is None and node.executable == module
+    }
+    for fact in _facts(property_):
+        if isinstance(fact, Fact) and fact.guard is not None:
+            role = fact.robots.role if fact.robots is not None else property_.each
+            param = _unknown_param(fact.guard, machines.get(role or ""))
+            if param is not None:
+                what = (
+                    f"property `{property_.name}`: the state machine of `{role}` does not have "
+                    f"its param `{param}`"
+                )
+                help_ = "declare a param of this name in the state machine"
+                report.report("no-place", fact.origin, target=TARGET, what=what, help=help_)
+                return False
+    return True
+
+
+def _unknown_param(condition: Expression, machine: StateMachine | None) -> str | None:
+    """Return a param of the robot that its machine does not have, or None."""
+    known = {param.name for param in machine.params} if machine is not None else set()
+    for part in subexpressions(condition):
+        if isinstance(part, ParamRef) and part.name not in known:
+            return part.name
+    return None
 
 
 def _check_senders(properties: Iterable[Property], system: System, report: Diagnostics) -> None:

@@ -348,6 +348,11 @@ property Nobody of Empty : never spare in Away
         ("no-place", "Nobody"),
     ]
     assert "robots send it too, and do not tell who sent it" in found[0][1]
+    param = without.replace("member Carrier {", "member Carrier { param size : float64 = 1.0;")
+    (left_out,) = reported(
+        f"{param}property Big of Depot : never some carrier has [size > 2.0]\n", monitors="true"
+    )
+    assert "property `Big`: the state machine of `carrier` does not have its param" in left_out[1]
     (nothing,) = reported(without, monitors="true")
     assert "option `monitors`, because the model has no property" in nothing[1]
 

@@ -143,6 +143,17 @@ def test_a_trace_of_robots_has_verdicts(
     assert "Few" not in capsys.readouterr().err
 
 
+def test_conditions_read_params_of_the_robot(simulate: Simulate) -> None:
+    """Its state machine does not have them."""
+    member = "member Robot { param size : float64 = 2.0; behavior Work }"
+    model = f"""{MODEL.replace("member Robot { behavior Work }", member)}
+property Big of Crew : each robot : has [size > 1.5] at all times
+property Bigger of Crew : eventually some robot has [size > 2.5]
+"""
+    ran = simulate(model, "--trace", "none", "--until", "5s", events=EVENTS)
+    assert (verdicts(ran)["Big"][0], verdicts(ran)["Bigger"][0]) == ("true", "open")
+
+
 def test_a_lost_robot_is_nowhere(simulate: Simulate) -> None:
     model = f"""{MODEL}
 property All of Crew : after Start, all robot in Busy within 5 s

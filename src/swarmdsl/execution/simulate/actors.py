@@ -7,7 +7,7 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.simulate.subject import MOST_MEMBERS, Subject
@@ -19,7 +19,8 @@ from swarmdsl.ir import Param, StateMachine
 class Actor:
     """Machine of a robot or of one of its parts, with its initial data.
 
-    `name` is the name of the robot, followed by a dot and the name of the part.
+    `name` is the name of the robot, followed by a dot and the name of the part. `params` are the
+    values of the owner, those that the machine does not have too.
     """
 
     name: str | None
@@ -27,6 +28,7 @@ class Actor:
     machine: Machine
     data: Any = None
     role: str = ""
+    params: dict[str, Any] = field(default_factory=dict)
 
     @property
     def states(self) -> list[str]:
@@ -67,7 +69,7 @@ def actors(
                 data = first_data(machine, subject.system, given, robot)
                 name = robot.name if part is None else f"{robot.name}.{part.name}"
                 role = robot.role if part is None else f"{robot.role}.{part.name}"
-                made.append(Actor(name, robot, subject.table(machine), data, role))
+                made.append(Actor(name, robot, subject.table(machine), data, role, given))
     if not made and not report.has_errors:
         report.report("nothing-to-simulate", help=f"give a member of `{subject.name}` a `behavior`")
     return made

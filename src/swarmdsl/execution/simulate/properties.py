@@ -41,7 +41,9 @@ def watch(
         if condition not in functions:
             functions[condition] = function_of(condition)
         try:
-            return bool(functions[condition](data(line.actor), None))
+            # The robot may have params that its machine does not have.
+            values = {**line.actor.params, **data(line.actor)}
+            return bool(functions[condition](values, None))
         except (ArithmeticError, ValueError, ExecutionError):
             return False
 
