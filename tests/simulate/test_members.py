@@ -10,6 +10,8 @@ from textwrap import dedent
 import pytest
 
 from swarmdsl.cli import run
+from swarmdsl.execution.simulate.network import Network
+from swarmdsl.execution.simulate.scenario import Robot
 
 MODEL = """
 event Go : std_msgs/Empty
@@ -198,3 +200,30 @@ def test_tests_lose_robots(tmp_path, capfd):
     tests.write_text(TESTS)
     code = run(["test", str(tests)])
     assert code == 0, capfd.readouterr()
+
+
+def test_a_partition_of_few_robots_concerns_few(
+    lines: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Who reaches whom is asked about the robots in a group, not about each pair of all."""
+    asked = 0
+    reaches = Network.reaches
+
+    def count(network: Network, one: Robot, other: Robot) -> bool:
+        nonlocal asked
+        asked += 1
+        return reaches(network, one, other)
+
+    monkeypatch.setattr(Network, "reaches", count)
+    monkeypatch.setattr(f"{__name__}.MODEL", MODEL.replace("base  : Tractor", "base : Tractor[50]"))
+    lines("""
+      until = "10 s"
+      [[faults]]
+      at = "2 s"
+      apart = [["base[0]"], ["scout[2]"]]
+      lasts = "3 s"
+    """)
+
+    # 50 robots observe 53: at the beginning and at the end of the partition, two of them each
+    # other, all others these two. All pairs would be 2,650 each time.
+    assert asked < 4 * (2 * 53 + 50 * 2)

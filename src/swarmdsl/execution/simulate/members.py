@@ -86,8 +86,9 @@ class Members:
 
     def follow(self, robots: Sequence[Robot] | None = None) -> None:
         """Follow a change of what some robots reach, or all of them."""
+        changed = {robot.name for robot in (self._robots if robots is None else robots)}
         for observer in self._observers:
-            others = self._robots if robots is None or observer in robots else robots
+            others = self._robots if robots is None or observer.name in changed else robots
             for other in others:
                 if other is not observer and self._reaches(observer, observer):
                     self._follow(observer, other)

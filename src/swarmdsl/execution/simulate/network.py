@@ -25,6 +25,8 @@ _PLAIN = Delivery()
 
 Groups = Sequence[tuple[str, ...]]
 """Groups of robots, each by the words that select them, that do not reach one another."""
+_Partition = tuple[Groups, dict[str | None, int]]
+"""Groups, and the number of its group for each robot in one, by its name."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +104,7 @@ class Network:
         self._transmissions: Counter[tuple[str | None, str | None]] = Counter()
         self._last_arrival: dict[tuple[Robot, Robot, str], int] = {}
         """Time at which the last event on a topic arrives, by sender, receiver and topic."""
-        self._partitions: list[Groups] = []
+        self._partitions: list[_Partition] = []
         self._waiting: dict[tuple[Robot, Robot, str], deque[_Packet]] = {}
         """Reliable events by sender, receiver and topic, in the order of sending."""
         self._latest: dict[tuple[Robot, str], tuple[Declared, deque[_Kept]]] = {}
@@ -125,14 +127,13 @@ class Network:
 
     def reaches(self, one: Robot, other: Robot) -> bool:
         """Return True if two robots are there, and no partition is between them."""
-        if one in self.gone or other in self.gone:
+        if self.gone and (one in self.gone or other in self.gone):
             return False
-        return all(
-            (mine := _group(one, groups)) is None
-            or (yours := _group(other, groups)) is None
-            or mine == yours
-            for groups in self._partitions
-        )
+        for _, parted in self._partitions:
+            mine, yours = parted.get(one.name), parted.get(other.name)
+            if mine is not None and yours is not None and mine != yours:
+                return False
+        return True
 
     def send(
         self, event: Event, declared: Declared, source: Robot, targets: Iterable[Robot]
@@ -150,17 +151,26 @@ class Network:
             if self._listens(event.name, target):
                 self._transmit(event, declared, source, target, self._clock.now, kept)
 
-    def part(self, groups: Groups) -> None:
-        """Begin a partition."""
-        self._partitions.append(groups)
+    def part(self, groups: Groups, robots: Iterable[Robot]) -> list[Robot]:
+        """Begin a partition; return the robots in its groups."""
+        found = [(robot, _group(robot, groups)) for robot in robots]
+        parted = {robot.name: group for robot, group in found if group is not None}
+        self._partitions.append((groups, parted))
+        return [robot for robot, group in found if group is not None]
 
-    def heal(self, groups: Groups, robots: Sequence[Robot]) -> None:
-        """End a partition; what waits for a robot in reach is sent again."""
-        apart = [(a, b) for a in robots for b in robots if a is not b and not self.reaches(a, b)]
-        self._partitions.remove(groups)
+    def heal(self, groups: Groups, robots: Iterable[Robot]) -> list[Robot]:
+        """End a partition, and return the robots in its groups.
+
+        What waits for a robot in reach is sent again.
+        """
+        partition = next(each for each in self._partitions if each[0] == groups)
+        parted = [robot for robot in robots if robot.name in partition[1]]
+        apart = [(a, b) for a in parted for b in parted if a is not b and not self.reaches(a, b)]
+        self._partitions.remove(partition)
         for source, target in apart:
             if self.reaches(source, target):
                 self._meet(source, target)
+        return parted
 
     def leave(self, robot: Robot) -> None:
         """Remove a robot; what it has sent and what waits for it is lost."""

@@ -449,14 +449,12 @@ class World:
 
     def _partition(self, fault: Fault) -> Callable[[], None]:
         def strike() -> None:
-            self.network.part(fault.apart)
-            self.members.follow()
+            self.members.follow(self.network.part(fault.apart, self.robots))
             if fault.lasts is not None:
                 self.clock.schedule(fault.lasts, heal)
 
         def heal() -> None:
-            self.network.heal(fault.apart, self.robots)
-            self.members.follow()
+            self.members.follow(self.network.heal(fault.apart, self.robots))
 
         return strike
 
