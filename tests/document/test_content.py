@@ -44,7 +44,8 @@ def described(system: System) -> Iterator[tuple[str, str]]:
             yield from ((f"{function.name}.{each.name}", each.doc) for each in function.params)
     for others in (system.environments, system.fitness):
         yield from ((each.name, each.doc) for each in others)
-    yield from ((each.name, each.doc) for each in system.events if each.origin.text == each.name)
+    declared = [e for e in system.events if e.origin.text == e.name and not e.predefined]
+    yield from ((each.name, each.doc) for each in declared)
     for interface in system.interfaces:
         name = str(interface.type) if interface.external else interface.type.name
         parts = {

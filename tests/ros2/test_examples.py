@@ -94,7 +94,9 @@ class Robot:
 
     def _heard(self) -> list[str]:
         triggers = (t for state in self.states.values() for t in _triggers(state))
-        return list(dict.fromkeys(t.event for t in triggers if isinstance(t, EventTrigger)))
+        # Nobody is heard here, so that nobody is lost.
+        heard = (t for t in triggers if isinstance(t, EventTrigger) and not t.predefined)
+        return list(dict.fromkeys(t.event for t in heard))
 
     def begin(self) -> None:
         """Start a node, the first one or one after another has ended."""
@@ -177,7 +179,7 @@ class Robot:
             for transition in state.transitions:
                 for trigger in transition.triggers:
                     match trigger:
-                        case EventTrigger(event=name):
+                        case EventTrigger(event=name, predefined=False):
                             yield ("event", name), transition
                         case OutcomeTrigger(outcome=outcome):
                             call = self._call(state)

@@ -16,5 +16,10 @@ def for_ros_1(system: System) -> System:
         else event
         for event in system.events
     )
-    machines = (machine for machine in system.machines if not follows_members(machine))
-    return replace(system, events=tuple(events), machines=tuple(machines))
+    machines = tuple(machine for machine in system.machines if not follows_members(machine))
+    names = {machine.name for machine in machines}
+    members = (
+        replace(each, behavior=each.behavior if each.behavior in names else None)
+        for each in system.members
+    )
+    return replace(system, events=tuple(events), machines=machines, members=tuple(members))

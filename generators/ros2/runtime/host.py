@@ -300,8 +300,9 @@ class Host:
         )
         self._trace.on_end = lambda event: self._pauses.note(event.origin, event, self.now)
         self._trace.begin(self._instance, None)
-        self._instance.start()
+        # The first state may count the robots of the start.
         self._members.begin()
+        self._instance.start()
 
     def _end(self, then):
         if self._instance is not None and self._instance.running:
