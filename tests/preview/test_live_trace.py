@@ -109,7 +109,10 @@ def test_growing_trace_is_followed(snapshot: Snapshot, tmp_path: Path) -> None:
     wrong: list[Diagnostics] = []
     follow([str(trace)], snapshot, wrong.append)
     page = Page(snapshot)
-    trace.write_text(step("dog[0]", "Lie") + step("dog[1]", "Lie"), encoding="utf-8")
+    # A monitor writes its verdicts between lines.
+    verdict = json.dumps({"t": 0, "property": "Calm", "verdict": "true"}) + "\n"
+    lines = step("dog[0]", "Lie") + verdict + step("dog[1]", "Lie")
+    trace.write_text(lines, encoding="utf-8")
     assert page.told() == {"dog[0]": ["Lie"], "dog[1]": ["Lie"]}
     with trace.open("a", encoding="utf-8") as file:
         file.write(step("dog[1]", "Patrol.Walk") + step("dog[0]", "Shut")[:-10])

@@ -108,11 +108,23 @@ def test_lines_that_are_missing_late_or_heard_twice() -> None:
 
 def test_lines_that_are_no_lines_of_a_robot() -> None:
     lines = lines_of()
-    wrong = ("no JSON", "[]", "{}", line(0, 0, None, 0, "rover[0]"), line(0, 0, None, 0, sent="Go"))
-    for text in (*wrong, line(0, 0, None, 0, "robot[0].leg"), line(0, 0, None, 0, None)):  # type: ignore[arg-type]
+    good = json.loads(line(0, 0, None, 0))
+    changes: tuple[dict[str, Any], ...] = (
+        {"member": "rover[0]"},
+        {"member": "robot[0].leg"},
+        {"member": None},
+        {"sent": "Go"},
+        {"began": "0"},
+        {"number": None},
+        {"t": -1},
+        {"event": 1},
+        {"envelope": []},
+        {"values": []},
+    )
+    for text in ("no JSON", "[]", "{}", *(json.dumps({**good, **each}) for each in changes)):
         assert lines.hear(text, ZERO) is None
     assert list(lines.rest()) == []
-    assert list(lines.conditions()) == ["7 lines without a known member left out"]
+    assert list(lines.conditions()) == ["13 lines of no robot of the swarm left out"]
 
 
 def test_a_robot_that_starts_again_was_lost() -> None:

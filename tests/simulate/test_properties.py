@@ -143,6 +143,69 @@ def test_a_trace_of_robots_has_verdicts(
     assert "Few" not in capsys.readouterr().err
 
 
+NODES = """
+event Leave : std_msgs/Empty on "leave"
+statemachine Going { initial Here; state Here { on Leave -> There }; final There }
+member Node { behavior Going }
+swarm Nodes { node : Node[2] }
+property Order of Nodes : node[1] in There only after node[0] in There
+property Back of Nodes : node[0] in There then node[0] in Here
+property Soon of Nodes : node[1] in There leads to no node in There within 7 s
+"""
+
+
+def test_lines_of_nodes_have_one_time(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Nodes write when they began; a monitor writes its verdicts between their lines."""
+
+    def line(number: int, t: int, event: str | None, state: str, **more: object) -> str:
+        keys = ("exited", "started", "cancelled", "sent")
+        record = {
+            "t": t,
+            "member": f"node[{number}]",
+            "event": event,
+            "configuration": [state],
+            "entered": [] if event == "fault.lost" else [state],
+            **{key: [] for key in keys},
+            **({"exited": ["Here"]} if event == "Leave" else {}),
+        }
+        return json.dumps({**record, **more})
+
+    def replayed(*lines: str) -> dict[str, tuple[str, str]]:
+        Path("trace.jsonl").write_text("\n".join(lines), encoding="utf-8")
+        capsys.readouterr()
+        code = run(["simulate", "model.swarm", "--replay", "trace.jsonl"])
+        err = capsys.readouterr().err
+        assert code == int("false" in err), err
+        assert "SW1011" not in err, err
+        return verdicts(Ran(code, "", err))
+
+    simulate(NODES, "--trace", "none", "--until", "1s")
+    lines = (
+        line(0, 0, None, "Here", began=10_000),
+        line(0, 500, "Leave", "There", began=10_000),
+        line(1, 0, None, "Here", began=10_400),
+        line(1, 300, "Leave", "There", began=10_400),
+    )
+    found = replayed(*lines)
+    assert found["Order"] == ("true", "")
+    assert found["Back"] == found["Soon"] == ("open", "")
+
+    again = (
+        line(0, 4999, "fault.lost", "There", began=10_000),
+        line(0, 0, None, "Here", began=15_000),
+        json.dumps({"t": 9000, "began": 10_000, "property": "Order", "verdict": "true"}),
+    )
+    found = replayed(*lines, *again)
+    assert found["Back"] == ("true", "")
+    assert found["Soon"] == ("false", "at 7.7 s")
+
+    # Without a beginning, all times are since the start of each.
+    found = replayed(*(re.sub(r', "began": \d+', "", each) for each in lines))
+    assert found["Order"] == ("false", "at 300 ms")
+
+
 def test_conditions_read_params_of_the_robot(simulate: Simulate) -> None:
     """Its state machine does not have them."""
     member = "member Robot { param size : float64 = 2.0; behavior Work }"

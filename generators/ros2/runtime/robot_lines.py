@@ -107,14 +107,12 @@ class RobotLines:
         A line that is heard again is left out.
         """
         try:
-            record = json.loads(text)
+            record = _checked(json.loads(text))
             source = self._source(record['member'])
-            began, number, time = record['began'], record['number'], record['t']
-            if any(not isinstance(record[key], list) for key in _LISTS) or began + time < 0:
-                raise ValueError(text)
         except (AttributeError, KeyError, TypeError, ValueError):
             self._unknown += 1
             return None
+        began, number = record['began'], record['number']
         self._first = now if self._first is None else self._first
         self._expected.pop(source.actor.robot.name, None)
         if (began, number) < (source.began, source.next):
@@ -129,7 +127,7 @@ class RobotLines:
         self._missing[source.actor.name] += number - source.next
         source.next, source.last, source.is_lost = number + 1, record, False
         source.is_over = record['event'] == _SHUTDOWN or 'ended' in record
-        self._add(source, record, began + time, now)
+        self._add(source, record, began + record['t'], now)
         return source.actor.name
 
     def lose(self, name, now):
@@ -182,7 +180,7 @@ class RobotLines:
         for name in sorted(self._returned):
             yield f'{name} lost and heard again'
         if self._unknown:
-            yield f'{_lines(self._unknown)} without a known member left out'
+            yield f'{_lines(self._unknown)} of no robot of the swarm left out'
 
     @property
     def _due(self):
@@ -236,6 +234,20 @@ class RobotLines:
             values=record.get('values', {}),
             record=record,
         )
+
+
+def _checked(record):
+    """Return a line; raise an error of Python for one that is no line of a node."""
+    numbers = (record[key] for key in ('t', 'began', 'number'))
+    names = (record['event'] or '', record.get('envelope', {}).get('sender', ''))
+    if (
+        any(not isinstance(each, int) or each < 0 for each in numbers)
+        or any(not isinstance(each, str) for each in names)
+        or any(not isinstance(record[key], list) for key in _LISTS)
+        or not isinstance(record.get('values', {}), dict)
+    ):
+        raise ValueError('not a line of a trace')
+    return record
 
 
 def _lines(number):

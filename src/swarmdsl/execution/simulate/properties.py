@@ -41,9 +41,9 @@ def watch(
         if condition not in functions:
             functions[condition] = function_of(condition)
         try:
+            params, values = line.actor.params, data(line.actor)
             # The robot may have params that its machine does not have.
-            values = {**line.actor.params, **data(line.actor)}
-            return bool(functions[condition](values, None))
+            return bool(functions[condition]({**params, **values} if params else values, None))
         except (ArithmeticError, ValueError, ExecutionError):
             return False
 
