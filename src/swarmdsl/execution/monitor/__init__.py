@@ -9,7 +9,7 @@ from .claims import Claim, Count, Fact, Junction, Property, Robots
 from .facts import LOST, ActorLike, FactTracker, LineLike, RobotLike, Route, meant_states
 from .monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
 from .patterns import Pattern, pattern_of
-from .watch import PropertyResult, ViolatedError, Violation, Watch
+from .watch import Interest, PropertyResult, ViolatedError, Violation, Watch
 
 __all__ = [
     "FALSE",
@@ -21,6 +21,7 @@ __all__ = [
     "Count",
     "Fact",
     "FactTracker",
+    "Interest",
     "Junction",
     "LineLike",
     "Monitor",

@@ -11,6 +11,7 @@ LOST = "fault.lost"
 """Event of a lost robot; no model event has such a name."""
 MOMENTARY = frozenset(("sends", "hears", "starts", "cancels", "arrives"))
 """Acts that happen at one step, in contrast to states and values."""
+ACTS = MOMENTARY | {"in", "has"}
 
 
 class RobotLike(Protocol):

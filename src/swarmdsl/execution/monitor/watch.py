@@ -9,11 +9,11 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 from .claims import Claim, Count, Fact, Junction, Property, Robots, facts_in
-from .facts import MOMENTARY, ActorLike, FactTracker, Has, LineLike, Route
+from .facts import ACTS, MOMENTARY, ActorLike, FactTracker, Has, LineLike, Route, meant_states
 from .monitor import FALSE, OPEN, TRUE, Monitor, Verdict
 
 REMEMBERED = 8
-"""Number of trace lines kept with a violation."""
+"""Number of trace lines kept with a violation, of those that changed a fact."""
 START = 5_000_000_000
 """Time in nanoseconds in which machines start at one moment if nothing else happens."""
 
@@ -47,6 +47,19 @@ class PropertyResult(NamedTuple):
     violations: tuple[Violation, ...]
 
 
+class Interest(NamedTuple):
+    """What can change a fact in the lines of a machine.
+
+    Events that it hears, states by their paths, and what it does: a field of a line with a name.
+    With `values`, every line can.
+    """
+
+    heard: frozenset[str]
+    states: frozenset[str]
+    acts: frozenset[tuple[str, str]]
+    values: bool
+
+
 class ViolatedError(Exception):
     """A property is violated, and the run must stop then."""
 
@@ -54,9 +67,10 @@ class ViolatedError(Exception):
 class Watch:
     """Monitors of some properties in one run, a listener of its trace.
 
-    Lines come in the order of time. `has` evaluates conditions; `told` is called with a property,
-    its verdict so far, and the time from which on it holds. With `stops`, a violation raises
-    ViolatedError, unless the property has a chance.
+    Lines come in the order of time; those without `interest` can be left out, except for the first
+    one of a machine, its loss, and the next one of all after something `happened`. `has` evaluates
+    conditions; `told` is called with a property, its verdict so far, and the time from which on it
+    holds. With `stops`, a violation raises ViolatedError, unless the property has a chance.
     """
 
     def __init__(
@@ -78,9 +92,10 @@ class Watch:
             for tracker in each.trackers:
                 self._users.setdefault(tracker, []).append(each)
         self._routes: dict[ActorLike, Route] = {}
-        self._due: int | None = None
-        """Time before which nothing is late; it may be too early."""
-        self._happened: list[FactTracker] = []
+        self.late_after: int | None = None
+        """Time until which nothing is late; it may be too early."""
+        self.happened: list[FactTracker] = []
+        """Facts that the next line ends."""
         self._last: deque[LineLike] = deque(maxlen=REMEMBERED)
         self._begun = False
 
@@ -90,47 +105,72 @@ class Watch:
 
         Something may then be late, or the first moment over.
         """
-        return self._due if self._begun else START
+        return self.late_after if self._begun else START
 
     def see(self, line: LineLike) -> None:
         """Process a line; those of the start are one step."""
         if not self._begun and (line.event is not None or line.time > START):
             self._begin()
-        if self._due is not None and line.time > self._due:
+        if self.late_after is not None and line.time > self.late_after:
             self._let_pass(line.time)
-        self._last.append(line)
         changed: dict[FactTracker, set[str | None]] = {}
         if self._begun:
-            for tracker in self._happened:
+            for tracker in self.happened:
                 changed[tracker] = tracker.reset()
-            self._happened = []
+            self.happened = []
         actor = line.actor
         route = self._routes.get(actor)
         if route is None:
             route = self._join(actor)
+        moves = False
         for tracker in route.trackers_of(line):
             happens = tracker.see(line) or (tracker.momentary and tracker.holding)
             if happens:
                 changed.setdefault(tracker, set()).add(actor.robot.name)
+                moves = True
                 if tracker.momentary:
-                    self._happened.append(tracker)
+                    self.happened.append(tracker)
+        if moves:
+            self._last.append(line)
         if not self._begun or not changed:
             return
         affected = {user: None for tracker in changed for user in self._users.get(tracker, ())}
         for each in affected:
             robots = each.affected(changed)
             self._note(each, each.step(line.time, robots), line.time)
-            if each.due is not None and (self._due is None or each.due < self._due):
-                self._due = each.due
+            if each.due is not None and (self.late_after is None or each.due < self.late_after):
+                self.late_after = each.due
         self._look_whether_to_stop()
 
     def advance(self, time: int) -> None:
         """Let time pass without a line."""
         if not self._begun and time > START:
             self._begin()
-        if self._due is not None and time > self._due:
+        if self.late_after is not None and time > self.late_after:
             self._let_pass(time)
             self._look_whether_to_stop()
+
+    def interest(self, actor: ActorLike) -> Interest:
+        """Return what can change a fact in the lines of a machine."""
+        trackers = [each for each in self._trackers.values() if each.follows(actor)]
+        names = {act: {each.name for each in trackers if each.act == act} for act in ACTS}
+        states = {
+            state for name in names["in"] for state in meant_states(actor.states, name.split("."))
+        }
+        return Interest(
+            heard=frozenset(names["hears"] | names["arrives"]),
+            states=frozenset(states),
+            acts=frozenset(
+                (what, name)
+                for act, what in (
+                    ("sends", "sent"),
+                    ("starts", "started"),
+                    ("cancels", "cancelled"),
+                )
+                for name in names[act]
+            ),
+            values=any(each.act == "has" for each in trackers),
+        )
 
     def results(self, time: int, *, ended: bool) -> list[PropertyResult]:
         """Return the verdicts at the end of a run."""
@@ -169,16 +209,20 @@ class Watch:
         self._begun = True
         for each in self._watched:
             self._note(each, each.step(0, each.robots), 0)
-        self._due = min((each.due for each in self._watched if each.due is not None), default=None)
+        self.late_after = min(
+            (each.due for each in self._watched if each.due is not None), default=None
+        )
 
     def _let_pass(self, time: int) -> None:
         for each in self._watched:
             if each.due is not None and time > each.due:
                 self._note(each, each.advance(time), time)
-        self._due = min((each.due for each in self._watched if each.due is not None), default=None)
+        self.late_after = min(
+            (each.due for each in self._watched if each.due is not None), default=None
+        )
 
     def _note(
-        self, watched: _Watched, violated: Iterator[tuple[str | None, int]], now: int
+        self, watched: _Watched, violated: Iterable[tuple[str | None, int]], now: int
     ) -> None:
         for robot, time in violated:
             now = min(now, time)
@@ -230,19 +274,28 @@ class _Watched:
         """Return the robots whose monitors must take a step."""
         if self.property.each is None or not self._shared.isdisjoint(changed):
             return self.robots
-        robots = set().union(*(changed[each] for each in self.trackers if each in changed))
+        if len(changed) == 1:
+            (robots,) = changed.values()
+        else:
+            robots = set().union(*(changed[each] for each in self.trackers if each in changed))
         return [robot for robot in robots if robot in self._monitors]
 
-    def step(self, time: int, robots: Iterable[str | None]) -> Iterator[tuple[str | None, int]]:
+    def step(self, time: int, robots: Iterable[str | None]) -> Iterable[tuple[str | None, int]]:
         """Take a step; return the robots that violate the property now, with the times."""
+        monitors, claims, scope = self._monitors, self._claims, self._scope
+        violated = False
         for robot in robots:
-            monitor = self._monitors[robot]
+            monitor = monitors[robot]
             if not monitor.decided:
-                scope = [truth(robot) for truth in self._scope]
-                monitor.step(time, [truth(robot) for truth in self._claims], scope)
-                if monitor.due is not None and (self.due is None or monitor.due < self.due):
-                    self.due = monitor.due
-        return self.newly_violated(robots)
+                parts = [truth(robot) for truth in scope] if scope else ()
+                monitor.step(time, [truth(robot) for truth in claims], parts)
+                if monitor.violated is not None:
+                    violated = True
+                else:
+                    due = monitor.due
+                    if due is not None and (self.due is None or due < self.due):
+                        self.due = due
+        return self.newly_violated(robots) if violated else ()
 
     def advance(self, time: int) -> Iterator[tuple[str | None, int]]:
         """Let time pass, likewise."""

@@ -33,6 +33,7 @@ from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader
 from swarmdsl.execution.simulate.properties import watch, watchable
 from swarmdsl.execution.simulate.replay import replay
+from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
@@ -240,8 +241,10 @@ class _Play:
                     self._listeners.append(self._writer(stream))
                 if stream is None or not stream.isatty():
                     self._show_board(stack)
-                if self._watched:
+                if self._watched and self._listeners:
                     self._listeners.append(monitors.see)  # the last one: it can end the run
+                elif self._watched:
+                    observe(self._world.trace, monitors, self._world.clock)
                 try:
                     ending = _ENDINGS[self._run(tell)]
                 except ViolatedError:

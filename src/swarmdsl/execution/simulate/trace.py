@@ -61,10 +61,29 @@ class Line:
     envelope: Envelope = NO_ENVELOPE
 
 
+class ReportingObserver(Observer):
+    """Observer of one instance that makes lines of its own."""
+
+    __slots__ = ()
+
+    def begin(self, event: str | None, envelope: Envelope) -> None:
+        """Begin with an event from outside."""
+
+    def end(self) -> None:
+        """End the macrostep."""
+
+    def receive(self, event: Event) -> None:
+        """Let the instance process an event from others."""
+
+    def reaches_nobody(self) -> None:
+        """Note that no other robot has the address of the last sent event."""
+
+
 class Trace(Observer):
     """Build trace lines, and pass each to the listeners after the macrostep.
 
-    Without listeners there are no lines: instances are then observed by their statistics alone.
+    Without listeners, instances are observed by their statistics alone, or by reporters, which
+    make lines of what matters to the monitors.
     """
 
     def __init__(self, clock: Clock, listeners: Sequence[Callable[[Line], None]]) -> None:
@@ -73,6 +92,9 @@ class Trace(Observer):
         self._clock = clock
         self._listeners = listeners
         self._line: Line | None = None
+        self.reporters: dict[InstanceLike, ReportingObserver] = {}
+        self.reporting: ReportingObserver | None = None
+        """Reporter of the instance that processes an event."""
 
     def watch(self, instance: Instance, actor: Actor) -> None:
         """Observe an instance."""
@@ -83,13 +105,15 @@ class Trace(Observer):
         """Observe the instance of a machine that starts anew instead of the one before."""
         life = self.lives[by] = self.lives.pop(instance)
         life.revive(by)
-        by.observer = self if self.is_heard else life
+        if self.reporters:
+            self.reporters[by] = self.reporters.pop(instance)
+        by.observer = self if self.is_heard else self.reporters.get(by, life)
 
     def attach(self) -> None:
-        """Begin the trace; there are no more listeners to come."""
+        """Begin the trace; there are no more listeners or reporters to come."""
         if not self.is_heard:
-            for life in self.lives.values():
-                life.instance.observer = life
+            for instance, life in self.lives.items():
+                life.instance.observer = self.reporters.get(instance, life)
 
     @property
     def is_heard(self) -> bool:
@@ -112,6 +136,9 @@ class Trace(Observer):
         life.arrives()
         if self.is_heard:
             self._line = Line(self._clock.now, life.actor, event, data=data, envelope=envelope)
+        elif self.reporters:
+            self.reporting = self.reporters[instance]
+            self.reporting.begin(event, envelope)
 
     @property
     def actor(self) -> Actor:
@@ -121,6 +148,10 @@ class Trace(Observer):
 
     def flush(self) -> None:
         """Pass the completed line to the listeners, if there is one."""
+        reporter = self.reporting
+        if reporter is not None:
+            self.reporting = None
+            reporter.end()
         line, self._line = self._line, None
         if line is None:
             return
@@ -213,6 +244,8 @@ class Trace(Observer):
 
     def reaches_nobody(self) -> None:
         """Record that no other robot has the address of the last sent event."""
+        if self.reporting is not None:
+            self.reporting.reaches_nobody()
         if self._line is not None:
             self._line.nobody.append(len(self._line.sent) - 1)
 

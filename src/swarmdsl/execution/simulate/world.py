@@ -284,7 +284,7 @@ class World:
         audience = self._audience(event.name)
         others = len(audience) - any(other is robot for other, _ in audience)
         self.network.delivered[event.name] += others
-        heard = self.trace.is_heard
+        heard, reporters = self.trace.is_heard, self.trace.reporters
 
         def arrive() -> None:
             for other, lives in audience:
@@ -292,6 +292,8 @@ class World:
                     instance = life.instance
                     if heard:
                         self._receive(instance, event)
+                    elif instance.running and reporters:
+                        reporters[instance].receive(event)
                     elif instance.running:
                         # As there, without a call for each of what may be millions.
                         life.arrives()
