@@ -17,6 +17,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
 from swarmdsl.execution.simulate.actors import actors
 from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.properties import watch, watchable
+from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.run import run
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject, choose
@@ -26,6 +28,8 @@ from swarmdsl.execution.simulate.world import World
 ROUNDS = 3
 GOAL = 400_000
 """Least number of deliveries a second."""
+MOST_FOR_PROPERTIES = 20
+"""Greatest share of the time, in percent, that ten properties may add to that of a run."""
 
 TALK = """package talk
 swarm event Hello : std_msgs/Empty
@@ -50,6 +54,20 @@ swarm Crowd {{
 }}
 """
 
+PROPERTIES = """
+property Stays of Crowd : each listener : in Here at all times
+property Waits of Crowd : each talker : in Here at all times
+property Silent of Crowd : no listener sends Hello at all times
+property Some of Crowd : count(talker in Here) >= 1 at all times
+property First of Crowd : each talker : sends Hello only after in Here
+property Begins of Crowd : some talker sends Hello within 2 s
+property Answers of Crowd : talker[0] sends Hello leads to talker[1] sends Hello within 1 s
+property Together of Crowd : never some listener in Here and no talker in Here
+property Again of Crowd : each talker : again and again in Here
+property Possible of Crowd : always possible all listener in Here
+"""
+"""Ten properties, of all robots and of each one."""
+
 
 @dataclass(frozen=True)
 class Crowd:
@@ -71,15 +89,16 @@ class Crowd:
         return self.seconds * self.talkers * (self.talkers + self.listeners - 1)
 
 
+WATCHED = (Crowd(10, 990, 100), Crowd(100, 900, 10))
 CROWDS = (Crowd(300, 0, 10), Crowd(10, 990, 100), Crowd(10, 9_990, 10))
 """The last two have as many deliveries: the time must not grow with the robots."""
 
 
-def load(folder: Path, crowd: Crowd) -> Subject:
-    """Return the swarm of a crowd."""
+def load(folder: Path, crowd: Crowd, properties: str = "") -> Subject:
+    """Return the swarm of a crowd, with properties."""
     file = folder / "talk.swarm"
     counts = {"talkers": crowd.talkers, "listeners": crowd.listeners}
-    text = TALK.format(**counts)
+    text = TALK.format(**counts) + properties
     if not crowd.listeners:
         text = text.replace("  listener : Listener[0]\n", "")
     file.write_text(text, encoding="utf-8")
@@ -100,8 +119,14 @@ def deliveries(subject: Subject, crowd: Crowd, *, trace: bool = False) -> float:
     world = World(subject.system, cast, scenario, 0, listeners)
     gc.collect()
     start = process_time()
+    properties = watchable(subject)
+    monitors = watch(properties, world.data)
+    if properties:
+        observe(world.trace, monitors, world.clock)
     run(world, [], crowd.seconds * SECOND)
+    results = monitors.results(world.clock.now, ended=False)
     spent = process_time() - start
+    assert all(each.verdict != "false" for each in results)
     assert world.network.delivered["Hello"] == crowd.deliveries
     return crowd.deliveries / spent
 
@@ -159,5 +184,26 @@ def section(folder: Path) -> Section:
             "{:,.0f}",
             least=True,
         )
+    _watched(folder, found)
     found.notes += absent
     return found
+
+
+def _watched(folder: Path, found: Section) -> None:
+    """Compare runs with ten properties and without any; the rounds take turns."""
+    for crowd in WATCHED:
+        alone, watched = load(folder, crowd), load(folder, crowd, PROPERTIES)
+        speeds = interleaved(
+            {
+                "alone": partial(deliveries, alone, crowd),
+                "watched": partial(deliveries, watched, crowd),
+            },
+            ROUNDS,
+        )
+        pairs = zip(speeds["alone"], speeds["watched"], strict=True)
+        found.goal(
+            f"percent more time with ten properties, {crowd.title}",
+            median(100 * (one / other - 1) for one, other in pairs),
+            MOST_FOR_PROPERTIES,
+            "{:.0f}",
+        )

@@ -201,6 +201,8 @@ class _Picture:
                 width = max(self.x(end) - self.x(start), _NARROWEST)
                 title = f"{name}: {verdict}\n{_between(start, end)}"
                 drawing.bar(self.x(start), top, width, _ROW, _VERDICTS[verdict], title)
+                if width > _LETTER * (len(verdict) + 1):
+                    drawing.text(self.x(start) + 4, top + _ROW / 2 + 4, verdict, "state")
             top += _ROW + 2
 
     def stays(self, actor: Actor) -> dict[tuple[int, int], list[_Stay]]:
