@@ -124,12 +124,16 @@ latency = LATENCY
 lost = "robot[2]"
 at = "25 s"
 lasts = "20 s"
+[[faults]]
+lost = "robot[0]"
+at = "30 s"
+lasts = "5 s"
 """
 FACTS = ("in Work", "in Rest", "in Over", "in Waiting", "has [box > 3]", "sends Home")
 FACTS += ("hears Home", "hears Start", "starts carry", "cancels carry", "sends Start")
 
 
-EVENTS = ["Start", "Home", "Start", "Home"]
+EVENTS = ["Start", "Home"] * 5
 
 
 def _sentence(dice: random.Random, facts: Sequence[str]) -> str:

@@ -71,8 +71,10 @@ class Reporter(ReportingObserver):
             trace.reporting = None
 
     def begin(self, event: str | None, envelope: Envelope) -> None:
-        """Begin with an event from outside."""
+        """Begin with an event from outside, or with the start of the instance."""
         self.event, self.envelope = event, envelope
+        if event is None:
+            self._inside = 0  # a robot that was lost has left no state
 
     def end(self) -> None:
         """End the macrostep: pass a line to the monitors if it can change a fact."""
