@@ -115,6 +115,8 @@ def _report_missing(found: list[NamedRole], context: Context) -> None:
     if context.report.wants_hint("unresolved-name"):
         roles = dict.fromkeys(name for each in found for name in roles_of(each.swarm))
         help_ = suggest(found[0].name, roles, "roles")
+        if not found[0].name:
+            help_ = "an empty address is that of nobody: leave out `to` to send to all others"
     swarms = listed([str(each.swarm.name) for each in found], "or")
     context.report.report(
         "unresolved-name",
