@@ -1,12 +1,13 @@
-"""Monitors of properties: deterministic automata with clocks, one for each property.
+"""Monitors of properties, deterministic automata with clocks, and gauges of measures.
 
 Standard library only, and nothing else of swarmdsl, so that generated packages can carry them.
 A `Watch` turns the lines of a run into the truth of claims; a `Monitor` gets the truth of each
 claim at each step, and knows nothing of robots.
 """
 
-from .claims import Claim, Count, Fact, Junction, Property, Robots
+from .claims import Claim, Count, Fact, Junction, Measure, Property, Robots
 from .facts import LOST, ActorLike, FactTracker, LineLike, RobotLike, Route, meant_states
+from .meters import Gauge, Meter, Reading, aggregated
 from .monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
 from .patterns import Pattern, pattern_of
 from .watch import Interest, PropertyResult, ViolatedError, Violation, Watch
@@ -21,13 +22,17 @@ __all__ = [
     "Count",
     "Fact",
     "FactTracker",
+    "Gauge",
     "Interest",
     "Junction",
     "LineLike",
+    "Measure",
+    "Meter",
     "Monitor",
     "Pattern",
     "Property",
     "PropertyResult",
+    "Reading",
     "RobotLike",
     "Robots",
     "Route",
@@ -36,6 +41,7 @@ __all__ = [
     "ViolatedError",
     "Violation",
     "Watch",
+    "aggregated",
     "meant_states",
     "pattern_of",
 ]

@@ -1,4 +1,4 @@
-"""Properties of a model, watched in a run."""
+"""Properties and measures of a model, watched in a run."""
 
 from __future__ import annotations
 
@@ -28,10 +28,11 @@ def watch(
     properties: Sequence[ir.Property],
     data: Data,
     *,
+    measures: Sequence[ir.FitnessInput] = (),
     stops: bool = False,
     told: Callable[[monitor.Property, Verdict, int], None] | None = None,
 ) -> Watch:
-    """Return the monitors of some properties in one run, a listener of its trace.
+    """Return the monitors of properties and gauges of measures in one run, a listener of it.
 
     With `stops`, a violation raises ViolatedError. `told` is called with each verdict so far.
     """
@@ -47,7 +48,23 @@ def watch(
         except (ArithmeticError, ValueError, ExecutionError):
             return False
 
-    return Watch([_plain(each) for each in properties], has, stops=stops, told=told)
+    return Watch(
+        [_plain(each) for each in properties],
+        has,
+        measures=[_measure(each.name, each.measure) for each in measures if each.measure],
+        stops=stops,
+        told=told,
+    )
+
+
+def _measure(name: str, measure: ir.Measure) -> monitor.Measure:
+    claim = _claim(measure.claim)
+    fact = measure.claim
+    robots = fact.robots if isinstance(fact, ir.Fact) and measure.kind != "until" else None
+    if robots is not None and robots.quantifier == "index" and robots.index is None:
+        assert isinstance(claim, monitor.Fact)
+        claim = claim._replace(robots=monitor.Robots(robots.role, "every"))
+    return monitor.Measure(name, measure.kind, claim, measure.over, measure.aggregate, measure.each)
 
 
 def _plain(property_: ir.Property) -> monitor.Property:
