@@ -23,6 +23,7 @@ COMMANDS = (
     "targets",
     "test",
     "trace",
+    "verify",
 )
 # Commands with options as plain data: their command lines in plain form are read without Click.
 PLAIN = ("build", "check")

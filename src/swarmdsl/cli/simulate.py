@@ -57,11 +57,6 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     help="Draw the states of all robots over time, as SVG.",
 )
 @click.option(
-    "--results",
-    type=click.Path(path_type=Path),
-    help="Write verdicts on properties, measures and fitness to a file, as JSON.",
-)
-@click.option(
     "--replay",
     type=click.Path(path_type=Path),
     multiple=True,
@@ -96,7 +91,6 @@ def simulate(
     trace: str | None,
     trace_file: Path | None,
     timeline: Path | None,
-    results: Path | None,
     replay: tuple[Path, ...],
     seed: int | None,
     until: int | None,
@@ -124,8 +118,6 @@ def simulate(
         raise click.UsageError("`--no-properties` and `--property` conflict")
     if no_properties and stop_on_violation:
         raise click.UsageError("`--no-properties` and `--stop-on-violation` conflict")
-    if results is not None and len(replay) > 1:
-        raise click.UsageError("`--results` has room for one `--replay`")
     if trace == "none" and trace_file is not None:
         raise click.UsageError("`--trace none` and `--trace-file` conflict: omit one of them")
     is_document = format_ in DOCUMENTS
@@ -152,7 +144,6 @@ def simulate(
         not no_properties,
         stop_on_violation,
         properties,
-        results,
     )
     if not is_document:
         succeeded = run_simulation(request, lambda report: render(report, format_, sys.stderr))

@@ -72,7 +72,6 @@ if TYPE_CHECKING:
     from swarmdsl.ir.optimization import (
         CountRange,
         Fitness,
-        FitnessInput,
         Optimization,
         ParamRange,
     )
@@ -82,7 +81,6 @@ if TYPE_CHECKING:
         Count,
         Fact,
         Junction,
-        Measure,
         Property,
         Robots,
         Scope,
@@ -146,10 +144,8 @@ else:
                 "Interface Message Param Service"
             ),
             "swarmdsl.ir.operations": "OPERATIONS",
-            "swarmdsl.ir.optimization": "CountRange Fitness FitnessInput Optimization ParamRange",
-            "swarmdsl.ir.properties": (
-                "Chance Claim Count Fact Junction Measure Property Robots Scope"
-            ),
+            "swarmdsl.ir.optimization": "CountRange Fitness Optimization ParamRange",
+            "swarmdsl.ir.properties": "Chance Claim Count Fact Junction Property Robots Scope",
             "swarmdsl.ir.statemachine": (
                 "Activity Address Assignment Cancel DoneTrigger Effect EventTrigger OutcomeTrigger "
                 "Policy ResultMapping Send State StateKind StateMachine TimeTrigger Transition "
@@ -207,7 +203,6 @@ __all__ = [
     "Field",
     "FieldAccess",
     "Fitness",
-    "FitnessInput",
     "Function",
     "FunctionPort",
     "Heartbeat",
@@ -216,7 +211,6 @@ __all__ = [
     "ItemRef",
     "Junction",
     "Literal",
-    "Measure",
     "Member",
     "Message",
     "Multiplicity",

@@ -11,7 +11,7 @@ Each code has a page in `explain/` (printed by `swarmc explain CODE`) and a case
     10xx  simulation             11xx  tests
     12xx  import                 13xx  diagrams
     14xx  comparison             15xx  new projects, changes of models
-    16xx  properties
+    16xx  properties                 17xx  verification
 """
 
 # The annotations here are values: typing would compile texts one by one.
@@ -341,14 +341,22 @@ CODES: dict[str, Code] = {
     "still-named": Code("SW1506", "warning", "the old name `{name}` is still used here"),
     "cannot-add": Code("SW1507", "error", "cannot add {what}: {reason}"),
     # ---- properties
-    "unclear-property": Code("SW1601", "error", "{kind} `{name}` does not say what it is about"),
+    "unclear-property": Code("SW1601", "error", "property `{name}` does not say what it is about"),
     "unnamed-robot": Code("SW1602", "error", "this does not say {which}"),
     "impossible-fact": Code("SW1603", "warning", "this can never hold: {reason}"),
     "misplaced-robots": Code("SW1604", "error", "`{name}` {fault}"),
     "bad-chance": Code("SW1605", "error", "{text} is not a probability"),
     "violated-property": Code("SW1606", "error", "property `{name}` is violated{who} at {time}"),
-    "momentary-fact": Code("SW1607", "error", "`{kind}` is about what lasts; this only happens"),
-    "foreign-fitness": Code(
-        "SW1608", "error", "the measures of fitness `{name}` are about swarm `{other}`"
+    # ---- verification
+    "refuted-property": Code("SW1701", "error", "property `{name}` does not hold{who}"),
+    "stuck-swarm": Code("SW1702", "warning", "the swarm can get stuck: nothing goes on by itself"),
+    "waiting-for-ever": Code("SW1703", "warning", "a {who} in `{name}` waits for ever"),
+    "absent-state": Code("SW1704", "warning", "no {who} gets into `{name}` in this swarm"),
+    "untaken-transition": Code("SW1705", "warning", "no {who} takes this transition in this swarm"),
+    "unhandled-message": Code(
+        "SW1706", "warning", "`{name}` is sent, but ignored whenever it arrives"
     ),
+    "endless-reaction": Code("SW1707", "error", "`{name}` does not come to rest"),
+    "failed-computation": Code("SW1708", "warning", "evaluation fails in `{name}`: {reason}"),
+    "size-not-allowed": Code("SW1709", "error", "this swarm cannot have {count} `{role}`"),
 }

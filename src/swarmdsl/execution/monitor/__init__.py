@@ -1,13 +1,24 @@
-"""Monitors of properties, deterministic automata with clocks, and gauges of measures.
+"""Monitors of properties: deterministic automata with clocks, one for each property.
 
 Standard library only, and nothing else of swarmdsl, so that generated packages can carry them.
 A `Watch` turns the lines of a run into the truth of claims; a `Monitor` gets the truth of each
 claim at each step, and knows nothing of robots.
 """
 
-from .claims import Claim, Count, Fact, Junction, Measure, Property, Robots
-from .facts import LOST, ActorLike, FactTracker, LineLike, RobotLike, Route, meant_states
-from .meters import Gauge, Meter, Reading, aggregated
+from .claims import Claim, Count, Fact, Junction, Property, Robots
+from .facts import (
+    LOST,
+    MOMENTARY,
+    ActorLike,
+    FactTracker,
+    Has,
+    LineLike,
+    RobotLike,
+    Route,
+    can_hold,
+    meant_states,
+    test_of,
+)
 from .monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
 from .patterns import Pattern, pattern_of
 from .watch import Interest, PropertyResult, ViolatedError, Violation, Watch
@@ -15,6 +26,7 @@ from .watch import Interest, PropertyResult, ViolatedError, Violation, Watch
 __all__ = [
     "FALSE",
     "LOST",
+    "MOMENTARY",
     "OPEN",
     "TRUE",
     "ActorLike",
@@ -22,17 +34,14 @@ __all__ = [
     "Count",
     "Fact",
     "FactTracker",
-    "Gauge",
+    "Has",
     "Interest",
     "Junction",
     "LineLike",
-    "Measure",
-    "Meter",
     "Monitor",
     "Pattern",
     "Property",
     "PropertyResult",
-    "Reading",
     "RobotLike",
     "Robots",
     "Route",
@@ -41,7 +50,8 @@ __all__ = [
     "ViolatedError",
     "Violation",
     "Watch",
-    "aggregated",
+    "can_hold",
     "meant_states",
     "pattern_of",
+    "test_of",
 ]

@@ -98,17 +98,11 @@ class FactTracker:
         self.holding: set[str | None] = set()
         self._role = role
         self._true: set[ActorLike] = set()
-        if isinstance(fact, Fact) and fact.act == "has":
-            self._holds = _has(fact.condition, has)
-        else:
-            self._holds = _in(self.name) if self.act == "in" else _ACTS[self.act](self.name)
+        self._holds = test_of(fact, has)
 
     def follows(self, actor: ActorLike) -> bool:
         """Return True if lines of an actor can change the fact."""
-        if self._role is not None and actor.robot.role != self._role:
-            return False
-        # Values are those of the robot itself, not of its parts.
-        return self.act != "has" or actor.name == actor.robot.name
+        return self._role in (None, actor.robot.role) and can_hold(self.act, actor)
 
     def see(self, line: LineLike) -> bool:
         """Process a line of an actor that it follows; return True if the fact changes."""
@@ -144,6 +138,20 @@ class FactTracker:
         else:
             self.holding.discard(robot)
         return held != holds
+
+
+def can_hold(act: str, actor: ActorLike) -> bool:
+    """Return True if an act can be that of a machine: values are those of the robot itself."""
+    return act != "has" or actor.name == actor.robot.name
+
+
+def test_of(fact: Fact | Count, has: Has) -> Test:
+    """Return the function that says if a fact holds for the machine of a line, after it."""
+    if isinstance(fact, Count):
+        return _in(fact.state)
+    if fact.act == "has":
+        return _has(fact.condition, has)
+    return _in(fact.name) if fact.act == "in" else _ACTS[fact.act](fact.name)
 
 
 def _has(condition: Hashable, has: Has) -> Test:

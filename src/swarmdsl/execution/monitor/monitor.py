@@ -8,6 +8,7 @@ after P `until` Q. A part begins with the step at which P holds, and ends before
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import Literal
 
@@ -45,6 +46,18 @@ class Monitor:
         self._scope = sentence.scope
         self._pattern: Pattern | None = None
         self._over = False
+
+    def copy(self) -> Monitor:
+        """Return a monitor that has seen the same."""
+        made = copy(self)
+        made._pattern = copy(self._pattern)
+        return made
+
+    @property
+    def memory(self) -> tuple[object, ...]:
+        """All that decides on what it says from now on: equal for equal monitors of a sentence."""
+        pattern = tuple(sorted(vars(self._pattern).items())) if self._pattern is not None else None
+        return (self.violated, self._over, pattern)
 
     @property
     def decided(self) -> bool:

@@ -1,4 +1,4 @@
-"""Properties and measures of a model, watched in a run."""
+"""Properties of a model, watched in a run."""
 
 from __future__ import annotations
 
@@ -28,14 +28,18 @@ def watch(
     properties: Sequence[ir.Property],
     data: Data,
     *,
-    measures: Sequence[ir.FitnessInput] = (),
     stops: bool = False,
     told: Callable[[monitor.Property, Verdict, int], None] | None = None,
 ) -> Watch:
-    """Return the monitors of properties and gauges of measures in one run, a listener of it.
+    """Return the monitors of some properties in one run, a listener of its trace.
 
     With `stops`, a violation raises ViolatedError. `told` is called with each verdict so far.
     """
+    return Watch([_plain(each) for each in properties], conditions(data), stops=stops, told=told)
+
+
+def conditions(data: Data) -> Callable[[Any, Any], bool]:
+    """Return the function that evaluates conditions for the machine of a line."""
     functions: dict[ir.Expression, Value] = {}
 
     def has(line: Line, condition: ir.Expression) -> bool:
@@ -48,23 +52,7 @@ def watch(
         except (ArithmeticError, ValueError, ExecutionError):
             return False
 
-    return Watch(
-        [_plain(each) for each in properties],
-        has,
-        measures=[_measure(each.name, each.measure) for each in measures if each.measure],
-        stops=stops,
-        told=told,
-    )
-
-
-def _measure(name: str, measure: ir.Measure) -> monitor.Measure:
-    claim = _claim(measure.claim)
-    fact = measure.claim
-    robots = fact.robots if isinstance(fact, ir.Fact) and measure.kind != "until" else None
-    if robots is not None and robots.quantifier == "index" and robots.index is None:
-        assert isinstance(claim, monitor.Fact)
-        claim = claim._replace(robots=monitor.Robots(robots.role, "every"))
-    return monitor.Measure(name, measure.kind, claim, measure.over, measure.aggregate, measure.each)
+    return has
 
 
 def _plain(property_: ir.Property) -> monitor.Property:
@@ -78,17 +66,18 @@ def _plain(property_: ir.Property) -> monitor.Property:
     return monitor.Property(
         property_.name,
         sentence,
-        tuple(map(_claim, property_.claims)),
-        tuple(map(_claim, scope.claims)) if scope is not None else (),
+        tuple(map(claim_of, property_.claims)),
+        tuple(map(claim_of, scope.claims)) if scope is not None else (),
         property_.each,
         property_.chance,
         property_.origin,
     )
 
 
-def _claim(claim: ir.Claim) -> monitor.Claim:
+def claim_of(claim: ir.Claim) -> monitor.Claim:
+    """Return a claim as plain data."""
     if isinstance(claim, ir.Junction):
-        return monitor.Junction(claim.operator, tuple(map(_claim, claim.claims)))
+        return monitor.Junction(claim.operator, tuple(map(claim_of, claim.claims)))
     if isinstance(claim, ir.Count):
         return monitor.Count(claim.role, claim.state, claim.comparison, claim.number)
     robots = _robots(claim.robots) if claim.robots is not None else None

@@ -53,18 +53,12 @@ from swarmdsl.syntax.ast.behaviour import (
     Vertex,
 )
 from swarmdsl.syntax.ast.composition import (
-    Claim,
-    Conjunction,
     CountRange,
-    Each,
     Environment,
     EnvironmentUse,
-    Fact,
     Fitness,
-    FitnessInput,
     FitnessUse,
     Heartbeat,
-    Measure,
     Multiplicity,
     Objective,
     Optimization,
@@ -74,11 +68,8 @@ from swarmdsl.syntax.ast.composition import (
     Setting,
     Size,
     Swarm,
-    Term,
-    Who,
     World,
     in_metres,
-    whole,
 )
 from swarmdsl.syntax.ast.file import (
     Declaration,
@@ -115,10 +106,17 @@ from swarmdsl.syntax.ast.nodes import (
 )
 from swarmdsl.syntax.ast.properties import (
     Chance,
+    Claim,
+    Conjunction,
+    Each,
+    Fact,
     Pattern,
     Property,
     PropertyScope,
     PropertySubject,
+    Term,
+    Who,
+    whole,
 )
 from swarmdsl.syntax.ast.values import (
     Call,
@@ -132,6 +130,7 @@ from swarmdsl.syntax.ast.values import (
     ExpressionTree,
     FieldUse,
     FieldValue,
+    FitnessInput,
     IndexUse,
     InState,
     NameUse,
@@ -219,7 +218,6 @@ __all__ = [
     "IndexUse",
     "Initial",
     "Interface",
-    "Measure",
     "Member",
     "MessageType",
     "Model",

@@ -38,7 +38,6 @@ TERMINALS = {
     "ROOT": "a value",
     "PRIMARY": "a value",
     "INDEX": "a number",
-    "NOCOLON": "another fact",
     "PROBABILITY": "a probability such as `0.9`",
     "BEFOREDOT": "`.`",
     "DOTTED": "`.`",

@@ -1,0 +1,137 @@
+"""`swarmc verify`."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.verify.explore import Limits
+
+_NUMBER = re.compile(r"([0-9]+(?:\.[0-9]+)?) ?(k|M|MB|GB)?")
+_UNITS = {None: 1, "k": 10**3, "M": 10**6, "MB": 10**6, "GB": 10**9}
+_MOST_CAPACITY = 100
+
+
+def _sizes(
+    _context: click.Context, _param: click.Parameter, texts: tuple[str, ...]
+) -> tuple[tuple[str, range], ...]:
+    """Parse numbers of members: `robot=2..5`."""
+    from swarmdsl.execution.verify.sizes import read_size
+
+    found = []
+    for text in texts:
+        size = read_size(text)
+        if size is None:
+            raise click.BadParameter(f"`{text}` is not a size like `robot=8` or `robot=2..5`")
+        found.append(size)
+    return tuple(found)
+
+
+def _limits(_context: click.Context, _param: click.Parameter, texts: tuple[str, ...]) -> Limits:
+    """Parse limits: numbers of states, durations, or sizes of memory."""
+    from swarmdsl.base.records import replace
+    from swarmdsl.execution.simulate.durations import SECOND, duration
+    from swarmdsl.execution.verify.explore import Limits
+
+    limits = Limits()
+    for text in texts:
+        number = _NUMBER.fullmatch(text)
+        length = duration(text)
+        if length is not None and length > 0:
+            limits = replace(limits, seconds=length / SECOND)
+        elif number is not None and (amount := int(float(number[1]) * _UNITS[number[2]])) > 0:
+            is_memory = number[2] in ("MB", "GB")
+            limits = replace(limits, **{"memory" if is_memory else "states": amount})
+        elif number is not None or length is not None:
+            raise click.BadParameter(f"`{text}` leaves nothing to look at")
+        else:
+            raise click.BadParameter(
+                f"`{text}` is no number of states like `5M`, time like `2min` or memory like `1GB`"
+            )
+    return limits
+
+
+@click.command(epilog="Example: swarmc verify examples/emergency_exit -o runs")
+@options.files
+@click.option("--machine", metavar="NAME", help="Verify this state machine alone.")
+@click.option("--swarm", metavar="NAME", help="Verify this swarm.")
+@click.option(
+    "--property",
+    "properties",
+    metavar="NAME",
+    multiple=True,
+    help="Prove only this property, without other findings; may be repeated.",
+)
+@click.option(
+    "--size",
+    "sizes",
+    metavar="ROLE=N|ROLE=N..M",
+    multiple=True,
+    callback=_sizes,
+    help="Numbers of members of a role, within its multiplicity; may be repeated.  [default: the "
+    "smallest, at least 1]",
+)
+@click.option(
+    "--channel",
+    type=click.IntRange(1, _MOST_CAPACITY),
+    metavar="N",
+    default=2,
+    show_default=True,
+    help="Events of one kind on their way to a robot, at most; of more, the rest is lost.",
+)
+@click.option("--lossy", is_flag=True, help="Any event between robots may be lost.")
+@click.option(
+    "--limit",
+    "limits",
+    metavar="STATES|TIME|MEMORY",
+    multiple=True,
+    callback=_limits,
+    help="End each search at a number of states, or all at a time, or a size of the process, such "
+    "as `5M`, `2min`, `1GB`; may be repeated.  [default: 1M]",
+)
+@click.option(
+    "-o",
+    "--output",
+    "output",
+    metavar="FOLDER",
+    type=click.Path(path_type=Path),
+    help="Write the runs that show what is wrong, as traces for `swarmc simulate --replay`.",
+)
+@options.diagnostics_format
+@options.debug
+def verify(
+    paths: tuple[Path, ...],
+    machine: str | None,
+    swarm: str | None,
+    properties: tuple[str, ...],
+    sizes: tuple[tuple[str, range], ...],
+    channel: int,
+    lossy: bool,
+    limits: Limits,
+    output: Path | None,
+    format_: str,
+) -> int:
+    """Prove properties of a swarm, and find what can go wrong in it.
+
+    All orders of events, outcomes of functions and losses are looked at, for a given number of
+    members. A verdict is `holds`, `fails` with a shortest run, `holds up to` a number of states,
+    or `unknown`, and is printed with its conditions.
+    """
+    from swarmdsl.execution.verify.command import Request
+    from swarmdsl.execution.verify.command import verify as run_verification
+
+    if machine is not None and swarm is not None:
+        raise click.UsageError("`--machine` and `--swarm` conflict")
+    request = Request(
+        paths, machine, swarm, properties, sizes, channel, lossy, limits, format_, output
+    )
+    succeeded = run_verification(request, sys.stdout, sys.stderr)
+    return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS

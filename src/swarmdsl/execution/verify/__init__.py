@@ -1,0 +1,1 @@
+"""Proofs about all runs of a swarm, and runs as counterexamples."""

@@ -1,0 +1,521 @@
+"""Automaton of one robot, found by running its machines on each input in each state.
+
+States that no run can tell apart are one: the coarsest partition is refined until it is stable (P.
+Kanellakis and S. Smolka, 1983). This leaves out variables where they are not read any more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import reduce
+from operator import or_
+from typing import Any, NamedTuple
+
+from swarmdsl import ir
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.execution import monitor
+from swarmdsl.execution.engine import NO_ENVELOPE, Envelope, Event
+from swarmdsl.execution.monitor import MOMENTARY, can_hold, test_of
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.expressions import SELF
+from swarmdsl.execution.simulate.properties import claim_of, conditions
+from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.verify.body import Body, Input
+from swarmdsl.execution.verify.data import Demands
+from swarmdsl.ir import Count, Fact
+
+_OUTCOMES = ("aborted", "preempted")
+
+
+class Moment(NamedTuple):
+    """What one line of a trace shows: the part of it that findings and properties are about.
+
+    `holding` are the facts that hold for the robot then, as a set of bits.
+    """
+
+    actor: int
+    event: str | None
+    taken: tuple[str, ...]
+    holding: int
+    ignored: bool
+    started: tuple[str, ...]
+    sent: tuple[str, ...]
+    failures: tuple[str, ...]
+    loops: bool
+
+
+class Move(NamedTuple):
+    """A step of a robot: its input, what it shows, the messages that it sends, its target."""
+
+    given: Input
+    moments: tuple[Moment, ...]
+    sends: tuple[int, ...]
+    target: int
+
+    @property
+    def idle(self) -> bool:
+        """True if the robot ignores the input."""
+        return all(each.ignored for each in self.moments) and not self.sends
+
+
+class Look(NamedTuple):
+    """What a state of a robot shows.
+
+    `holding` are its facts, `held` those of each machine. `innermost` are the active states with
+    the numbers of their machines. In a `quiet` state nothing is running: it waits for events.
+    """
+
+    ended: bool
+    holding: int
+    innermost: tuple[tuple[int, str], ...]
+    quiet: bool
+    held: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Message:
+    """A kind of message between robots: equal for all that decides on anything."""
+
+    number: int
+    event: Event
+    reliable: bool
+
+
+class Alphabet:
+    """Messages that robots send to each other."""
+
+    def __init__(self, system: ir.System | None, demands: Demands) -> None:
+        self.messages: list[Message] = []
+        self.demands = demands
+        self.system = system
+        self._known: dict[Any, int] = {}
+
+    def number(self, event: Event) -> int:
+        """Return the number of the kind of a message."""
+        sender = event.envelope.sender if self.demands.identity else ""
+        key = (event.name, self.shown(event), event.envelope.to, sender)
+        if key not in self._known:
+            self._known[key] = len(self.messages)
+            assert self.system is not None
+            delivery = self.system.event(event.name).delivery
+            reliable = delivery is not None and bool(delivery.reliable)
+            self.messages.append(Message(len(self.messages), event, reliable))
+        return self._known[key]
+
+    def shown(self, event: Event) -> Any:
+        """Return the data of an event that decide on anything."""
+        return tuple((path, _at(event.data, path)) for path in self.demands.fields(event.name))
+
+
+@dataclass
+class Kind:
+    """Robots with the same automaton: what they run, and what comes from outside."""
+
+    role: str
+    cast: Sequence[Actor]
+    facts: Sequence[Fact | Count]
+    outside: Mapping[str, Sequence[Any]]
+    results: Mapping[str, Sequence[Mapping[str, Any]]]
+    preempted: Mapping[str, bool] = field(default_factory=dict)
+    """Functions, with True for those that others can preempt: actions."""
+    robots: dict[str | None, Sequence[Actor]] = field(default_factory=dict)
+    """Machines of each robot of the kind; `cast` are those of the first one."""
+
+
+class Automaton:
+    """States and moves of a kind of robot.
+
+    `steps` are the moves of each state, None of those that were not looked at; `heard` are those
+    that messages cause.
+    """
+
+    def __init__(self, kind: Kind, alphabet: Alphabet) -> None:
+        self.kind = kind
+        self.alphabet = alphabet
+        self.replays = 0
+        self.steps: list[list[Move] | None] = []
+        self.heard: list[dict[int, Move]] = []
+        self.first: Move
+        self._keys: dict[Any, int] = {}
+        self._origins: list[tuple[int, Input] | None] = []
+        self.looks: list[Look] = []
+        self._values: list[tuple[tuple[str, Any], ...]] = []
+        has = conditions(self._data)
+        self._tests = [
+            ("in" if isinstance(fact, Count) else fact.act, test_of(_plain(fact), has))
+            for fact in kind.facts
+        ]
+        self._body: Body | None = None
+        self._listening: dict[str, bool] = {}
+        self._begin()
+
+    # ---- finding the states
+
+    def expand(self, number: int) -> None:
+        """Find the moves of a state, without those that other robots cause."""
+        body = self._at(number)
+        given = list(body.inputs()) if body.running else []
+        made = []
+        for each in given:
+            for choice in self._choices(each):
+                made.append(self._try(number, choice))
+        if body.running:
+            for event, messages in self.kind.outside.items():
+                for index in range(len(messages)):
+                    made.append(self._try(number, Input("outside", -1, event, index)))
+        self.steps[number] = made
+
+    def hear(self, number: int, message: int) -> None:
+        """Find the move of a state when a message arrives."""
+        event = self.alphabet.messages[message].event
+        self.heard[number][message] = self._try(number, Input("hear", -1, event.name, message))
+
+    def listens(self, message: int) -> bool:
+        """Return True if a machine handles a message that can be for such a robot."""
+        event = self.alphabet.messages[message].event
+        name = event.name
+        if name not in self._listening:
+            self._listening[name] = any(actor.listens(name) for actor in self.kind.cast)
+        if not self._listening[name]:
+            return False
+        robot = self.kind.cast[0].robot
+        if self.alphabet.demands.identity:
+            return robot.name != event.envelope.sender and robot.is_meant_by(event.envelope.to)
+        to = event.envelope.to
+        return to is None or to == robot.role or to.partition("[")[0] == robot.role
+
+    def wide(self) -> str | None:
+        """Return the variable with the most values."""
+        values: dict[str, set[Any]] = {}
+        for each in self._values:
+            for name, value in each:
+                values.setdefault(name, set()).add(value)
+        best = max(values, key=lambda name: len(values[name]), default=None)
+        return best if best is not None and len(values[best]) > 1 else None
+
+    # ---- running
+
+    def apply(self, body: Body, given: Input, event: Event | None = None) -> None:
+        """Let an input happen to a body; `event` is the very one that arrives."""
+        match given.kind:
+            case "end":
+                state, outcome, result = given.choice
+                values = self.kind.results[given.name]
+                body.end(
+                    given._replace(choice=state),
+                    outcome,
+                    values[result] if result is not None else None,
+                )
+            case "time":
+                body.fire(given)
+            case "inside":
+                body.deliver_inside()
+            case "outside":
+                body.receive(Event(given.name, self.kind.outside[given.name][given.choice]))
+            case "hear":
+                body.receive(event or self._heard_event(given.choice))
+
+    def _heard_event(self, message: int) -> Event:
+        event = self.alphabet.messages[message].event
+        envelope = Envelope(event.envelope.sender, 0, event.envelope.to)
+        return Event(event.name, event.data, envelope=envelope)
+
+    def _choices(self, given: Input) -> Iterable[Input]:
+        if given.kind != "end":
+            yield given
+            return
+        state = given.choice
+        for index in range(len(self.kind.results[given.name])):
+            yield given._replace(choice=(state, "succeeded", index))
+        outcomes = _OUTCOMES if self.kind.preempted.get(given.name) else _OUTCOMES[:1]
+        for outcome in outcomes:
+            yield given._replace(choice=(state, outcome, None))
+
+    def _path(self, number: int) -> list[Input]:
+        path: list[Input] = []
+        origin = self._origins[number]
+        while origin is not None:
+            number, given = origin
+            path.append(given)
+            origin = self._origins[number]
+        return path[::-1]
+
+    def _at(self, number: int) -> Body:
+        """Return a body in a state, by playing the way there."""
+        self.replays += 1
+        body = Body(self.kind.cast, self.alphabet.system, Clock())
+        body.start()
+        for given in self._path(number):
+            body.clock.now += 1
+            self.apply(body, given)
+        body.clock.now += 1
+        return body
+
+    def _begin(self) -> None:
+        body = Body(self.kind.cast, self.alphabet.system, Clock())
+        given = Input("start", -1, "")
+        self.first = self._move(body, given, body.start, [0] * len(self.kind.cast), None)
+
+    def _try(self, number: int, given: Input) -> Move:
+        body = self._at(number)
+        held = list(self.looks[number].held)
+        return self._move(body, given, lambda: self.apply(body, given), held, number)
+
+    def _move(
+        self,
+        body: Body,
+        given: Input,
+        act: Callable[[], None],
+        held: list[int],
+        source: int | None,
+    ) -> Move:
+        """Let a body act, and return what that shows; `held` are the facts of its machines."""
+        shown: list[tuple[int, int]] = []
+        numbers = {actor.name: n for n, actor in enumerate(body.cast)}
+
+        def see(line: Line) -> None:
+            actor = numbers[line.actor.name]
+            held[actor], momentary = self._facts(line)
+            shown.append((actor, reduce(or_, held, momentary)))
+
+        self._body, body.seen = body, see
+        act()
+        last = len(shown) - 1
+        moments = tuple(
+            Moment(
+                actor,
+                line.event,
+                tuple(dict.fromkeys(map(line.actor.machine.called, line.taken))),
+                holding,
+                line.ignored and not line.taken,
+                tuple(line.started),
+                tuple(line.sent),
+                tuple(body.failures) if number == last else (),
+                body.loop is not None and number == last,
+            )
+            for number, (line, (actor, holding)) in enumerate(zip(body.lines, shown, strict=True))
+        )
+        sends = tuple(sorted(map(self.alphabet.number, body.sent)))
+        origin = None if source is None else (source, given)
+        return Move(given, moments, sends, self._add(body, tuple(held), origin))
+
+    def _add(self, body: Body, held: tuple[int, ...], origin: tuple[int, Input] | None) -> int:
+        key = (self._key(body), held)
+        if key not in self._keys:
+            self._keys[key] = len(self.steps)
+            self.steps.append(None)
+            self.heard.append({})
+            self._origins.append(origin)
+            shown = [
+                (number, state)
+                for number, instance in enumerate(body.instances)
+                for state in (
+                    [instance.final]
+                    if instance.final is not None
+                    else instance.configuration.innermost
+                )
+            ]
+            quiet = not (body.runs or body.delays or body.inside)
+            holding = reduce(or_, held, 0)
+            self.looks.append(Look(not body.running, holding, tuple(shown), quiet, held))
+            self._values.append(self._kept(body))
+        return self._keys[key]
+
+    def _data(self, actor: Actor) -> Mapping[str, Any]:
+        assert self._body is not None
+        found: Mapping[str, Any] = self._body.instances[list(self._body.cast).index(actor)].data
+        return found
+
+    def _kept(self, body: Body) -> tuple[tuple[str, Any], ...]:
+        """Return the variables that decide on anything."""
+        demands = self.alphabet.demands
+        return tuple(
+            (f"{instance.machine.name}.{name}", _frozen(value))
+            for instance in body.instances
+            for name, value in instance.data.items()
+            if name != SELF and demands.keeps(instance.machine.name, name)
+        )
+
+    def _key(self, body: Body) -> Any:
+        """Return what decides on everything that a body does from now on."""
+        machines = tuple(
+            (
+                instance.running,
+                instance.final,
+                instance.configuration.active,
+                instance.configuration.histories,
+                tuple(map(self._shown, instance._deferred or ())),
+            )
+            for instance in body.instances
+        )
+        runs = tuple(sorted((number, run.state) for number, run in body.runs))
+        delays = tuple(
+            sorted(
+                (d.actor, d.timer.id, repr(d.timer.message and self._shown(d.timer.message)))
+                for d in body.delays
+            )
+        )
+        inside = tuple(map(self._shown, body.inside))
+        return machines, runs, delays, inside, self._kept(body) if body.running else ()
+
+    def _shown(self, event: Event) -> Any:
+        """Return what decides of an event that waits."""
+        envelope = event.envelope or NO_ENVELOPE
+        sender = envelope.sender if self.alphabet.demands.identity else ""
+        return (event.name, self.alphabet.shown(event), envelope.to or "", sender)
+
+    def _facts(self, line: Line) -> tuple[int, int]:
+        """Return the facts that hold for the machine of a line: lasting and momentary ones."""
+        lasting = momentary = 0
+        for number, (act, holds) in enumerate(self._tests):
+            if can_hold(act, line.actor) and holds(line):
+                if act in MOMENTARY:
+                    momentary |= 1 << number
+                else:
+                    lasting |= 1 << number
+        return lasting, momentary
+
+
+def close(automata: Sequence[Automaton], alphabet: Alphabet, states: int, moves: int) -> bool:
+    """Find all states of some automata; return False if there are more.
+
+    Each robot hears each message at any time: this includes whatever happens in a swarm. The
+    search in an automaton ends at a number of states or moves.
+    """
+    changed = True
+    complete = True
+    while changed:
+        changed = False
+        for automaton in automata:
+            number = 0
+            while number < len(automaton.steps):
+                if number >= states or automaton.replays >= moves:
+                    complete = False
+                    break
+                if automaton.steps[number] is None:
+                    automaton.expand(number)
+                    changed = True
+                for message in range(len(alphabet.messages)):
+                    if message not in automaton.heard[number] and automaton.listens(message):
+                        automaton.hear(number, message)
+                        changed = True
+                number += 1
+    return complete
+
+
+class Quotient:
+    """States of an automaton that no run can tell apart are one.
+
+    Runs tell apart the facts of `mask`, and with `thorough` also what findings are about: active
+    states and transitions. `classes` has the state of the quotient for each of the automaton.
+    """
+
+    def __init__(self, whole: Automaton, mask: int, *, thorough: bool) -> None:
+        self.whole = whole
+        self.mask = mask
+        self._thorough = thorough
+        size = len(whole.steps)
+        looks = [self._look(n) for n in range(size)]
+        blocks = _numbered(looks)
+        count = -1
+        while (found := max(blocks) + 1) != count:
+            count = found
+            blocks = _numbered([(blocks[n], self._signature(n, blocks)) for n in range(size)])
+        self.classes = blocks
+        self.count = count
+        first: dict[int, int] = {}
+        for number, block in enumerate(blocks):
+            first.setdefault(block, number)
+        self._representatives = [first[each] for each in range(count)]
+
+    @property
+    def first(self) -> Move:
+        """Start of the robot."""
+        return self._lifted(self.whole.first)
+
+    def moves(self, state: int) -> list[Move] | None:
+        """Return the moves of a state; None if they are not known."""
+        found = self.whole.steps[self._representatives[state]]
+        if found is None:
+            return None
+        chosen = {self._label(move, self.classes[move.target]): move for move in reversed(found)}
+        return [self._lifted(each) for each in reversed(chosen.values())]
+
+    def move_on(self, state: int, message: int) -> Move | None:
+        """Return the move of a state when a message arrives; None if it is not known."""
+        found = self.whole.heard[self._representatives[state]].get(message)
+        return None if found is None else self._lifted(found)
+
+    def follow(self, number: int, move: Move) -> Move:
+        """Return the move of a state of the automaton that looks like one of the quotient."""
+        if move.given.kind == "hear":
+            return self.whole.heard[number][move.given.choice]
+        wanted = self._label(move, move.target)
+        for each in self.whole.steps[number] or ():
+            if self._label(each, self.classes[each.target]) == wanted:
+                return each
+        raise AssertionError("states that are one have the same moves")
+
+    def look(self, state: int) -> Look:
+        """Return what a state shows."""
+        return self.whole.looks[self._representatives[state]]
+
+    def ended(self, state: int) -> bool:
+        """Return True if the robot has ended."""
+        return self.look(state).ended
+
+    def _lifted(self, move: Move) -> Move:
+        return move._replace(target=self.classes[move.target])
+
+    def _look(self, number: int) -> Any:
+        look = self.whole.looks[number]
+        cut = number if self.whole.steps[number] is None else None
+        if self._thorough:
+            return (cut, look)
+        return (cut, look.ended, look.holding & self.mask)
+
+    def _label(self, move: Move, target: int) -> tuple[Any, ...]:
+        given, moments = move.given, move.moments
+        if self._thorough:
+            return (given.kind, given.actor, given.name, moments, move.sends, target)
+        shown = tuple(each.holding & self.mask for each in moments)
+        return (shown, move.idle, move.sends, target)
+
+    def _signature(self, number: int, blocks: Sequence[int]) -> Any:
+        steps = self.whole.steps[number] or ()
+        own = frozenset(self._label(each, blocks[each.target]) for each in steps)
+        heard = tuple(
+            (message, self._label(each, blocks[each.target]))
+            for message, each in sorted(self.whole.heard[number].items())
+        )
+        return own, heard
+
+
+def _plain(fact: Fact | Count) -> monitor.Fact | monitor.Count:
+    claim = claim_of(fact)
+    assert not isinstance(claim, monitor.Junction)
+    return claim
+
+
+def _numbered(keys: Sequence[Any]) -> list[int]:
+    numbers: dict[Any, int] = {}
+    return [numbers.setdefault(each, len(numbers)) for each in keys]
+
+
+def _at(data: Any, path: Sequence[str]) -> Any:
+    for name in path:
+        data = data.get(name) if isinstance(data, dict) else None
+    return _frozen(data)
+
+
+def _frozen(value: Any) -> Any:
+    """Return a value that can be compared and hashed; True is no number."""
+    match value:
+        case dict():
+            return tuple(sorted((name, _frozen(each)) for name, each in value.items()))
+        case list() | tuple():
+            return tuple(map(_frozen, value))
+        case bool():
+            return ("true",) if value else ("false",)
+    return value

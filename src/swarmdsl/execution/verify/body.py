@@ -1,0 +1,247 @@
+"""One robot with its machines, driven input by input: a world of the engine without time."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from copy import deepcopy
+from typing import Any, NamedTuple
+
+from swarmdsl import ir
+from swarmdsl.codegen.shared.default_values import default_result
+from swarmdsl.execution.engine import (
+    Envelope,
+    Event,
+    Instance,
+    InstanceLike,
+    LoopError,
+    Run,
+    Servers,
+)
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.headers import signed
+from swarmdsl.execution.simulate.trace import Line, Trace
+
+
+class Input(NamedTuple):
+    """What happens to a robot; `actor` is the number of its machine, -1 for all of them.
+
+    `kind` is `end` of an activity, `time` of a delay, `inside` for an event of the robot itself,
+    `outside` for one from outside of the swarm, `hear` for one of another robot.
+    """
+
+    kind: str
+    actor: int
+    name: str
+    choice: Any = None
+
+
+class Delay:
+    """A running delay: its timer, its length in nanoseconds, and when it began."""
+
+    def __init__(self, actor: int, action: Callable[[], None], length: int, began: int) -> None:
+        self.actor = actor
+        self.timer: Any = getattr(action, "__self__", None)
+        self.length = length
+        self.began = began
+        self.ended: int | None = None
+        """Number of the step at which it ended or was cancelled."""
+        self.fired = False
+
+
+class Body:
+    """The machines of a robot; `lines` and `sent` are what the last input led to."""
+
+    def __init__(self, cast: Sequence[Actor], system: ir.System | None, clock: Clock) -> None:
+        self.seen: Callable[[Line], None] | None = None
+        """Listener to the lines, called when the data are as after the line."""
+        self.cast = cast
+        self.clock = clock
+        self.lines: list[Line] = []
+        self.sent: list[Event] = []
+        self.failures: list[str] = []
+        self.loop: LoopError | None = None
+        self.inside: deque[Event] = deque()
+        self.runs: list[tuple[int, Run]] = []
+        self.delays: list[Delay] = []
+        self.every_delay: list[Delay] = []
+        self.steps = 0
+        self._system = system
+        self._trace = Trace(clock, [self._see])
+        servers = Servers()
+        self.instances = [
+            Instance(actor.machine, _Desk(self, number), data=deepcopy(actor.data), servers=servers)
+            for number, actor in enumerate(cast)
+        ]
+        for instance, actor in zip(self.instances, cast, strict=True):
+            self._trace.watch(instance, actor)
+
+    @property
+    def running(self) -> bool:
+        """True unless all machines have ended."""
+        return any(instance.running for instance in self.instances)
+
+    def start(self) -> None:
+        """Start all machines."""
+        for instance in self.instances:
+            self._trace.begin(instance, None)
+            self._guarded(instance.start)
+        self._forget_ended()
+
+    def inputs(self) -> Iterator[Input]:
+        """Yield what can happen by itself: ends of activities and delays, and inner events."""
+        for number, run in self.runs:
+            yield Input("end", number, run.activity.name, run.state)
+        seen: set[tuple[int, str]] = set()
+        for delay in self.delays:
+            key = (delay.actor, delay.timer.id)
+            if key not in seen or delay.timer.message is not None:
+                same = [d for d in self.delays if (d.actor, d.timer.id) == key]
+                yield Input("time", delay.actor, delay.timer.id, same.index(delay))
+            seen.add(key)
+        if self.inside:
+            yield Input("inside", -1, self.inside[0].name)
+
+    def end(self, given: Input, outcome: str, result: Mapping[str, Any] | None) -> None:
+        """End an activity."""
+        self._begin()
+        number, run = next(
+            r for r in self.runs if r[0] == given.actor and r[1].state == given.choice
+        )
+        self.runs.remove((number, run))
+        data: Any = None
+        if outcome == "succeeded":
+            data = dict(result or {})
+            call = self._call(run)
+            if call is not None:
+                data = {**default_result(call, self._system), **data} if self._system else data
+                if data.get("success") is False and call.paradigm == "service":
+                    outcome = run.activity.refused
+        self._guarded(lambda: run.end(outcome, data))
+        self._forget_ended()
+
+    def fire(self, given: Input) -> None:
+        """Let a delay end."""
+        self._begin()
+        same = [d for d in self.delays if (d.actor, d.timer.id) == (given.actor, given.name)]
+        delay = same[given.choice]
+        self.delays.remove(delay)
+        delay.ended, delay.fired = self.steps, True
+        self._guarded(delay.timer.fire)
+        self._forget_ended()
+
+    def deliver_inside(self) -> None:
+        """Deliver the first event that the robot has sent to itself."""
+        self._deliver(self.inside.popleft())
+
+    def receive(self, event: Event) -> None:
+        """Receive an event from outside, or from another robot."""
+        self._deliver(event)
+
+    # ---- internal
+
+    def _see(self, line: Line) -> None:
+        self.lines.append(line)
+        if self.seen is not None:
+            self.seen(line)
+
+    def _begin(self) -> None:
+        self.lines.clear()
+        self.sent.clear()
+        self.failures.clear()
+        self.steps += 1
+
+    def _deliver(self, event: Event) -> None:
+        self._begin()
+        for instance, actor in zip(self.instances, self.cast, strict=True):
+            if instance.running and actor.listens(event.name):
+                self._trace.begin(instance, event.name, event.data, event.envelope)
+                self._guarded(lambda of=instance: of.receive(event))  # type: ignore[misc]
+        self._forget_ended()
+
+    def _guarded(self, action: Callable[[], None]) -> None:
+        try:
+            action()
+        except LoopError as error:
+            self.loop = error
+        self._trace.flush()
+
+    def _forget_ended(self) -> None:
+        if not self.running:
+            self.inside.clear()
+
+    def _call(self, run: Run) -> ir.Communication | None:
+        if self._system is None:
+            return None
+        return self._system.function(run.activity.name).communication
+
+    # ---- called by the engine, by way of the desks
+
+    def schedule(self, actor: int, length: int, action: Callable[[], None]) -> Delay:
+        """Keep a delay."""
+        made = Delay(actor, action, length, self.steps)
+        self.delays.append(made)
+        self.every_delay.append(made)
+        return made
+
+    def unschedule(self, delay: Delay) -> None:
+        """Cancel a delay."""
+        self.delays.remove(delay)
+        delay.ended = self.steps
+
+    def emit(self, actor: int, event: Event) -> None:
+        """Take an event that a machine sends."""
+        system = self._system
+        if system is None:
+            return
+        robot, to = self.cast[actor].robot, event.envelope.to
+        declared = system.event(event.name)
+        data = signed(declared, event.data, system, robot.name or "", self.clock.now)
+        if to is None:
+            for each in system.events:
+                if each.incoming_topic == declared.topic and any(
+                    one.listens(each.name) for one in self.cast
+                ):
+                    self.inside.append(Event(each.name, data))
+        if declared.swarm:
+            envelope = Envelope(robot.name or "", self.clock.now, to)
+            self.sent.append(Event(event.name, data, envelope=envelope))
+
+
+class _Desk:
+    """`World` of one machine of a body."""
+
+    def __init__(self, body: Body, actor: int) -> None:
+        self._body = body
+        self._actor = actor
+
+    @property
+    def time(self) -> int:
+        """Return the time of the body in nanoseconds."""
+        return self._body.clock.now
+
+    def schedule(self, delay: int, action: Callable[[], None]) -> Delay:
+        """Keep the delay; it ends at any time."""
+        return self._body.schedule(self._actor, delay, action)
+
+    def unschedule(self, handle: Delay) -> None:
+        """Cancel the delay."""
+        self._body.unschedule(handle)
+
+    def start(self, run: Run) -> None:
+        """Keep the run; it ends at any time."""
+        self._body.runs.append((self._actor, run))
+
+    def cancel(self, run: Run) -> None:
+        """Free the server at once: an activity that waits for it takes only longer."""
+        self._body.runs.remove((self._actor, run))
+        run.end("preempted")
+
+    def send(self, instance: InstanceLike, event: Event) -> None:
+        """Pass the event on."""
+        self._body.emit(self._actor, event)
+
+    def failed(self, instance: InstanceLike, error: Exception) -> None:
+        """Keep the reason."""
+        self._body.failures.append(str(error))

@@ -1,0 +1,239 @@
+"""`swarmc verify`: look at all states of a swarm, prove its properties, and print the results."""
+
+from __future__ import annotations
+
+import gc
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TextIO
+
+from swarmdsl import ir
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.render import counted, render
+from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.write_stream import write_stream
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config import find_settings
+from swarmdsl.execution.simulate.properties import watchable
+from swarmdsl.execution.simulate.subject import Subject, choose
+from swarmdsl.execution.simulate.trace import as_json
+from swarmdsl.execution.verify import told
+from swarmdsl.execution.verify.explore import Budget, Limits
+from swarmdsl.execution.verify.findings import Survey, survey
+from swarmdsl.execution.verify.model import Model, Options
+from swarmdsl.execution.verify.prove import Verdict, prove
+from swarmdsl.execution.verify.runs import Run
+from swarmdsl.execution.verify.sizes import shown, sizes
+
+_PAUSE = 0.2
+"""Seconds between two reports of the progress."""
+_WORST = ("fails", "unknown", "up to", "holds")
+
+
+@dataclass(frozen=True)
+class Request:
+    """Arguments of the command; `output` is the folder for runs."""
+
+    paths: tuple[Path, ...]
+    machine: str | None = None
+    swarm: str | None = None
+    properties: tuple[str, ...] = ()
+    sizes: tuple[tuple[str, range], ...] = ()
+    capacity: int = 2
+    lossy: bool = False
+    limits: Limits = Limits()
+    format: str = "text"
+    output: Path | None = None
+
+
+def verify(request: Request, stdout: TextIO, stderr: TextIO) -> bool | None:
+    """Verify a swarm; return True without errors, None if interrupted."""
+    # The compiler disables garbage collection, but a search may be long.
+    gc.enable()
+    report = Diagnostics()
+    session = _Session(request, report, stdout, stderr)
+    finished = session.run()
+    stdout.flush()
+    render(report, request.format, stdout)
+    return None if finished is None else not report.has_errors
+
+
+class _Session:
+    def __init__(
+        self, request: Request, report: Diagnostics, stdout: TextIO, stderr: TextIO
+    ) -> None:
+        self._request = request
+        self._report = report
+        self._results = stdout if request.format == "text" else stderr
+        self._progress = _Progress(stderr)
+        self._budget = Budget(request.limits, self._progress.tell)
+        self._written: list[Path] = []
+
+    def run(self) -> bool | None:
+        """Return None if interrupted."""
+        subject = self._subject()
+        if subject is None:
+            return False
+        properties = self._properties(subject)
+        every = sizes(subject, self._request.sizes, self._report)
+        if self._report.has_errors:
+            return False
+        surveys: list[Survey] = []
+        verdicts: dict[str, Verdict] = {}
+        full: set[str] = set()
+        looked: list[dict[str, int]] = []
+        model: Model | None = None
+        try:
+            for counts in every:
+                made = Model(subject, counts, properties, self._options(), self._report)
+                if self._report.has_errors:
+                    return False
+                model = made
+                looked.append(counts)
+                self._size(model, counts, properties, verdicts, surveys)
+                if self._budget.interrupted:
+                    break
+        except KeyboardInterrupt:
+            self._budget.interrupted = True
+        self._progress.clear()
+        if model is None:
+            return None
+        for verdict in verdicts.values():
+            full.update(verdict.full)
+        for found in surveys:
+            full.update(found.full)
+        self._print(subject, model, looked, surveys, list(verdicts.values()), sorted(full))
+        return None if self._budget.interrupted else True
+
+    def _size(
+        self,
+        model: Model,
+        counts: dict[str, int],
+        properties: Sequence[ir.Property],
+        verdicts: dict[str, Verdict],
+        surveys: list[Survey],
+    ) -> None:
+        """Look at a swarm with given numbers of members."""
+        size = shown(model.subject, [counts])
+        if not self._request.properties:
+            found = survey(model, self._budget)
+            surveys.append(found)
+            for finding in found.findings:
+                self._write(f"{finding.fault}-{finding.name}", finding.run)
+                told.report_finding(finding, size, self._report)
+        for property_ in properties:
+            known = verdicts.get(property_.name)
+            if known is not None and known.outcome == "fails":
+                continue
+            if self._budget.interrupted:
+                verdict = Verdict(property_, "unknown", reason="the search was interrupted")
+            else:
+                verdict = prove(property_, model, self._budget)
+            if known is None or _WORST.index(verdict.outcome) <= _WORST.index(known.outcome):
+                verdicts[property_.name] = verdict
+            self._write(property_.name, verdict.run)
+            told.report_verdict(verdict, size, self._report)
+
+    # ---- before
+
+    def _options(self) -> Options:
+        return Options(self._request.capacity, self._request.lossy)
+
+    def _subject(self) -> Subject | None:
+        models = list(self._request.paths)
+        settings = find_settings(models, self._report)
+        if self._report.has_errors:
+            return None
+        checked = pipeline.check(models or settings.sources, settings)
+        self._report.include(checked.report)
+        if self._report.has_errors or checked.system is None:
+            return None
+        asked = self._request
+        return choose(
+            checked.system, [], asked.machine, asked.swarm, self._report, asked.properties
+        )
+
+    def _properties(self, subject: Subject) -> list[ir.Property]:
+        """Return the properties to prove."""
+        chosen = self._request.properties
+        return [each for each in watchable(subject) if not chosen or each.name in chosen]
+
+    # ---- after
+
+    def _print(
+        self,
+        subject: Subject,
+        model: Model,
+        looked: Sequence[dict[str, int]],
+        surveys: Sequence[Survey],
+        verdicts: Sequence[Verdict],
+        full: Sequence[str],
+    ) -> None:
+        self._say(f"{subject.name}: {shown(subject, looked)}")
+        for found in surveys:
+            states = counted_in_thousands(found.states, "state")
+            steps = counted_in_thousands(found.transitions, "step")
+            rest = "all there are" if found.complete else "there are more"
+            self._say(f"  {states}, {steps}: {rest}")
+        lines = list(told.rows(verdicts))
+        if lines:
+            self._say("")
+        widths = [max(len(line[n]) for line in lines) for n in range(2)] if lines else []
+        for name, outcome, reason in lines:
+            text = f"  {name:<{widths[0]}}  {outcome:<{widths[1]}}  {reason}"
+            self._say(printable(text.rstrip()))
+        self._say("")
+        self._say("under these conditions:")
+        for condition in told.conditions(model, full):
+            self._say(printable(f"  - {condition}"))
+        self._say("")
+        for path in self._written:
+            self._say(f"written: {printable(path.as_posix())}")
+
+    def _say(self, text: str) -> None:
+        self._results.write(f"{text}\n")
+
+    def _write(self, name: str, run: Run | None) -> None:
+        """Write a run as a trace."""
+        folder = self._request.output
+        if folder is None or run is None:
+            return
+        path = folder / f"{name}.jsonl"
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            with write_stream(path) as stream:
+                stream.writelines(f"{as_json(line)}\n" for line in run.lines)
+        except OSError as error:
+            reason = str(error.strerror)
+            self._report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
+            return
+        self._written.append(path)
+
+
+class _Progress:
+    """Number of states so far, on a terminal."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream if stream.isatty() else None
+        self._last = time.monotonic()
+
+    def tell(self, states: int) -> None:
+        """Show the number of states, not too often."""
+        now = time.monotonic()
+        if self._stream is not None and now - self._last > _PAUSE:
+            self._last = now
+            self._stream.write(f"\r{states:,} states")
+            self._stream.flush()
+
+    def clear(self) -> None:
+        """Remove what was shown."""
+        if self._stream is not None:
+            self._stream.write("\r\033[K")
+            self._stream.flush()
+
+
+def counted_in_thousands(number: int, noun: str) -> str:
+    """Return a number of things, with commas: `24,122 states`."""
+    return counted(number, noun).replace(str(number), f"{number:,}", 1)

@@ -1,0 +1,474 @@
+"""Data that decide what a swarm does, and representatives of data that come from outside.
+
+Demands flow backwards, from guards over copies to where the data come from: a program slice
+(M. Weiser, 1981). Data that nothing demands are left out. A number that is only compared with
+constants has one representative for each outcome of all comparisons.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise, product
+from typing import Any
+
+from swarmdsl import ir
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.shared.default_values import (
+    default_result,
+    default_value,
+    field_type,
+    result_fields,
+)
+from swarmdsl.execution.engine import ExecutionError, bounded
+from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.ir.integer_ranges import bound_of
+from swarmdsl.ir.operations import OPERATIONS
+from swarmdsl.syntax.types import FLOATS, INTEGERS
+
+Path = tuple[str, ...]
+Node = tuple[str, str, Path]
+"""Place of data: `var`, `event` or `result`, its name, and fields in it."""
+Cut = tuple[str, Any]
+"""Comparison with a constant: operator and value."""
+
+SENDER: Node = ("robot", "sender", ())
+SELF: Node = ("robot", "self", ())
+SENT: Node = ("time", "sent", ())
+_COMPARISONS = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
+"""Comparisons, each with the one that has its sides exchanged."""
+_MOST = 64
+"""Maximum number of representatives of one message or result."""
+_OTHER = "another"
+"""Text that stands for all that no model compares with."""
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Reason why a proof is not complete, with its place in the model."""
+
+    reason: str
+    place: Span | None = None
+
+
+class Demands:
+    """What decides on the behaviour of some machines.
+
+    `data` are the first data of the instances of each machine, by its name. `extra` are the
+    conditions of properties, each with the machine that it is about.
+    """
+
+    def __init__(
+        self,
+        system: ir.System,
+        data: Mapping[str, Sequence[Mapping[str, Any]]],
+        extra: Iterable[tuple[str, ir.Expression]] = (),
+    ) -> None:
+        self._system = system
+        self._data = data
+        self._flows: list[tuple[Node, Node]] = []
+        self._cuts: dict[Node, set[Cut]] = {}
+        self._exact: dict[Node, ir.Expression] = {}
+        """Places whose very values count, with the expressions that use them."""
+        self._computed: list[tuple[Node, ir.Expression, str, tuple[str, ...]]] = []
+        self.assumed: dict[str, None] = {}
+        """Variables whose computation is assumed to have a value."""
+        self._identity = False
+        self._read: dict[Node, ir.Expression] = {}
+        """Places of data with the first expressions that compare or need them."""
+        for name in data:
+            self._machine(system.machines_by_name[name])
+        for name, expression in extra:
+            self._decide(expression, name, ())
+        for event in system.events:
+            for here in system.events:
+                if here.incoming_topic == event.topic and here is not event:
+                    self._flows.append((("event", here.name, ()), ("event", event.name, ())))
+        self._spread()
+
+    # ---- what was found
+
+    def keeps(self, machine: str, variable: str) -> bool:
+        """Return True if a variable decides on anything."""
+        return any(
+            kind == "var" and name == f"{machine}.{variable}" for kind, name, _ in self._demanded
+        )
+
+    @property
+    def identity(self) -> bool:
+        """True if it counts who a robot or a sender is."""
+        named = any(
+            kind == "robot" or (kind == "event" and self._header(name, path) == "node")
+            for kind, name, path in self._demanded
+        )
+        return named or self._identity
+
+    def fields(self, event: str) -> list[Path]:
+        """Return the fields of an event that decide on anything."""
+        found = {path for kind, name, path in self._demanded if (kind, name) == ("event", event)}
+        return sorted(found)
+
+    def timed(self) -> Iterator[Doubt]:
+        """Yield a doubt for each reading of the time."""
+        for kind, name, path in self._demanded:
+            if kind == "time" or (kind == "event" and self._header(name, path) == "stamp"):
+                expression = self._read.get((kind, name, path))
+                yield Doubt("the model reads the time", getattr(expression, "origin", None))
+                return
+
+    def results(self, function: str) -> tuple[list[dict[str, Any]], list[Doubt], list[str]]:
+        """Return representatives of the results of a function, with doubts and conditions."""
+        call = self._system.function(function).communication
+        fields = result_fields(call, self._system) or ()
+        types = {each.name: each.type for each in fields}
+        return self._representatives(
+            "result", function, lambda: default_result(call, self._system), types
+        )
+
+    def messages(self, event: str) -> tuple[list[dict[str, Any]], list[Doubt], list[str]]:
+        """Return representatives of the messages of an event from outside, likewise."""
+        type_ = self._system.event(event).type
+
+        def blank() -> dict[str, Any]:
+            made: dict[str, Any] = default_value(type_, self._system)
+            return made
+
+        return self._representatives("event", event, blank, type_)
+
+    # ---- internal: representatives
+
+    def _representatives(
+        self, kind: str, name: str, blank: Any, types: Any
+    ) -> tuple[list[dict[str, Any]], list[Doubt], list[str]]:
+        doubts: list[Doubt] = []
+        said: list[str] = []
+        axes: list[tuple[Path, list[Any]]] = []
+        for node in sorted(self._demanded):
+            if node[:2] != (kind, name):
+                continue
+            path = node[2]
+            if isinstance(types, dict):
+                type_ = field_type(types.get(path[0]), path[1:], self._system) if path else None
+            else:
+                type_ = field_type(types, path, self._system)
+            values, exact = self._values(node, type_)
+            shown = ".".join((name, *path))
+            if not exact:
+                place = getattr(self._exact.get(node), "origin", None)
+                doubts.append(Doubt(f"only some values of `{shown}` were tried", place))
+            elif any(each is not True for _, each in self._cuts.get(node, ())):
+                said.append(f"`{shown}` {_regions(self._cuts[node])}")
+            if path:
+                axes.append((path, values))
+        made = []
+        for choice in product(*(values for _, values in axes)):
+            message = blank()
+            for (path, _), value in zip(axes, choice, strict=True):
+                _put(message, path, value)
+            made.append(message)
+            if len(made) == _MOST:
+                doubts.append(Doubt(f"only {_MOST} values of `{name}` were tried"))
+                break
+        return made, doubts, said
+
+    def _values(self, node: Node, type_: ir.Type | None) -> tuple[list[Any], bool]:
+        """Return representatives of a value, and True if they stand for all values."""
+        cuts = self._cuts.get(node, set())
+        is_exact = node in self._exact
+        match type_:
+            case ir.Primitive(name="bool"):
+                return [False, True], True
+            case ir.Primitive(name="string" | "wstring"):
+                texts = sorted({c for _, c in cuts if isinstance(c, str)} - {""})
+                ordered = any(symbol not in ("==", "!=") for symbol, _ in cuts)
+                return ["", *texts, _OTHER], not (is_exact or ordered)
+            case ir.Primitive(name=name) if name in (*FLOATS, *INTEGERS, "duration"):
+                return _numbers(cuts, name), not is_exact
+        return [default_value(type_, self._system) if type_ is not None else 0], False
+
+    def _header(self, event: str, path: Path) -> str:
+        """Return the last field of a path into a header of an event, or ""."""
+        if len(path) < 2:
+            return ""
+        declared = self._system.events_by_name.get(event)
+        around = field_type(declared.type, path[:-1], self._system) if declared else None
+        headers = (ir.Named("std_msgs", "Header"), ir.Named("swarmros", "EventHeader"))
+        return path[-1] if around in headers else ""
+
+    # ---- internal: demands
+
+    @property
+    def _demanded(self) -> set[Node]:
+        return {*self._cuts, *self._exact}
+
+    def _spread(self) -> None:
+        """Carry demands from where data are used to where they come from."""
+        changed = True
+        while changed:
+            changed = False
+            for target, source in self._flows:
+                for node in list(self._demanded):
+                    origin = _behind(node, target, source)
+                    if origin is None:
+                        continue
+                    if node in self._cuts:
+                        cuts = self._cuts.setdefault(origin, set())
+                        changed |= not self._cuts[node] <= cuts
+                        cuts |= self._cuts[node]
+                    if node in self._exact and origin not in self._exact:
+                        self._exact[origin] = self._exact[node]
+                        changed = True
+            for target, expression, machine, events in self._computed:
+                if any(_overlap(node, target) for node in self._demanded):
+                    before = len(self._exact)
+                    self._need(expression, machine, events)
+                    changed |= len(self._exact) != before
+        for target, expression, _, _ in self._computed:
+            if not any(_overlap(node, target) for node in self._demanded):
+                self.assumed.update(dict.fromkeys(sorted(ir.reads(expression))))
+
+    def _machine(self, machine: ir.StateMachine) -> None:
+        name = machine.name
+        handled = tuple(
+            dict.fromkeys(
+                each.event
+                for state in machine.walk()
+                for transition in state.transitions
+                for each in transition.triggers
+                if isinstance(each, ir.EventTrigger)
+            )
+        )
+        types = {each.name: each.type for each in machine.variables}
+        for state in machine.walk():
+            self._effects((*state.entry, *state.exit), name, handled, types)
+            if state.activity is not None:
+                for field, value in state.activity.arguments:
+                    goal = ("goal", state.activity.function, (field,))
+                    self._flow(goal, value, None, name, ())
+                for result in state.activity.results:
+                    source = ("result", state.activity.function, (result.field,))
+                    target = ("var", f"{name}.{result.variable}", result.path)
+                    self._flows.append((target, source))
+            for transition in state.transitions:
+                events = tuple(
+                    each.event for each in transition.triggers if isinstance(each, ir.EventTrigger)
+                )
+                for trigger in transition.triggers:
+                    if isinstance(trigger, ir.TimeTrigger):
+                        self._delay(trigger.delay, name, ())
+                if transition.guard is not None:
+                    self._decide(transition.guard, name, events or handled)
+                self._effects(transition.effects, name, events or handled, types)
+
+    def _effects(
+        self,
+        effects: Iterable[ir.Effect],
+        machine: str,
+        events: tuple[str, ...],
+        types: Mapping[str, ir.Type],
+    ) -> None:
+        for effect in effects:
+            match effect:
+                case ir.Assignment(variable=variable, path=path, value=value):
+                    held = field_type(types.get(variable), path, self._system)
+                    target = ("var", f"{machine}.{variable}", path)
+                    self._flow(target, value, held, machine, events)
+                case ir.Send(event=event, arguments=arguments, to=to, delay=delay):
+                    type_ = self._system.event(event).type
+                    for field, value in arguments:
+                        held = field_type(type_, (field,), self._system)
+                        self._flow(("event", event, (field,)), value, held, machine, events)
+                    if to is not None:
+                        self._address(to, machine, events)
+                    if delay is not None:
+                        self._delay(delay, machine, events)
+
+    def _flow(
+        self,
+        target: Node,
+        value: ir.Expression,
+        held: ir.Type | None,
+        machine: str,
+        events: tuple[str, ...],
+    ) -> None:
+        """Note that a value is stored in a place."""
+        if isinstance(value, ir.Construction):
+            for field, part in value.values:
+                inner = field_type(value.type, (field,), self._system)
+                self._flow((*target[:2], (*target[2], field)), part, inner, machine, events)
+            return
+        nodes = self._nodes(value, machine, events)
+        if nodes is not None:
+            self._flows += [(target, node) for node in nodes]
+        elif not self._is_constant(value):
+            self._computed.append((target, value, machine, events))
+        if nodes is not None and bound_of(value, held) is not None:
+            self._computed.append((target, value, machine, events))
+
+    def _address(self, to: ir.Address, machine: str, events: tuple[str, ...]) -> None:
+        for value in to.values:
+            if not isinstance(value, ir.Literal):
+                self._identity = True
+                self._need(value, machine, events)
+
+    def _delay(self, delay: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
+        """Demand if a delay is positive or not."""
+        nodes = self._nodes(delay, machine, events)
+        if nodes is not None:
+            for node in nodes:
+                self._cuts.setdefault(node, set()).add((">", 0))
+        elif not self._is_constant(delay):
+            self._need(delay, machine, events)
+
+    def _decide(self, expression: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
+        """Demand what the truth of a condition depends on."""
+        nodes = self._nodes(expression, machine, events)
+        if nodes is not None:
+            for node in nodes:
+                self._cuts.setdefault(node, set()).add(("==", True))
+            return
+        match expression:
+            case ir.Unary(operator="not", operand=operand):
+                self._decide(operand, machine, events)
+            case ir.Binary(operator="and" | "or", left=left, right=right):
+                self._decide(left, machine, events)
+                self._decide(right, machine, events)
+            case ir.Binary(operator=symbol, left=left, right=right) if symbol in _COMPARISONS:
+                if not (
+                    self._compare(symbol, left, right, machine, events)
+                    or self._compare(_COMPARISONS[symbol], right, left, machine, events)
+                ):
+                    self._need(expression, machine, events)
+            case _:
+                self._need(expression, machine, events)
+
+    def _compare(
+        self,
+        symbol: str,
+        place: ir.Expression,
+        constant: ir.Expression,
+        machine: str,
+        events: tuple[str, ...],
+    ) -> bool:
+        """Note the comparison of a place with a constant; return False if it is none."""
+        nodes = self._nodes(place, machine, events)
+        for node in nodes or ():
+            self._read.setdefault(node, place)
+        if nodes is None or not self._is_constant(constant):
+            return False
+        value = function_of(constant)
+        try:
+            values = {value(data, None) for data in self._data[machine]}
+        except (ArithmeticError, ValueError, ExecutionError, TypeError):
+            return False
+        for node in nodes:
+            self._cuts.setdefault(node, set()).update((symbol, each) for each in values)
+        return True
+
+    def _need(self, expression: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
+        """Demand the very values that an expression reads."""
+        nodes = self._nodes(expression, machine, events)
+        if nodes is not None:
+            for node in nodes:
+                self._exact.setdefault(node, expression)
+                self._read.setdefault(node, expression)
+            return
+        for part in _parts(expression):
+            self._need(part, machine, events)
+
+    def _nodes(
+        self, expression: ir.Expression, machine: str, events: tuple[str, ...]
+    ) -> list[Node] | None:
+        """Return the places that an expression names; None if it is more than a place."""
+        path: Path = ()
+        while isinstance(expression, ir.FieldAccess):
+            path = (expression.field, *path)
+            expression = expression.base
+        match expression:
+            case ir.VariableRef(name=name):
+                return [("var", f"{machine}.{name}", path)]
+            case ir.EventData():
+                return [("event", each, path) for each in events]
+            case ir.EnvelopeField(field=field):
+                return [SENDER if field == "sender" else SENT]
+            case ir.SelfField(field="id" | "index"):
+                return [SELF]
+            case ir.Elapsed(state=state):
+                return [("time", state, ())]
+        return None
+
+    def _is_constant(self, expression: ir.Expression) -> bool:
+        """Return True for what is the same in all runs."""
+        varies = (
+            *(ir.VariableRef, ir.EventData, ir.EnvelopeField, ir.ItemRef),
+            *(ir.InState, ir.Elapsed),
+        )
+        return not any(
+            isinstance(part, varies)
+            or (isinstance(part, ir.SelfField) and part.field in ("id", "index"))
+            or (isinstance(part, ir.Call) and part.function == "present")
+            for part in ir.subexpressions(expression)
+        )
+
+
+def _parts(expression: ir.Expression) -> Iterator[ir.Expression]:
+    """Yield the direct parts of an expression."""
+    found: list[ir.Expression] = []
+
+    def keep(part: ir.Expression) -> ir.Expression:
+        found.append(part)
+        return part
+
+    ir.mapped(expression, keep)
+    yield from found
+
+
+def _behind(node: Node, target: Node, source: Node) -> Node | None:
+    """Return the place in the source of a copy that becomes a place in its target."""
+    if node[:2] != target[:2]:
+        return None
+    inner, outer = node[2], target[2]
+    if inner[: len(outer)] == outer:
+        return (*source[:2], (*source[2], *inner[len(outer) :]))
+    return source if outer[: len(inner)] == inner else None
+
+
+def _overlap(node: Node, target: Node) -> bool:
+    return _behind(node, target, target) is not None
+
+
+def _numbers(cuts: Iterable[Cut], type_: str) -> list[Any]:
+    """Return one number for each outcome of all comparisons; zero for its own."""
+    compared = sorted(cuts, key=repr)
+    constants = sorted({each for _, each in compared if isinstance(each, (int, float))})
+    candidates: list[Any] = [0]
+    if type_ not in FLOATS:
+        near = (int(c) + step for c in constants for step in (-1, 0, 1))
+        candidates += [n for n in near if type_ not in INTEGERS or _fits(n, type_)]
+    elif constants:
+        candidates += constants
+        candidates += [(a + b) / 2 for a, b in pairwise(constants)]
+        candidates += [constants[0] - 1, constants[-1] + 1]
+    found: dict[tuple[bool, ...], Any] = {}
+    for number in candidates:
+        found.setdefault(tuple(bool(OPERATIONS[s](number, c)) for s, c in compared), number)
+    return list(found.values())
+
+
+def _fits(number: int, type_: str) -> bool:
+    try:
+        bounded(number, type_)
+    except ExecutionError:
+        return False
+    return True
+
+
+def _regions(cuts: Iterable[Cut]) -> str:
+    """Describe comparisons: `>= 0.4`."""
+    return ", ".join(f"{s} {c!r}" for s, c in sorted(cuts, key=repr))
+
+
+def _put(message: Any, path: Path, value: Any) -> None:
+    for field in path[:-1]:
+        message = message.setdefault(field, {})
+    message[path[-1]] = value

@@ -1,0 +1,196 @@
+"""Breadth-first search of the states of a swarm, within limits."""
+
+from __future__ import annotations
+
+import resource
+import sys
+import time
+from array import array
+from collections.abc import Callable
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.execution.verify.network import Network
+from swarmdsl.execution.verify.observer import Observer
+
+_OFTEN = 4096
+"""Number of states between two looks at the limits."""
+_KILOBYTES = 1 if sys.platform == "darwin" else 1024
+"""Bytes in the unit of `ru_maxrss`."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits of a search: states, seconds, and bytes of memory; None is no limit."""
+
+    states: int = 1_000_000
+    seconds: float | None = None
+    memory: int | None = None
+
+
+class Budget:
+    """What is left of the limits of a command.
+
+    `tell` is called with the number of states from time to time.
+    """
+
+    def __init__(self, limits: Limits, tell: Callable[[int], None] | None = None) -> None:
+        self._limits = limits
+        self._tell = tell
+        self._began = time.monotonic()
+        self.interrupted = False
+
+    def allows(self, states: int) -> bool:
+        """Return True if a search may go on."""
+        limits = self._limits
+        if self._tell is not None:
+            self._tell(states)
+        if self.interrupted or states >= limits.states:
+            return False
+        if limits.seconds is not None and time.monotonic() - self._began >= limits.seconds:
+            return False
+        used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * _KILOBYTES
+        return limits.memory is None or used < limits.memory
+
+    @property
+    def most(self) -> int:
+        """Number of states that one search may find."""
+        return self._limits.states
+
+
+class Graph:
+    """States that a search has found, in the order of their distance from the start.
+
+    `parents` has the number of the state from which each was found first. `first` has the number
+    of the first state with a robot at a place, `stuck` those in which nothing can happen. The
+    search is `complete` if there are no more states.
+    """
+
+    def __init__(self, network: Network) -> None:
+        self.network = network
+        self.seen: dict[int, None] = {}
+        self.parents = array("I")
+        self.first: dict[int, int] = {}
+        self.stuck: list[int] = []
+        self.bad: int | None = None
+        self.transitions = 0
+        self.complete = False
+
+    def way(self, number: int) -> list[int]:
+        """Return the states on a shortest way to one, from the start on."""
+        numbers = [number]
+        while numbers[-1]:
+            numbers.append(self.parents[numbers[-1]])
+        wanted = set(numbers)
+        found = {n: state for n, state in enumerate(self.seen) if n in wanted}
+        return [found[each] for each in reversed(numbers)]
+
+
+def explore(network: Network, budget: Budget) -> Graph:
+    """Find all states of a swarm."""
+    graph = Graph(network)
+    start = network.start()
+    seen, parents = graph.seen, graph.parents
+    seen[start] = None
+    parents.append(0)
+    level = [start]
+    index = transitions = 0
+    steps, plain, casts = network.steps, network.plain, network.casts
+    try:
+        while level:
+            following: list[int] = []
+            add, note = following.append, parents.append
+            for state in level:
+                present = network.present(state)
+                moved = False
+                known = None
+                total = 0
+                for place, _ in present:
+                    if steps[place] is None:
+                        network.row(place)
+                        graph.first[place] = index
+                    for change in plain[place]:
+                        moved = True
+                        transitions += 1
+                        new = state + change
+                        if new not in seen:
+                            seen[new] = None
+                            note(index)
+                            add(new)
+                    for change, shifts, sends, sender in casts[place]:
+                        moved = True
+                        transitions += 1
+                        if shifts is not known:
+                            known = shifts
+                            total = 0
+                            for where, count in present:
+                                shift = shifts.get(where)
+                                if shift is None:
+                                    shift = network.shift_of(where, sends, sender)
+                                if shift:
+                                    total += count * shift
+                        new = state + change + total - shifts[place]
+                        if new not in seen:
+                            seen[new] = None
+                            note(index)
+                            add(new)
+                if not moved:
+                    graph.stuck.append(index)
+                index += 1
+                if not index % _OFTEN and not budget.allows(len(seen)):
+                    graph.transitions = transitions
+                    return graph
+            if len(seen) > budget.most:
+                graph.transitions = transitions
+                return graph
+            level = following
+    except KeyboardInterrupt:
+        budget.interrupted = True
+        graph.transitions = transitions
+        return graph
+    graph.transitions = transitions
+    graph.complete = not network.cut
+    return graph
+
+
+def observe(network: Network, observer: Observer, budget: Budget) -> Graph:
+    """Find the states of a swarm with an observer, until it sees a violation."""
+    graph = Graph(network)
+    seen, parents = graph.seen, graph.parents
+    first = observer.start(network.start())
+    seen[first] = None
+    parents.append(0)
+    if observer.is_bad(first):
+        graph.bad = 0
+        return graph
+    level = [first]
+    index = 0
+    try:
+        while level:
+            following: list[int] = []
+            for state in level:
+                moved = False
+                if not observer.is_settled(state):
+                    for new in observer.following(state):
+                        graph.transitions += 1
+                        if new not in seen:
+                            seen[new] = None
+                            parents.append(index)
+                            following.append(new)
+                            if observer.is_bad(new):
+                                graph.bad = len(seen) - 1
+                                return graph
+                        moved = moved or new != state
+                    if not moved and observer.fails_at_end(state) and not observer.is_busy(state):
+                        graph.bad = index
+                        return graph
+                index += 1
+                if not index % _OFTEN and not budget.allows(len(seen)):
+                    return graph
+            if len(seen) > budget.most:
+                return graph
+            level = following
+    except KeyboardInterrupt:
+        budget.interrupted = True
+        return graph
+    graph.complete = not network.cut
+    return graph

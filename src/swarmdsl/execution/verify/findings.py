@@ -1,0 +1,346 @@
+"""Findings about a swarm without any property: what gets stuck, or never happens."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from typing import Literal
+
+from swarmdsl import ir
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.verify.automaton import Move, Quotient
+from swarmdsl.execution.verify.explore import Budget, Graph, explore
+from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.network import Group, Network, Step
+from swarmdsl.execution.verify.runs import Run, play, steps_between
+
+Fault = Literal["loops", "fails", "stuck", "waits", "unreachable", "untaken", "lost"]
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that is wrong with a swarm, its place in the model, and a run that leads there.
+
+    `name` is that of a state, an event or a role, `role` that of the robots, `detail` a reason.
+    """
+
+    fault: Fault
+    name: str
+    role: str
+    place: Span | None
+    detail: str = ""
+    run: Run | None = None
+
+
+@dataclass(frozen=True)
+class Survey:
+    """States of a swarm that were looked at, and what was found."""
+
+    states: int
+    transitions: int
+    complete: bool
+    findings: tuple[Finding, ...]
+    full: tuple[str, ...] = ()
+    doubtful: bool = False
+
+
+def survey(model: Model, budget: Budget) -> Survey:
+    """Look at all states of a swarm; groups that do not exchange messages are looked at apart."""
+    states = transitions = 0
+    complete = True
+    doubtful = False
+    findings: list[Finding] = []
+    full: set[str] = set()
+    reached: dict[str, _Reached] = {}
+    for groups in model.apart(model.groups(thorough=True)):
+        network = Network(groups, model.alphabet, model.options.capacity, lossy=model.options.lossy)
+        graph = explore(network, budget)
+        states += len(graph.seen)
+        transitions += graph.transitions
+        sure = graph.complete and not model.doubts(groups)
+        complete &= graph.complete
+        doubtful |= bool(model.doubts(groups))
+        full |= network.full
+        part = _Part(model, graph)
+        found = list(part.findings(sure=sure))
+        findings += found
+        # What ends or waits too early explains what does not happen after it.
+        early = any(each.fault in ("loops", "waits", "stuck") for each in found)
+        part.reach(reached, sure=sure and not early)
+    ignored = {each.name for each in findings if each.fault == "lost"}
+    for machine in reached.values():
+        findings += machine.missing(ignored)
+    return Survey(states, transitions, complete, tuple(findings), tuple(sorted(full)), doubtful)
+
+
+class _Part:
+    """One search, of groups that exchange messages."""
+
+    def __init__(self, model: Model, graph: Graph) -> None:
+        self._model = model
+        self._graph = graph
+        self._network = graph.network
+        self._sent = {
+            message
+            for steps in self._network.steps
+            for step in steps or ()
+            if step.move is not None
+            for message in step.move.sends
+        }
+        for group in self._network.groups:
+            self._sent.update(group.automaton.first.sends)
+
+    def findings(self, *, sure: bool) -> Iterator[Finding]:
+        """Yield what is wrong; what is missing only if the search has seen all."""
+        yield from self._failures()
+        trapped = list(self._trapped()) if sure else []
+        yield from (finding for _, finding in trapped)
+        if sure:
+            yield from self._stuck({place for place, _ in trapped})
+            yield from self._lost()
+
+    def reach(self, reached: dict[str, _Reached], *, sure: bool) -> None:
+        """Note the states and transitions of each machine that occur."""
+        for group in self._network.groups:
+            for actor in group.automaton.whole.kind.cast:
+                name = actor.machine.name
+                if name not in reached:
+                    machine = self._model.machines[name]
+                    reached[name] = _Reached(machine, actor.machine)
+                reached[name].roles[group.role] = None
+                reached[name].sure &= sure
+        for number in range(len(self._network.places)):
+            if number not in self._graph.first:
+                continue
+            place = self._network.places[number]
+            group = self._network.groups[place.group]
+            cast = group.automaton.whole.kind.cast
+            for actor_number, state in group.automaton.look(place.state).innermost:
+                reached[cast[actor_number].machine.name].states.add(state)
+            moves = [step.move for step in self._network.row(number) if step.move is not None]
+            for move in (group.automaton.first, *moves):
+                for moment in move.moments:
+                    reached[cast[moment.actor].machine.name].taken.update(moment.taken)
+
+    def _failures(self) -> Iterator[Finding]:
+        """Find guards and effects without a value, and machines that do not come to rest."""
+        told: set[tuple[str, str]] = set()
+        for number in sorted(self._graph.first, key=self._graph.first.__getitem__):
+            group = self._network.groups[self._network.places[number].group]
+            for step in self._network.row(number):
+                for moment in step.move.moments if step.move is not None else ():
+                    machine = group.automaton.whole.kind.cast[moment.actor].machine
+                    if moment.loops and ("loops", machine.name) not in told:
+                        told.add(("loops", machine.name))
+                        run = self._run(number, step.move)
+                        place = self._place(machine, moment.taken)
+                        if not run.flaw:
+                            yield Finding("loops", machine.name, group.role, place, run=run)
+                    for reason in moment.failures:
+                        if (machine.name, reason) in told:
+                            continue
+                        told.add((machine.name, reason))
+                        run = self._run(number, step.move)
+                        place = self._place(machine, moment.taken)
+                        if not run.flaw:
+                            yield Finding("fails", machine.name, group.role, place, reason, run)
+
+    def _trapped(self) -> Iterator[tuple[tuple[int, int], Finding]]:
+        """Find states that nothing leads on from, whatever comes."""
+        told: dict[tuple[int, int], None] = {}
+        for number in sorted(self._graph.first, key=self._graph.first.__getitem__):
+            group_number, state, _ = self._network.places[number]
+            group = self._network.groups[group_number]
+            key = (group_number, state)
+            if key in told or not self._is_trap(group, state):
+                continue
+            told[key] = None
+            run = self._run(number)
+            if run.flaw:
+                continue
+            cast = group.automaton.whole.kind.cast
+            actor, name = group.automaton.look(state).innermost[0]
+            yield (
+                key,
+                Finding(
+                    "waits", name, group.role, self._origin(cast[actor].machine, name), run=run
+                ),
+            )
+
+    def _is_trap(self, group: Group, state: int) -> bool:
+        automaton = group.automaton
+        look = automaton.look(state)
+        if look.ended or not look.quiet:
+            return False
+        moves = automaton.moves(state)
+        if moves is None or not all(_keeps(automaton, move, state) for move in moves):
+            return False
+        heard = (automaton.move_on(state, m) for m in self._sent if automaton.whole.listens(m))
+        return all(move is None or _keeps(automaton, move, state) for move in heard)
+
+    def _stuck(self, trapped: set[tuple[int, int]]) -> Iterator[Finding]:
+        """Find a state of the swarm in which nothing can happen, though not all have ended."""
+        for number in self._graph.stuck:
+            waiting = self._waiting(self._graph.way(number)[-1])
+            if not waiting or set(waiting) & trapped:
+                continue
+            run = play(self._network, self._steps(number))
+            if run.flaw:
+                continue
+            group, local = waiting[0]
+            whole = self._network.groups[group].automaton
+            actor, name = whole.look(local).innermost[0]
+            machine = whole.whole.kind.cast[actor].machine
+            role = whole.whole.kind.role
+            yield Finding("stuck", name, role, self._origin(machine, name), run=run)
+            return
+
+    def _waiting(self, state: int) -> list[tuple[int, int]]:
+        """Return the groups and states of robots that wait in a state, if nothing can happen.
+
+        A robot whose machines are `endless` may wait when another one has ended.
+        """
+        waiting: list[tuple[int, int]] = []
+        patient: list[tuple[int, int]] = []
+        somebody_ended = False
+        for place, _ in self._network.present(state):
+            group, local, _ = self._network.places[place]
+            automaton = self._network.groups[group].automaton
+            steps = self._network.row(place)
+            if any(step.move is not None and not step.move.idle for step in steps):
+                return []
+            if automaton.ended(local):
+                somebody_ended = True
+                continue
+            names = [actor.machine.name for actor in automaton.whole.kind.cast]
+            endless = all(self._model.machines[name].endless for name in names)
+            (patient if endless else waiting).append((group, local))
+        return waiting if somebody_ended else waiting + patient
+
+    def _lost(self) -> Iterator[Finding]:
+        """Find events that are sent, but that no robot ever handles."""
+        messages = self._model.alphabet.messages
+        handled: set[str] = set()
+        heard: set[str] = set()
+        for number in self._graph.first:
+            for step in self._network.row(number):
+                move = step.move
+                if move is not None and move.given.kind == "hear":
+                    heard.add(move.given.name)
+                    if not move.idle:
+                        handled.add(move.given.name)
+        for name in sorted({messages[m].event.name for m in self._sent} & heard - handled):
+            sends = self._model.sends(self._model.machines)
+            place = next((send.origin for send in sends if send.event == name), None)
+            first = next(
+                (
+                    (number, step.move)
+                    for number in sorted(self._graph.first, key=self._graph.first.__getitem__)
+                    for step in self._network.row(number)
+                    if step.move is not None
+                    and any(messages[m].event.name == name for m in step.move.sends)
+                ),
+                None,
+            )
+            run = self._run(*first) if first is not None else None
+            if run is None or not run.flaw:
+                yield Finding("lost", name, "", place, run=run)
+
+    # ---- runs and places
+
+    def _run(self, place: int, move: Move | None = None) -> Run:
+        """Return a shortest run to a robot at a place, and its move there."""
+        steps = self._steps(self._graph.first[place])
+        if move is not None:
+            steps.append(next(s for s in self._network.row(place) if s.move is move))
+        return play(self._network, steps)
+
+    def _steps(self, number: int) -> list[Step]:
+        way = self._graph.way(number)
+        return steps_between(way, lambda state: list(self._network.followers(state)))
+
+    def _origin(self, machine: Machine, state: str) -> Span | None:
+        return self._model.subject.place(machine.states[machine.numbers[state]].origin)
+
+    def _place(self, machine: Machine, taken: tuple[str, ...]) -> Span | None:
+        for transition in transitions_of(machine).items():
+            if transition[0] in taken:
+                return transition[1].origin
+        return None
+
+
+def _keeps(automaton: Quotient, move: Move, state: int) -> bool:
+    """Return True if a move changes nothing that can be seen."""
+    return move.idle and move.target == state
+
+
+def transitions_of(machine: Machine) -> dict[str, ir.Transition]:
+    """Return the transitions of the model by their names in traces."""
+    found = {}
+    for state in machine.states:
+        for each in state.transitions:
+            if isinstance(each.origin, ir.Transition) and (each.origin.triggers or each.guard):
+                found[machine.called(each)] = each.origin
+    return found
+
+
+class _Reached:
+    """States and transitions of a machine that occur in a swarm."""
+
+    def __init__(self, machine: ir.StateMachine, table: Machine) -> None:
+        self._machine = machine
+        self._table = table
+        self.roles: dict[str, None] = {}
+        self.states: set[str] = set()
+        self.taken: set[str] = set()
+        self.sure = True
+
+    def missing(self, ignored: Collection[str]) -> Iterator[Finding]:
+        """Yield what never happens: states first, then transitions between states that occur.
+
+        Transitions on `ignored` events have been reported with these.
+        """
+        if not self.sure:
+            return
+        role = " or ".join(self.roles)
+        every = transitions_of(self._table)
+        entered = self._entered(every)
+        absent: set[str] = set()
+        for state in self._machine.walk():
+            is_place = state.kind not in (ir.StateKind.HISTORY, ir.StateKind.REGION)
+            around = state.id.rpartition(".")[0]
+            if state.id not in entered and is_place:
+                absent.add(state.id)
+                if not any(around == a or around.startswith(f"{a}.") for a in absent):
+                    yield Finding("unreachable", state.id, role, state.origin)
+        for name, transition in every.items():
+            source = name.rpartition("->")[0]
+            if name in self.taken or source not in entered or transition.target in absent:
+                continue
+            triggers = transition.triggers
+            if triggers and all(_is_told(each, ignored) for each in triggers):
+                continue
+            yield Finding("untaken", transition.target or source, role, transition.origin)
+
+    def _entered(self, every: dict[str, ir.Transition]) -> set[str]:
+        """Return the states that occur, with the states around them."""
+        found = set(self.states)
+        for name in self.taken:
+            found.add(name.rpartition("->")[0])
+            if name in every and every[name].target is not None:
+                found.add(str(every[name].target))
+        for state in list(found):
+            names = state.split(".")
+            found.update(".".join(names[:end]) for end in range(1, len(names)))
+        return found
+
+
+def _is_told(trigger: ir.Trigger, ignored: Collection[str]) -> bool:
+    """Return True for events that are told elsewhere, and for what only servers can cause."""
+    match trigger:
+        case ir.EventTrigger(event=event):
+            return event in ignored
+        case ir.OutcomeTrigger(outcome=outcome):
+            return outcome == "preempted"
+    return False

@@ -1,0 +1,352 @@
+"""A swarm of some size, ready for proofs: its automata, groups of robots, and what is doubtful."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from swarmdsl import ir
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.shared.identity import member_uses
+from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.expressions import PRESENT
+from swarmdsl.execution.simulate.members import Roster
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.verify.automaton import Alphabet, Automaton, Kind, Quotient, close
+from swarmdsl.execution.verify.data import Demands, Doubt
+from swarmdsl.execution.verify.network import Group
+from swarmdsl.execution.verify.observer import meaning
+from swarmdsl.ir.sentences import facts_in
+
+MOST_STATES, MOST_MOVES = 500, 5_000
+"""Maximum number of states, and of moves, of one robot that are looked at."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How the network behaves."""
+
+    capacity: int = 2
+    lossy: bool = False
+
+
+class Model:
+    """Automata of the robots of a subject, for given numbers of members."""
+
+    def __init__(
+        self,
+        subject: Subject,
+        counts: Mapping[str, int],
+        properties: Sequence[ir.Property],
+        options: Options,
+        report: Diagnostics,
+    ) -> None:
+        assert subject.system is not None
+        self.subject = subject
+        self.system = subject.system
+        self.options = options
+        self.counts = counts
+        scenario = Scenario(counts=counts)
+        self.cast = actors(subject, subject.create_robots(counts), scenario, report)
+        self.kinds: list[Automaton] = []
+        if report.has_errors:
+            return
+        self._by_robot: dict[str | None, list[Actor]] = {}
+        for actor in self.cast:
+            self._by_robot.setdefault(actor.robot.name, []).append(actor)
+        self.machines = {
+            machine.name: machine
+            for actors_ in self._by_robot.values()
+            for machine in (self.system.machines_by_name[a.machine.name] for a in actors_)
+        }
+        facts = self._facts(properties)
+        data: dict[str, list[Any]] = {}
+        for actor in self.cast:
+            data.setdefault(actor.machine.name, []).append({**actor.params, **actor.data})
+        self.demands = Demands(self.system, data, self._conditions(facts))
+        self.alphabet = Alphabet(self.system, self.demands)
+        self.outside: dict[str, None] = {}
+        self.said: dict[str, None] = {}
+        """Conditions on data, for the verdicts."""
+        self._doubts: dict[int, list[Doubt]] = {}
+        self._named = set(self._addressed()) | {
+            f"{each.robots.role}[{each.robots.index or 0}]"
+            for property_ in properties
+            for each in _facts_of(property_)
+            if isinstance(each, ir.Fact)
+            and each.robots is not None
+            and each.robots.quantifier == "index"
+        }
+        self._robots: list[list[str | None]] = []
+        self._gather(facts)
+        self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES)
+        self._quotients: dict[tuple[int, int, bool], Quotient] = {}
+
+    # ---- groups
+
+    def groups(
+        self,
+        properties: Sequence[ir.Property] = (),
+        *,
+        me: str | None = None,
+        thorough: bool = False,
+    ) -> list[Group]:
+        """Return the groups of robots, with those by themselves that something tells apart."""
+        made = []
+        for number, automaton in enumerate(self.kinds):
+            mask = _mask(automaton, properties)
+            quotient = self._quotient(number, mask, thorough)
+            left = list(self._robots[number])
+            for robot in self._robots[number]:
+                if robot in self._named or robot == me:
+                    left.remove(robot)
+                    made.append(Group(quotient, (robot,)))
+            if left:
+                made.append(Group(quotient, tuple(left)))
+        return made
+
+    def one_of_each(self, role: str) -> list[str | None]:
+        """Return robots of a role that stand for all of them."""
+        found: list[str | None] = []
+        for number, automaton in enumerate(self.kinds):
+            if automaton.kind.role == role:
+                robots = self._robots[number]
+                found += [robot for robot in robots if robot in self._named]
+                found += [robot for robot in robots if robot not in self._named][-1:]
+        return found
+
+    def doubts(self, groups: Iterable[Group]) -> list[Doubt]:
+        """Return the reasons why proofs about some groups are not complete."""
+        found: dict[Doubt, None] = {}
+        for group in groups:
+            number = self.kinds.index(group.automaton.whole)
+            found.update(dict.fromkeys(self._doubts[number]))
+        return list(found)
+
+    def influences(self, groups: Sequence[Group]) -> list[set[int]]:
+        """Return for each group those that can send it a message."""
+        return [
+            {
+                other
+                for other, source in enumerate(groups)
+                if any(group.hears(m, source) for m in self._sent(source))
+            }
+            for group in groups
+        ]
+
+    def cone(self, groups: Sequence[Group], about: Iterable[int]) -> list[Group]:
+        """Return the groups that can influence some of them."""
+        influences = self.influences(groups)
+        found = set(about)
+        todo = list(found)
+        while todo:
+            for each in influences[todo.pop()] - found:
+                found.add(each)
+                todo.append(each)
+        return [group for number, group in enumerate(groups) if number in found]
+
+    def apart(self, groups: Sequence[Group]) -> Iterator[list[Group]]:
+        """Yield groups that exchange messages together, independent ones apart.
+
+        A robot that no other one influences stands for all of its group.
+        """
+        influences = self.influences(groups)
+        left = set(range(len(groups)))
+        while left:
+            part = {min(left)}
+            grown = True
+            while grown:
+                more = {
+                    n
+                    for n in left - part
+                    if influences[n] & part or any(n in influences[m] for m in part)
+                }
+                grown = bool(more)
+                part |= more
+            left -= part
+            if len(part) == 1 and not influences[next(iter(part))]:
+                (only,) = part
+                yield [Group(groups[only].automaton, groups[only].robots[:1])]
+            else:
+                yield [groups[number] for number in sorted(part)]
+
+    def _sent(self, group: Group) -> set[int]:
+        automaton = group.automaton.whole
+        found = set(automaton.first.sends)
+        for steps, heard in zip(automaton.steps, automaton.heard, strict=True):
+            for move in (*(steps or ()), *heard.values()):
+                found.update(move.sends)
+        return found
+
+    def _quotient(self, number: int, mask: int, thorough: bool) -> Quotient:
+        key = (number, mask, thorough)
+        if key not in self._quotients:
+            self._quotients[key] = Quotient(self.kinds[number], mask, thorough=thorough)
+        return self._quotients[key]
+
+    # ---- what is known before
+
+    def _facts(self, properties: Sequence[ir.Property]) -> dict[str, list[ir.Fact | ir.Count]]:
+        """Return the facts of properties, by the role that they are about."""
+        roles = list(dict.fromkeys(actor.robot.role for actor in self.cast))
+        found: dict[str, list[ir.Fact | ir.Count]] = {role: [] for role in roles}
+        for property_ in properties:
+            for fact in _facts_of(property_):
+                for role in roles_of(fact, property_) or roles:
+                    known = found.setdefault(role, [])
+                    if all(meaning(each) != meaning(fact) for each in known):
+                        known.append(fact)
+        return found
+
+    def _conditions(
+        self, facts: Mapping[str, Sequence[ir.Fact | ir.Count]]
+    ) -> Iterator[tuple[str, ir.Expression]]:
+        for role, about in facts.items():
+            for fact in about:
+                if isinstance(fact, ir.Fact) and fact.guard is not None:
+                    for actor in self.cast:
+                        if actor.robot.role == role and actor.name == actor.robot.name:
+                            yield actor.machine.name, fact.guard
+
+    def sends(self, names: Iterable[str]) -> Iterator[ir.Send]:
+        """Yield the sends of some machines."""
+        for machine in (self.machines[name] for name in names):
+            for state in machine.walk():
+                effects = [*state.entry, *state.exit]
+                for transition in state.transitions:
+                    effects += transition.effects
+                yield from (each for each in effects if isinstance(each, ir.Send))
+
+    def _addressed(self) -> Iterator[str]:
+        for send in self.sends(self.machines):
+            to = send.to
+            if to is not None and to.role and isinstance(to.index, ir.Literal):
+                yield f"{to.role}[{to.index.value}]"
+
+    def _gather(self, facts: Mapping[str, Sequence[ir.Fact | ir.Count]]) -> None:
+        """Make an automaton for each kind of robot."""
+        sent = {send.event for send in self.sends(self.machines)}
+        topics = {self.system.event(name).topic for name in sent}
+        from_inside = {e.name for e in self.system.events if e.incoming_topic in topics} | sent
+        keys: dict[Any, int] = {}
+        for robot, cast in self._by_robot.items():
+            key = self._key(cast)
+            if key in keys:
+                self._robots[keys[key]].append(robot)
+                self.kinds[keys[key]].kind.robots[robot] = cast
+                self._present(cast)
+                continue
+            keys[key] = len(self.kinds)
+            self._robots.append([robot])
+            doubts = self._doubts[len(self.kinds)] = list(self._lacks(cast))
+            kind = self._kind(cast, facts[cast[0].robot.role], from_inside, doubts)
+            self._present(cast)
+            automaton = Automaton(kind, self.alphabet)
+            self.kinds.append(automaton)
+            if any(moment.event is not None for moment in automaton.first.moments):
+                doubts.append(Doubt("a delay of zero ends while the robots still start"))
+
+    def _present(self, cast: Sequence[Actor]) -> None:
+        robots = list(dict.fromkeys(actor.robot for actor in self.cast))
+        for actor in cast:
+            if any(True for _ in member_uses(self.machines[actor.machine.name])):
+                actor.data[PRESENT] = Roster(robots).count
+
+    def _key(self, cast: Sequence[Actor]) -> Any:
+        """Return what tells the robots of a kind from others."""
+        if self.demands.identity:
+            return cast[0].robot.name
+        shown = []
+        for actor in cast:
+            machine = self.machines[actor.machine.name]
+            names = [each.name for each in machine.params]
+            names += [v.name for v in machine.variables if self.demands.keeps(machine.name, v.name)]
+            # Conditions of properties can read params of the robot that its machine lacks.
+            values = {**actor.params, **{name: actor.data.get(name) for name in names}}
+            shown.append((machine.name, repr(sorted(values.items()))))
+        return cast[0].robot.role, tuple(shown)
+
+    def _kind(
+        self,
+        cast: Sequence[Actor],
+        facts: Sequence[ir.Fact | ir.Count],
+        from_inside: set[str],
+        doubts: list[Doubt],
+    ) -> Kind:
+        results: dict[str, Sequence[Mapping[str, Any]]] = {}
+        preempted: dict[str, bool] = {}
+        outside: dict[str, Sequence[Any]] = {}
+        for actor in cast:
+            for state in self.machines[actor.machine.name].walk():
+                if state.activity is not None:
+                    name = state.activity.function
+                    results[name] = self._noted(self.demands.results(name), doubts)
+                    call = self.system.function(name).communication
+                    preempted[name] = call.paradigm == "action"
+        for event in self.system.events:
+            hears = any(actor.listens(event.name) for actor in cast)
+            if hears and event.name not in from_inside and not event.predefined:
+                self.outside[event.name] = None
+                outside[event.name] = self._noted(self.demands.messages(event.name), doubts)
+        robots: dict[str | None, Sequence[Actor]] = {cast[0].robot.name: cast}
+        return Kind(cast[0].robot.role, cast, facts, outside, results, preempted, robots)
+
+    def _noted(
+        self, found: tuple[list[dict[str, Any]], list[Doubt], list[str]], doubts: list[Doubt]
+    ) -> list[dict[str, Any]]:
+        values, doubtful, said = found
+        doubts += doubtful
+        self.said.update(dict.fromkeys(said))
+        return values
+
+    def _lacks(self, cast: Sequence[Actor]) -> Iterator[Doubt]:
+        """Yield what a machine uses that proofs do not cover."""
+        for actor in cast:
+            machine = self.machines[actor.machine.name]
+            for _, place in member_uses(machine):
+                yield Doubt("the loss of members is not covered", place)
+            for state in machine.walk():
+                activity = state.activity
+                if activity is not None and activity.result_callback is not None:
+                    yield Doubt(
+                        f"callback `{activity.result_callback}` is not covered", activity.origin
+                    )
+        for event in self.system.events:
+            delivery = event.delivery
+            if (
+                delivery is not None
+                and delivery.lifespan is not None
+                and any(actor.listens(event.name) for actor in cast)
+            ):
+                yield Doubt(f"the `lifespan` of `{event.name}` is not covered", event.origin)
+        yield from self.demands.timed()
+
+
+def roles_of(fact: ir.Fact | ir.Count, property_: ir.Property) -> list[str]:
+    """Return the roles whose robots a fact is about; none means all robots."""
+    if isinstance(fact, ir.Count):
+        return [fact.role]
+    if fact.act == "arrives":
+        return []
+    if fact.robots is not None:
+        return [fact.robots.role]
+    return [property_.each] if property_.each is not None else []
+
+
+def _facts_of(property_: ir.Property) -> Iterator[ir.Fact | ir.Count]:
+    scope = property_.scope.claims if property_.scope is not None else ()
+    for claim in (*property_.claims, *scope):
+        yield from facts_in(claim)
+
+
+def facts_of(property_: ir.Property) -> list[ir.Fact | ir.Count]:
+    """Return the facts of a property and its scope."""
+    return list(_facts_of(property_))
+
+
+def _mask(automaton: Automaton, properties: Iterable[ir.Property]) -> int:
+    """Return the facts of some properties, as bits of an automaton."""
+    wanted = {meaning(fact) for each in properties for fact in _facts_of(each)}
+    return sum(1 << n for n, fact in enumerate(automaton.kind.facts) if meaning(fact) in wanted)

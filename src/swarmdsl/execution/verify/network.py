@@ -1,0 +1,272 @@
+"""A swarm as counters: how many robots of each group are in which state, in one integer.
+
+Robots that nothing tells apart are a group; of these only the numbers count. A group of one robot
+is a robot by itself. The network keeps what is on its way to a robot as a bag: messages arrive in
+any order. Of more than `capacity` messages of one event, the rest is lost.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.verify.automaton import Alphabet, Move, Quotient
+
+
+@dataclass(frozen=True)
+class Group:
+    """Robots that nothing tells apart."""
+
+    automaton: Quotient
+    robots: tuple[str | None, ...]
+
+    @property
+    def role(self) -> str:
+        """Role of the robots."""
+        return self.automaton.whole.kind.role
+
+    def cast(self, robot: str | None) -> Sequence[Actor]:
+        """Return the machines of a robot of the group."""
+        return self.automaton.whole.kind.robots[robot]
+
+    def hears(self, message: int, sender: Group) -> bool:
+        """Return True if a robot of the group can get a message of another one."""
+        if self is sender and len(self.robots) == 1:
+            return False
+        if not self.automaton.whole.listens(message):
+            return False
+        to = self.automaton.whole.alphabet.messages[message].event.envelope.to
+        return to is None or to == self.role or to in self.robots
+
+
+class Place(NamedTuple):
+    """State of a robot in its group, with the messages on their way to it."""
+
+    group: int
+    state: int
+    bag: tuple[int, ...]
+
+
+class Step(NamedTuple):
+    """A step of one robot at a place; without a move, a message is lost."""
+
+    place: int
+    move: Move | None
+    target: int
+    lost: int | None = None
+
+
+class Network:
+    """Steps of a swarm, over packed states.
+
+    The number of robots at place `n` has `width` bits, from bit `base + n * width` on. The `base`
+    lowest bits are free for an observer.
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        alphabet: Alphabet,
+        capacity: int,
+        *,
+        lossy: bool,
+        base: int = 0,
+    ) -> None:
+        self.groups = groups
+        self.alphabet = alphabet
+        self.capacity = capacity
+        self.lossy = lossy
+        self.base = base
+        self.width = max(len(group.robots) for group in groups).bit_length()
+        self.mask = (1 << self.width) - 1
+        self.places: list[Place] = []
+        self.ones: list[int] = []
+        """A robot at each place, as a summand."""
+        self.steps: list[list[Step] | None] = []
+        self.plain: list[list[int]] = []
+        """Differences that the steps without messages of a place make."""
+        self.casts: list[list[tuple[int, dict[int, int], tuple[int, ...], int]]] = []
+        """Those with messages: difference, differences that the messages make to robots by their
+        places, as far as known, messages, and group of the sender."""
+        self.full: set[str] = set()
+        """Events of which messages were lost because there were too many."""
+        self.cut = False
+        """True if a state was reached whose moves are not known."""
+        self._numbers: dict[Place, int] = {}
+        self._heard: dict[tuple[tuple[int, ...], int], dict[int, int]] = {}
+
+    # ---- states
+
+    def start(self) -> int:
+        """Return the state in which all robots have started."""
+        state = 0
+        for number, group in enumerate(self.groups):
+            first = group.automaton.first
+            bag: tuple[int, ...] = ()
+            for other, source in enumerate(self.groups):
+                senders = len(source.robots) - (source is group)
+                for _ in range(min(senders, self.capacity + 1)):
+                    for message in source.automaton.first.sends:
+                        bag = self._with(number, first.target, bag, message, other)
+            ended = group.automaton.ended(first.target)
+            place = self.number(number, first.target, () if ended else bag)
+            state += len(group.robots) * self.ones[place]
+        return state
+
+    def number(self, group: int, state: int, bag: tuple[int, ...]) -> int:
+        """Return the number of a place."""
+        place = Place(group, state, bag)
+        found = self._numbers.get(place)
+        if found is None:
+            found = self._numbers[place] = len(self.places)
+            self.places.append(place)
+            self.ones.append(1 << (self.base + found * self.width))
+            self.steps.append(None)
+            self.plain.append([])
+            self.casts.append([])
+        return found
+
+    def present(self, state: int) -> list[tuple[int, int]]:
+        """Return the places that are not empty, each with its number of robots."""
+        width, mask = self.width, self.mask
+        state >>= self.base
+        found = []
+        if len(self.places) <= _FEW:
+            for place in range(len(self.places)):
+                count = state >> place * width & mask
+                if count:
+                    found.append((place, count))
+            return found
+        while state:
+            place = ((state & -state).bit_length() - 1) // width
+            count = state >> place * width & mask
+            found.append((place, count))
+            state ^= count << place * width
+        return found
+
+    def followers(self, state: int) -> Iterator[tuple[int, Step]]:
+        """Yield the states after one step, each with the step."""
+        for place, _ in self.present(state):
+            for step in self.row(place):
+                yield self.after(state, step), step
+
+    def ended(self, state: int) -> bool:
+        """Return True if all robots have ended."""
+        return all(
+            self.groups[place.group].automaton.ended(place.state)
+            for place in (self.places[number] for number, _ in self.present(state))
+        )
+
+    # ---- steps
+
+    def row(self, number: int) -> list[Step]:
+        """Return the steps of a robot at a place."""
+        found = self.steps[number]
+        if found is None:
+            found = self.steps[number] = list(self._find(number))
+            plain: dict[int, None] = {}
+            casts: dict[tuple[int, tuple[int, ...], int], None] = {}
+            group = self.places[number].group
+            for step in found:
+                change = self.ones[step.target] - self.ones[number]
+                heard = self.heard(step)
+                if heard:
+                    casts[change, heard, group] = None
+                elif change:
+                    plain[change] = None
+            self.plain[number] = list(plain)
+            self.casts[number] = [
+                (change, self.shifts(sends, sender), sends, sender)
+                for change, sends, sender in casts
+            ]
+        return found
+
+    def cast(self, state: int, sends: tuple[int, ...], sender: int) -> int:
+        """Return the difference that messages make, also to their sender."""
+        return sum(
+            count * self.shift_of(place, sends, sender) for place, count in self.present(state)
+        )
+
+    def shift_of(self, place: int, sends: tuple[int, ...], sender: int) -> int:
+        """Return the difference that messages make to a robot at a place."""
+        shifts = self.shifts(sends, sender)
+        found = shifts.get(place)
+        if found is None:
+            group, state, bag = self.places[place]
+            for message in sends:
+                bag = self._with(group, state, bag, message, sender)
+            found = self.ones[self.number(group, state, bag)] - self.ones[place]
+            shifts[place] = found
+        return found
+
+    def shifts(self, sends: tuple[int, ...], sender: int) -> dict[int, int]:
+        """Return the known differences that messages make, by place."""
+        return self._heard.setdefault((sends, sender), {})
+
+    def after(self, state: int, step: Step) -> int:
+        """Return the state after a step."""
+        change = self.ones[step.target] - self.ones[step.place]
+        heard = self.heard(step)
+        if heard:
+            group = self.places[step.place].group
+            change += self.cast(state, heard, group) - self.shift_of(step.place, heard, group)
+        return state + change
+
+    def heard(self, step: Step) -> tuple[int, ...]:
+        """Return the messages of a step that another robot can get."""
+        sends = step.move.sends if step.move is not None else ()
+        group = self.places[step.place].group
+        return tuple(m for m in sends if self._somebody_hears(m, group))
+
+    def _find(self, number: int) -> Iterator[Step]:
+        group, state, bag = self.places[number]
+        automaton = self.groups[group].automaton
+        moves = automaton.moves(state)
+        if moves is None:
+            self.cut = True
+            return
+        for move in moves:
+            yield Step(number, move, self._target(group, move.target, bag))
+        for message in dict.fromkeys(bag):
+            rest = _without(bag, message)
+            heard = automaton.move_on(state, message)
+            if heard is None:
+                self.cut = True
+                continue
+            yield Step(number, heard, self._target(group, heard.target, rest))
+            if self.lossy and not self.alphabet.messages[message].reliable:
+                yield Step(number, None, self.number(group, state, rest), message)
+
+    def _target(self, group: int, state: int, bag: tuple[int, ...]) -> int:
+        ended = self.groups[group].automaton.ended(state)
+        return self.number(group, state, () if ended else bag)
+
+    def _somebody_hears(self, message: int, sender: int) -> bool:
+        source = self.groups[sender]
+        return any(group.hears(message, source) for group in self.groups)
+
+    def _with(
+        self, group: int, state: int, bag: tuple[int, ...], message: int, sender: int
+    ) -> tuple[int, ...]:
+        """Return a bag with one more message, if the robot gets it."""
+        if not self.groups[group].hears(message, self.groups[sender]):
+            return bag
+        if self.groups[group].automaton.ended(state):
+            return bag
+        messages = self.alphabet.messages
+        name = messages[message].event.name
+        if sum(messages[each].event.name == name for each in bag) >= self.capacity:
+            self.full.add(name)
+            return bag
+        return tuple(sorted((*bag, message)))
+
+
+_FEW = 40
+"""Number of places up to which looking at all of them is the fastest."""
+
+
+def _without(bag: tuple[int, ...], message: int) -> tuple[int, ...]:
+    at = bag.index(message)
+    return (*bag[:at], *bag[at + 1 :])

@@ -1,0 +1,326 @@
+"""Proofs of properties: a search for a run that violates one, in the product with its monitor."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Callable, Iterator, Sequence
+from typing import Literal
+
+from swarmdsl import ir
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.execution.monitor import Sentence
+from swarmdsl.execution.verify.automaton import Move, Quotient
+from swarmdsl.execution.verify.explore import Budget, Graph, explore, observe
+from swarmdsl.execution.verify.model import Model, facts_of, roles_of
+from swarmdsl.execution.verify.network import Group, Network
+from swarmdsl.execution.verify.observer import MonitorTable, Observer, Terms, is_act
+from swarmdsl.execution.verify.runs import Run, play, steps_between
+from swarmdsl.ir.sentences import facts_in
+
+Outcome = Literal["holds", "fails", "up to", "unknown"]
+_SAFE = ("never", "always", "only", "times")
+"""Patterns that a finite run violates."""
+_ENDLESS = "no run that ends violates it; runs that go on for ever are not covered"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Verdict on a property, for one number of members.
+
+    `robot` and `run` are those of a violation; `reason`, perhaps with a place in the model, is
+    that of a verdict that is open. `states` is the number of states that were looked at.
+    """
+
+    property: ir.Property
+    outcome: Outcome
+    states: int = 0
+    reason: str = ""
+    place: Span | None = None
+    robot: str | None = None
+    run: Run | None = None
+    full: tuple[str, ...] = ()
+    """Events of which messages were lost because there were too many."""
+    alone: bool = False
+    """True if the proof is about one robot, whatever the others do."""
+
+
+def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
+    """Look for a run that violates a property."""
+    if property_.chance is not None and property_.chance.bound == "most":
+        return Verdict(property_, "unknown", reason="a greatest probability is not covered")
+    reason = _not_covered(property_)
+    if reason:
+        return Verdict(property_, "unknown", reason=reason)
+    if property_.each is None:
+        return _one(property_, model, None, budget)
+    found = [_one(property_, model, robot, budget) for robot in model.one_of_each(property_.each)]
+    rank: dict[Outcome, int] = {"fails": 0, "unknown": 1, "up to": 2, "holds": 3}
+    worst = min(found, key=lambda each: rank[each.outcome], default=None)
+    if worst is None:
+        return Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
+    return worst
+
+
+def _not_covered(property_: ir.Property) -> str:
+    """Return the reason why a property cannot be decided here, or ""."""
+    if property_.within is not None:
+        return "it is about time"
+    facts = list(facts_in(property_.claims[0]))
+    if property_.kind == "times" and any(map(is_act, facts)):
+        mixed = not all(map(is_act, facts)) or _negates(property_.claims[0])
+        return "it counts what happens together with what is" if mixed else ""
+    if property_.kind == "possible":
+        if property_.scope is not None:
+            return "`always possible` with a scope is not covered"
+        if any(map(is_act, facts)):
+            return "`always possible` is covered for states only"
+    return ""
+
+
+def _negates(claim: ir.Claim) -> bool:
+    if not isinstance(claim, ir.Junction):
+        return False
+    return claim.operator == "not" or any(map(_negates, claim.claims))
+
+
+def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
+    """Decide on a property, of one robot if it is about each."""
+    every = model.groups([property_], me=me)
+    mine = next((n for n, g in enumerate(every) if me is not None and g.robots == (me,)), None)
+    about = set(_about(property_, model, every))
+    if mine is not None:
+        about.add(mine)
+    groups = model.cone(every, about) or every
+    doubts = model.doubts(groups)
+    if mine is not None:
+        if not doubts and model.complete and _is_alone(property_):
+            states = _alone(property_, every[mine].automaton)
+            if states is not None:
+                return Verdict(property_, "holds", states, robot=me, alone=True)
+        mine = groups.index(every[mine])
+    if property_.kind == "possible":
+        return _possible(property_, model, groups, mine, me, budget)
+    table = _table(property_)
+    network = Network(
+        groups,
+        model.alphabet,
+        model.options.capacity,
+        lossy=model.options.lossy,
+        base=max(table.size, 2).bit_length(),
+    )
+    observer = Observer(property_, table, network, mine)
+    graph = observe(network, observer, budget)
+    if graph.bad is not None:
+        steps = steps_between(graph.way(graph.bad), lambda s: list(observer.successors(s)))
+        return _violated(property_, play(network, steps, property_), graph, me)
+    return _not_violated(property_, model, graph, groups, me)
+
+
+def _about(property_: ir.Property, model: Model, groups: Sequence[Group]) -> Iterator[int]:
+    """Yield the groups that the facts of a property are about."""
+    for fact in facts_of(property_):
+        roles = roles_of(fact, property_)
+        for number, group in enumerate(groups):
+            if isinstance(fact, ir.Fact) and fact.act == "arrives":
+                if fact.name in group.automaton.whole.kind.outside:
+                    yield number
+            elif isinstance(fact, ir.Fact) and fact.robots is None and property_.each is not None:
+                continue
+            elif not roles or group.role in roles:
+                yield number
+
+
+def _violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> Verdict:
+    states = len(graph.seen)
+    if run.flaw:
+        reason = f"the run that was found cannot be: {run.flaw}"
+        return Verdict(property_, "unknown", states, reason, robot=me)
+    if property_.chance is not None:
+        reason = "some runs violate it: how probable they are is not covered"
+        return Verdict(property_, "unknown", states, reason, robot=me)
+    return Verdict(property_, "fails", states, robot=me, run=run)
+
+
+def _not_violated(
+    property_: ir.Property, model: Model, graph: Graph, groups: Sequence[Group], me: str | None
+) -> Verdict:
+    """Return the verdict when no violation was found."""
+    states, full = len(graph.seen), tuple(sorted(graph.network.full))
+    doubts = model.doubts(groups)
+    if doubts:
+        return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
+    if not graph.complete:
+        return Verdict(property_, "up to", states, _unfinished(model, graph), robot=me)
+    scope = property_.scope.kind if property_.scope is not None else None
+    if property_.kind not in _SAFE and scope not in ("before", "between"):
+        return Verdict(property_, "unknown", states, _ENDLESS, robot=me)
+    return Verdict(property_, "holds", states, robot=me, full=full)
+
+
+def _unfinished(model: Model, graph: Graph) -> str:
+    """Say what made a search stop, and which variable to bound."""
+    for automaton in model.kinds:
+        if any(steps is None for steps in automaton.steps):
+            wide = automaton.wide()
+            what = f": bound `{wide}`" if wide else ""
+            return f"a `{automaton.kind.role}` has too many states{what}"
+    return "there are more states"
+
+
+def _sentence(property_: ir.Property) -> Sentence:
+    scope = property_.scope
+    momentary = any(map(is_act, facts_in(property_.claims[0])))
+    kind = scope.kind if scope is not None else None
+    return Sentence(property_.kind, kind, None, property_.times, momentary=momentary)
+
+
+def _table(property_: ir.Property) -> MonitorTable:
+    scope = property_.scope.claims if property_.scope is not None else ()
+    return MonitorTable(_sentence(property_), len(property_.claims), len(scope))
+
+
+# ---- one robot, whatever the others do
+
+
+def _is_alone(property_: ir.Property) -> bool:
+    """Return True if a property is about one robot, and about what arrives from outside."""
+    if property_.kind not in _SAFE:
+        return False
+    return all(isinstance(f, ir.Fact) and f.robots is None for f in facts_of(property_))
+
+
+def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
+    """Prove a property of one robot that hears all messages at any time.
+
+    Return the number of states that were looked at, or None if it may be violated so.
+    """
+    group = Group(automaton, ("",))
+    table = _table(property_)
+    terms = Terms(property_, Network([group], automaton.whole.alphabet, 0, lossy=False))
+    scope = property_.scope.claims if property_.scope is not None else ()
+    claims = [terms.truth(each) for each in (*property_.claims, *scope)]
+    arriving = [
+        term
+        for term, fact in enumerate(terms.facts)
+        if isinstance(fact, ir.Fact) and fact.act == "arrives"
+    ]
+
+    def step(memory: int, bits: int, others: int = -1) -> int:
+        holding = [terms.holds(t, 0, bits) or int(t == others) for t in range(len(terms))]
+        return table.step(memory, tuple(bool(each(holding, holding)) for each in claims))
+
+    def after(memory: int, move: Move) -> int:
+        for moment in move.moments:
+            memory = step(memory, moment.holding)
+        return memory
+
+    first = automaton.first
+    bits = 0
+    for moment in first.moments:
+        bits |= moment.holding
+    seen = {(first.target, step(0, bits))}
+    todo = list(seen)
+    while todo:
+        state, memory = todo.pop()
+        if table.is_bad(memory) or table.fails_at_end(memory):
+            return None
+        if table.is_settled(memory):
+            continue
+        found = {(state, step(memory, automaton.look(state).holding, term)) for term in arriving}
+        moves = list(automaton.moves(state) or ())
+        for message in range(len(automaton.whole.alphabet.messages)):
+            heard = automaton.move_on(state, message)
+            if heard is not None:
+                moves.append(heard)
+        found |= {(move.target, after(memory, move)) for move in moves}
+        todo += found - seen
+        seen |= found
+    return len(seen)
+
+
+# ---- always possible
+
+
+def _possible(
+    property_: ir.Property,
+    model: Model,
+    groups: Sequence[Group],
+    mine: int | None,
+    me: str | None,
+    budget: Budget,
+) -> Verdict:
+    """Search backwards from the states in which the claim holds."""
+    network = Network(groups, model.alphabet, model.options.capacity, lossy=model.options.lossy)
+    graph = explore(network, budget)
+    states = len(graph.seen)
+    doubts = model.doubts(groups)
+    if doubts:
+        return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
+    if not graph.complete:
+        return Verdict(property_, "up to", states, _unfinished(model, graph), robot=me)
+    holds = _state_truth(property_, network, mine)
+    numbers = {state: number for number, state in enumerate(graph.seen)}
+    sources = array("I")
+    targets = array("I")
+    for state, number in numbers.items():
+        for following, _ in network.followers(state):
+            if following != state:
+                sources.append(number)
+                targets.append(numbers[following])
+    able = bytearray(states)
+    todo = [number for state, number in numbers.items() if holds(state)]
+    for number in todo:
+        able[number] = 1
+    before: dict[int, list[int]] = {}
+    for source, target in zip(sources, targets, strict=True):
+        before.setdefault(target, []).append(source)
+    while todo:
+        for source in before.get(todo.pop(), ()):
+            if not able[source]:
+                able[source] = 1
+                todo.append(source)
+    lost = able.find(0)
+    if lost < 0:
+        if _has_delays(model, groups):
+            reason = "whether it is possible may depend on the lengths of delays"
+            return Verdict(property_, "unknown", states, reason, robot=me)
+        return Verdict(property_, "holds", states, robot=me, full=tuple(sorted(network.full)))
+    steps = steps_between(graph.way(lost), lambda s: list(network.followers(s)))
+    run = play(network, steps)
+    return _violated(property_, run, graph, me)
+
+
+def _state_truth(
+    property_: ir.Property, network: Network, mine: int | None
+) -> Callable[[int], bool]:
+    """Return the truth of the claim of a property in a state."""
+    terms = Terms(property_, network)
+    truth = terms.truth(property_.claims[0])
+
+    def holds(state: int) -> bool:
+        counts = [0] * len(terms)
+        me = [0] * len(terms)
+        for place, count in network.present(state):
+            group, local, _ = network.places[place]
+            bits = network.groups[group].automaton.look(local).holding
+            for term in range(len(terms)):
+                held = terms.holds(term, group, bits)
+                counts[term] += held * count
+                if group == mine:
+                    me[term] = held
+        return bool(truth(counts, me))
+
+    return holds
+
+
+def _has_delays(model: Model, groups: Sequence[Group]) -> bool:
+    """Return True if a machine of some groups has a delay."""
+    names = {actor.machine.name for g in groups for actor in g.automaton.whole.kind.cast}
+    return any(
+        isinstance(trigger, ir.TimeTrigger)
+        for name in names
+        for state in model.machines[name].walk()
+        for transition in state.transitions
+        for trigger in transition.triggers
+    ) or any(send.delay is not None for send in model.sends(names))

@@ -1,0 +1,273 @@
+"""Runs of real robots that a search has found: who does what, and when.
+
+A search knows only how many robots are in which state. Here each gets a name, its machines run on
+the engine, and times are found that fit all delays: they are a system of difference constraints
+(R. Bellman, 1958).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import Any
+
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.execution.engine import Envelope, Event
+from swarmdsl.execution.monitor import FALSE, Watch
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.properties import watch as watched
+from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.verify.automaton import Alphabet, Move
+from swarmdsl.execution.verify.body import Body
+from swarmdsl.execution.verify.network import Group, Network, Step
+from swarmdsl.ir import Property
+
+_GAPS = (SECOND, MILLISECOND, 0)
+"""Times between two steps, the preferred one first."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """A run of a swarm: its trace lines, and the messages that are lost on the way.
+
+    `lost` has the event and the receiver of each, with the number of lines before. `flaw` says why
+    no swarm can run so, or is empty: then the model itself has run so.
+    """
+
+    lines: tuple[Line, ...]
+    lost: tuple[tuple[int, str, str], ...] = ()
+    flaw: str = ""
+
+
+@dataclass(eq=False)
+class _Copy:
+    """A message on its way to one robot."""
+
+    number: int
+    event: Event
+    topic: str
+    order: int
+
+
+@dataclass(eq=False)
+class _Robot:
+    """A robot of a run: its state in the automaton, and what is on its way to it."""
+
+    name: str | None
+    group: Group
+    state: int
+    body: Body
+    bag: list[_Copy] = field(default_factory=list)
+    moments: list[int] = field(default_factory=list)
+    """Numbers of the steps of the run at which it did something."""
+
+    def is_at(self, state: int, bag: tuple[int, ...]) -> bool:
+        """Return True if it is at a place of the network."""
+        mine = tuple(sorted(copy.number for copy in self.bag))
+        return self.group.automaton.classes[self.state] == state and mine == bag
+
+
+def play(network: Network, steps: Sequence[Step], property_: Property | None = None) -> Run:
+    """Run the steps of a network on the engine.
+
+    The run shows the property, if one is given, to be violated; otherwise that is a flaw.
+    """
+    timeless = _Play(network, [0] * (len(steps) + 1), None)
+    timeless.run(steps)
+    if timeless.overtakes:
+        return Run((), flaw=f"an event overtakes an earlier one on `{timeless.overtakes}`")
+    times = _times(len(steps), timeless.constraints())
+    if times is None:
+        return Run((), flaw="a delay ends too early or too late in it")
+    watch: Watch | None = None
+    if property_ is not None:
+        watch = watched([property_], lambda actor: timed.data(actor))
+    timed = _Play(network, times, watch)
+    timed.run(steps)
+    if timed.departs:
+        return Run((), flaw="the real values of messages lead elsewhere")
+    if watch is not None:
+        (result,) = watch.results(times[-1], ended=True)
+        if result.verdict != FALSE:
+            return Run((), flaw="the monitor does not see a violation in it")
+    return Run(tuple(timed.lines), tuple(timed.lost))
+
+
+def _order(name: str | None) -> tuple[str, int]:
+    role, _, number = (name or "").partition("[")
+    return role, int(number[:-1]) if number else 0
+
+
+class _Play:
+    """The robots of a run, at given times."""
+
+    def __init__(self, network: Network, times: Sequence[int], watch: Watch | None) -> None:
+        self.lines: list[Line] = []
+        self.lost: list[tuple[int, str, str]] = []
+        self.overtakes = ""
+        self.departs = False
+        self._network = network
+        self._alphabet: Alphabet = network.alphabet
+        self._times = times
+        self._watch = watch
+        self._now = 0
+        self._sent = 0
+        self.robots: list[_Robot] = []
+        self._bodies: dict[Actor, Body] = {}
+        for group in network.groups:
+            whole = group.automaton.whole
+            for name in group.robots:
+                cast = group.cast(name)
+                body = Body(cast, self._alphabet.system, Clock())
+                body.seen = self._see
+                self._bodies.update(dict.fromkeys(cast, body))
+                first = whole.first.target
+                self.robots.append(_Robot(name, group, first, body, moments=[0]))
+        self.robots.sort(key=lambda robot: _order(robot.name))
+
+    def run(self, steps: Sequence[Step]) -> None:
+        """Start all robots and take the steps."""
+        for robot in self.robots:
+            robot.body.start()
+        for robot in self.robots:
+            self._send(robot, list(robot.body.sent))
+        for number, step in enumerate(steps, start=1):
+            self._now = number
+            self._take(step)
+
+    def data(self, actor: Actor) -> Any:
+        """Return the variables of a machine."""
+        body = self._bodies[actor]
+        return body.instances[list(body.cast).index(actor)].data
+
+    def constraints(self) -> list[tuple[int, int, int]]:
+        """Return (later, earlier, least difference) of the times of steps."""
+        found = []
+        last = self._now
+        for robot in self.robots:
+            at = robot.moments
+            for delay in robot.body.every_delay:
+                began = at[delay.began]
+                ended = at[delay.ended] if delay.ended is not None else last
+                found.append((began, ended, -delay.length))
+                if delay.fired:
+                    found.append((ended, began, delay.length))
+        return found
+
+    def _take(self, step: Step) -> None:
+        group_number, state, bag = self._network.places[step.place]
+        group = self._network.groups[group_number]
+        robots = [r for r in self.robots if r.group is group and r.is_at(state, bag)]
+        if step.move is None:
+            robot = robots[0]
+            lost = next(c for c in robot.bag if c.number == step.lost)
+            robot.bag.remove(lost)
+            self.lost.append((len(self.lines), lost.event.name, robot.name or ""))
+            return
+        given = step.move.given
+        event: Event | None = None
+        if given.kind == "hear":
+            robot, copy = self._heard(robots, given.choice)
+            robot.bag.remove(copy)
+            event = copy.event
+        else:
+            robot = robots[0]
+        self._move(robot, step.move, event)
+
+    def _heard(self, robots: Sequence[_Robot], number: int) -> tuple[_Robot, _Copy]:
+        """Return a copy of a message and who hears it; none overtakes another if possible."""
+        choices = [(r, c) for r in robots for c in r.bag if c.number == number]
+        choices.sort(key=lambda choice: choice[1].order)
+        for robot, copy in choices:
+            if not self._is_before(robot, copy):
+                return robot, copy
+        self.overtakes = choices[0][1].topic
+        return choices[0]
+
+    def _is_before(self, robot: _Robot, copy: _Copy) -> bool:
+        """Return True if an earlier message of the same channel is still on its way."""
+        sender = copy.event.envelope.sender
+        return any(
+            other.order < copy.order
+            and other.topic == copy.topic
+            and other.event.envelope.sender == sender
+            for other in robot.bag
+        )
+
+    def _move(self, robot: _Robot, move: Move, event: Event | None) -> None:
+        automaton = robot.group.automaton
+        found = automaton.follow(robot.state, move)
+        robot.moments.append(self._now)
+        robot.body.clock.now = self._times[self._now]
+        automaton.whole.apply(robot.body, found.given, event)
+        shown = tuple((m.event, m.taken, m.sent) for m in found.moments)
+        called = [line.actor.machine.called for line in robot.body.lines]
+        real = tuple(
+            (line.event, tuple(dict.fromkeys(map(name, line.taken))), tuple(line.sent))
+            for line, name in zip(robot.body.lines, called, strict=True)
+        )
+        self.departs |= shown != real
+        robot.state = found.target
+        if not robot.body.running:
+            robot.bag.clear()
+        self._send(robot, list(robot.body.sent))
+
+    def _send(self, source: _Robot, sent: Sequence[Event]) -> None:
+        assert self._alphabet.system is not None
+        for event in sent:
+            self._sent += 1
+            number = self._alphabet.number(event)
+            topic = self._alphabet.system.event(event.name).topic
+            for robot in self.robots:
+                if robot is source or not robot.body.running:
+                    continue
+                if not robot.group.hears(number, source.group) and not (
+                    robot.group is source.group and robot.group.automaton.whole.listens(number)
+                ):
+                    continue
+                to = event.envelope.to
+                if not (to is None or to in (robot.name, robot.group.role)):
+                    continue
+                same = [c for c in robot.bag if c.event.name == event.name]
+                if len(same) < self._network.capacity:
+                    envelope = Envelope(source.name or "", event.envelope.sent, to)
+                    real = Event(event.name, event.data, envelope=envelope)
+                    robot.bag.append(_Copy(number, real, topic, self._sent))
+
+    def _see(self, line: Line) -> None:
+        self.lines.append(line)
+        if self._watch is not None:
+            self._watch.see(line)
+
+
+def _times(steps: int, constraints: Sequence[tuple[int, int, int]]) -> list[int] | None:
+    """Return times of the steps that fit, with pauses between them if possible."""
+    for gap in _GAPS:
+        every = [(n + 1, n, gap) for n in range(steps)] + list(constraints)
+        times = [0] * (steps + 1)
+        for _ in range(steps + 2):
+            changed = False
+            for later, earlier, least in every:
+                if times[earlier] + least > times[later]:
+                    times[later] = times[earlier] + least
+                    changed = True
+            if not changed:
+                break
+        else:
+            continue
+        if times[0] == 0:
+            return times
+    return None
+
+
+Find = Callable[[int], "list[tuple[int, Step]]"]
+
+
+def steps_between(states: Sequence[int], find: Find) -> list[Step]:
+    """Return the steps from each state to the next one."""
+    found = []
+    for state, following in pairwise(states):
+        found.append(next(step for after, step in find(state) if after == following))
+    return found

@@ -1,0 +1,139 @@
+"""Verdicts and findings as diagnostics, and as text with the conditions of the proofs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.source import Span
+from swarmdsl.execution.simulate.trace import Line, as_text
+from swarmdsl.execution.verify.findings import Fault, Finding, transitions_of
+from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.prove import Verdict
+from swarmdsl.execution.verify.runs import Run
+
+_MOST_LINES = 40
+"""Maximum number of lines of a run in a diagnostic."""
+_CODES: Mapping[Fault, str] = {
+    "loops": "endless-reaction",
+    "fails": "failed-computation",
+    "stuck": "stuck-swarm",
+    "waits": "waiting-for-ever",
+    "unreachable": "absent-state",
+    "untaken": "untaken-transition",
+    "lost": "unhandled-message",
+}
+_HELP: Mapping[Fault, str] = {
+    "loops": "add an event or a delay to one of the transitions",
+    "stuck": "let something go on by itself: a delay, or an activity that ends",
+    "waits": "let a robot send what it waits for, or add a transition `after` a time",
+    "lost": "handle it in the states in which it arrives, or `defer` it there",
+}
+
+
+def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
+    """Report a property that a run violates."""
+    if verdict.outcome != "fails" or verdict.run is None:
+        return
+    report.report(
+        "refuted-property",
+        verdict.property.origin,
+        name=verdict.property.name,
+        who=f" for `{verdict.robot}`" if verdict.robot is not None else "",
+        related=tuple(_last_taken(verdict.run)),
+        notes=(f"a shortest run, of {size}:", *_lines(verdict.run)),
+    )
+
+
+def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
+    """Report what is wrong with a swarm."""
+    run = finding.run
+    notes = (f"a shortest run, of {size}:", *_lines(run)) if run is not None else (f"in {size}",)
+    report.report(
+        _CODES[finding.fault],
+        finding.place,
+        name=finding.name,
+        who=f"`{finding.role}`" if finding.role else "robot",
+        reason=finding.detail,
+        related=tuple(_last_taken(run, finding.place)) if run is not None else (),
+        notes=notes,
+        help=_HELP.get(finding.fault),
+    )
+
+
+def _lines(run: Run) -> Iterator[str]:
+    """Format a run: a line a step, with the place of its transition."""
+    width = max((len(line.actor.name or "") for line in run.lines), default=0)
+    for number, line in enumerate(run.lines[:_MOST_LINES]):
+        yield from _losses(run, number)
+        place = place_of(line)
+        where = f"  ({printable(place.source.name)}:{place.line})" if place is not None else ""
+        yield f"{as_text(line, width)}{where}"
+    if len(run.lines) > _MOST_LINES:
+        yield f"... and {len(run.lines) - _MOST_LINES} more"
+    else:
+        yield from _losses(run, len(run.lines))
+
+
+def _losses(run: Run, number: int) -> Iterator[str]:
+    """Format the messages that are lost after some lines of a run."""
+    return (f"{event} to {robot} is lost" for at, event, robot in run.lost if at == number)
+
+
+def place_of(line: Line) -> Span | None:
+    """Return the place of the first transition of a line."""
+    known = transitions_of(line.actor.machine)
+    called = line.actor.machine.called
+    found = (known[called(each)].origin for each in line.taken if called(each) in known)
+    return next(found, None)
+
+
+def _last_taken(run: Run, told: Span | None = None) -> Iterator[Label]:
+    for line in reversed(run.lines):
+        place = place_of(line)
+        if place is not None:
+            if place != told:
+                yield Label(place, "the last transition of the run")
+            return
+
+
+def rows(verdicts: Sequence[Verdict]) -> Iterator[tuple[str, str, str]]:
+    """Yield the names of the properties with their verdicts and reasons."""
+    for each in verdicts:
+        reason = each.reason
+        open_ = each.outcome == "up to"
+        outcome = f"holds up to {each.states:,} states" if open_ else each.outcome
+        if each.place is not None:
+            reason += f" ({each.place.source.name}:{each.place.line})"
+        if each.outcome == "holds" and each.alone:
+            reason = "whatever the other robots do"
+        if each.outcome == "fails" and each.robot is not None:
+            reason = f"for {each.robot}"
+        yield each.property.name, outcome, reason
+
+
+def conditions(model: Model, full: Sequence[str]) -> Iterator[str]:
+    """Yield what the verdicts were found under."""
+    options = model.options
+    if model.alphabet.messages:
+        loss = "any of them may be lost" if options.lossy else "none is lost"
+        yield f"messages between robots arrive in any order, {loss}"
+        if full:
+            names = listed(list(full), "and")
+            yield f"of more than {options.capacity} {names} on the way to a robot, the rest is lost"
+    yield "functions and delays take any time"
+    yield "functions succeed or are aborted, actions are also preempted"
+    yield "no robot and no answer of a function is lost"
+    if model.outside:
+        names = listed(list(model.outside), "and")
+        yield f"from outside, at any time: {names}"
+    if model.said:
+        yield f"values from outside: {', '.join(model.said)}"
+    if model.demands.assumed:
+        names = listed(list(model.demands.assumed), "and")
+        yield f"what is computed from {names} has a value"
+    for doubt in dict.fromkeys(model.doubts(model.groups())):
+        place = doubt.place
+        where = f" ({place.source.name}:{place.line})" if place is not None else ""
+        yield f"not all is shown: {doubt.reason}{where}"

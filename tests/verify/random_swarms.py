@@ -1,0 +1,120 @@
+"""Random small swarms, as text."""
+
+from __future__ import annotations
+
+from random import Random
+
+_PRELUDE = """package test
+action Try { result { ok : bool } }
+message Word { word : uint8 }
+function attempt : abstraction { action "attempt" : Try }
+event Go : std_msgs/Empty
+swarm event Ask : Word
+swarm event Tell : Word
+"""
+_FACTS = (
+    *("in S0", "in S1", "in S2", "sends Ask", "hears Tell", "starts attempt", "hears Go"),
+    *("has [n > 0]", "has [ok]", "cancels attempt"),
+)
+_SCOPES = (
+    "",
+    "",
+    "",
+    "after {p}, ",
+    "before {p}, ",
+    "between {s} and {t}, ",
+    "after {p} until {q}, ",
+)
+_PATTERNS = (
+    *("never {a}", "{a} at all times", "{a} only after {b}", "{a} at most 1 times"),
+    *("{a} at most 0 times", "eventually {a}", "{a} leads to {b}", "{a} then {b}"),
+)
+
+
+def random_swarm(seed: int) -> str:
+    """Return a model of two or three robots, with properties."""
+    chance = Random(seed)
+    text = _PRELUDE + _machine(chance, "One")
+    roles = "a : A[2]"
+    text += "member A { behavior One }\n"
+    if chance.random() < 0.3:
+        text += _machine(chance, "Two") + "member B { behavior Two }\n"
+        roles = "a : A[1]\n b : B[1]\n"
+    text += f"swarm S {{ {roles} }}\n"
+    for number in range(6):
+        text += f"property P{number} of S : {_sentence(chance)}\n"
+    return text
+
+
+def _machine(chance: Random, name: str) -> str:
+    body = f"statemachine {name} {{\n  var n : uint8 = 0\n  var ok : bool\n  initial S0\n"
+    for number in range(3):
+        lines = []
+        if chance.random() < 0.5:
+            lines.append("do attempt gives (ok => ok)")
+            if guard := _guard(chance):
+                lines.append(f"on succeeded{guard}{_effects(chance)} -> {_target(chance)}")
+            lines.append(f"on succeeded{_effects(chance)} -> {_target(chance)}")
+            lines.append(f"on aborted, preempted{_effects(chance)} -> {_target(chance)}")
+        if chance.random() < 0.15:
+            lines.append(f"defer {chance.choice(('Ask', 'Tell'))}")
+        for _ in range(chance.randint(1, 3)):
+            event = chance.choice(("Ask", "Tell", "Go", "Ask", "Tell"))
+            guard = chance.choice(("", "", " [event.word > 0]")) if event != "Go" else ""
+            guard = guard or _guard(chance)
+            lines.append(f"on {event}{guard}{_effects(chance)} -> {_target(chance)}")
+        if chance.random() < 0.2:
+            lines.append(f"after 2 s{_effects(chance)} -> {_target(chance)}")
+        if chance.random() < 0.2:
+            lines.append(f"entry / {_send(chance)}")
+        inner = "\n    ".join(lines)
+        body += f"  state S{number} {{\n    {inner}\n  }}\n"
+    return body + "  final End\n}\n"
+
+
+def _guard(chance: Random) -> str:
+    return chance.choice(("", "", "", " [n < 2]", " [n == 0]", " [ok]", " [not ok]"))
+
+
+def _effects(chance: Random) -> str:
+    found = []
+    if chance.random() < 0.25:
+        found.append(chance.choice(("n = min(n + 1, 2)", "n = 0", "ok = false")))
+    if chance.random() < 0.35:
+        found.append(_send(chance))
+    return f" / {', '.join(found)}" if found else ""
+
+
+def _send(chance: Random) -> str:
+    event = chance.choice(("Ask", "Tell"))
+    return f"send {event}(word = {chance.choice(('n', '0', '1'))})"
+
+
+def _target(chance: Random) -> str:
+    return chance.choice(("S0", "S1", "S2", "S1", "S2", "End"))
+
+
+def _sentence(chance: Random) -> str:
+    each = chance.random() < 0.5
+    head = "each a : " if each else ""
+    words = {letter: _fact(chance, each=each) for letter in "abpqst"}
+    for letter in "abpq":
+        if chance.random() < 0.2:
+            word = chance.choice(("and", "or"))
+            words[letter] = f"({words[letter]} {word} {_fact(chance, each=each)})"
+    pattern = chance.choice(_PATTERNS)
+    return head + chance.choice(_SCOPES).format(**words) + pattern.format(**words)
+
+
+def _fact(chance: Random, *, each: bool) -> str:
+    if chance.random() < 0.12:
+        return "Go"
+    fact = chance.choice(_FACTS)
+    if each and chance.random() < 0.6:
+        return fact
+    if chance.random() < 0.15:
+        return f"count(a in {chance.choice(('S0', 'S1', 'S2'))}) {chance.choice(('==', '>'))} 1"
+    who = chance.choice(("some a", "all a", "no a", "a[0]", "1 a", "2..* a"))
+    if each and chance.random() < 0.5:
+        who = chance.choice(("some other a", "no other a", "all other a"))
+    return f"{who} {fact}"

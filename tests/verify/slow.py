@@ -1,0 +1,234 @@
+"""Verdicts on small swarms by playing all runs on the engine; slow.
+
+Nothing is shared with the verifier: no symmetry, no automata, no packing. A state is what all
+instances are in and what is on its way; each is reached by playing a whole run again, with the
+watch of simulations beside it.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from copy import deepcopy
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.shared.default_values import default_result
+from swarmdsl.execution.engine import Envelope, Event, Instance, InstanceLike, Run, Servers
+from swarmdsl.execution.monitor import FALSE
+from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.properties import watch, watchable
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace import Line, Trace
+from swarmdsl.ir import Property, System
+
+Choice = tuple[Any, ...]
+
+
+class _Swarm:
+    """A swarm that runs choice by choice."""
+
+    def __init__(
+        self, cast: Sequence[Actor], properties: Sequence[Property], system: System, capacity: int
+    ) -> None:
+        self.system = system
+        self.capacity = capacity
+        self.cast = cast
+        self.clock = Clock()
+        self.lines: list[Line] = []
+        self.trace = Trace(self.clock, [self._see])
+        self.watch = watch(properties, self._data)
+        self.runs: list[Run] = []
+        self.delays: list[Any] = []
+        self.bags: list[list[tuple[str, Any, str]]] = [[] for _ in self.cast]
+        self.instances: list[Instance] = []
+        for actor in self.cast:
+            data = deepcopy(actor.data)
+            instance = Instance(actor.machine, self, data=data, servers=Servers())
+            self.trace.watch(instance, actor)
+            self.instances.append(instance)
+        for instance in self.instances:
+            self.trace.begin(instance, None)
+            instance.start()
+            self.trace.flush()
+
+    def _see(self, line: Line) -> None:
+        self.lines.append(line)
+        self.watch.see(line)
+
+    def _data(self, actor: Any) -> Any:
+        return self.instances[self.cast.index(actor)].data
+
+    # ---- the world of the engine
+
+    @property
+    def time(self) -> int:
+        return self.clock.now
+
+    def schedule(self, delay: int, action: Callable[[], None]) -> Any:
+        self.delays.append(action)
+        return action
+
+    def unschedule(self, handle: Any) -> None:
+        self.delays.remove(handle)
+
+    def start(self, run: Run) -> None:
+        self.runs.append(run)
+
+    def cancel(self, run: Run) -> None:
+        self.runs.remove(run)
+        run.end("preempted")
+
+    def send(self, instance: InstanceLike, event: Event) -> None:
+        at = next(n for n, each in enumerate(self.instances) if each is instance)
+        source = self.cast[at].robot
+        for number, other in enumerate(self.instances):
+            robot = self.cast[number].robot
+            if number == at or not robot.is_meant_by(event.envelope.to):
+                continue
+            ended = other.final is not None
+            if ended or not self.cast[number].listens(event.name):
+                continue
+            if sum(name == event.name for name, _, _ in self.bags[number]) < self.capacity:
+                self.bags[number].append((event.name, event.data, source.name or ""))
+
+    def failed(self, instance: InstanceLike, error: Exception) -> None:
+        pass
+
+    # ---- choices
+
+    def choices(self, outside: Sequence[str]) -> Iterator[Choice]:
+        for number, run in enumerate(self.runs):
+            for result in ({"ok": False}, {"ok": True}):
+                yield ("end", number, "succeeded", result)
+            yield ("end", number, "aborted", None)
+            yield ("end", number, "preempted", None)
+            del run
+        for number in range(len(self.delays)):
+            yield ("delay", number)
+        for number, instance in enumerate(self.instances):
+            if instance.running:
+                for name in outside:
+                    if self.cast[number].listens(name):
+                        for data in ({},) if name == "Go" else ({"word": 0}, {"word": 1}):
+                            yield ("outside", number, name, data)
+                for message in range(len(self.bags[number])):
+                    yield ("hear", number, message)
+
+    def take(self, choice: Choice) -> None:
+        self.clock.now += 1
+        match choice:
+            case ("end", number, outcome, result):
+                run = self.runs.pop(number)
+                call = self.system.function(run.activity.name).communication
+                data = None
+                if outcome == "succeeded":
+                    data = {**default_result(call, self.system), **(result or {})}
+                run.end(outcome, data)
+            case ("delay", number):
+                self.delays.pop(number)()
+            case ("outside", number, name, data):
+                self._receive(number, name, data, "")
+            case ("hear", number, message):
+                name, data, sender = self.bags[number].pop(message)
+                self._receive(number, name, data, sender)
+            case ("drop", number, message):
+                self.bags[number].pop(message)
+        self.trace.flush()
+        for bag, instance in zip(self.bags, self.instances, strict=True):
+            if instance.final is not None:
+                bag.clear()
+
+    def _receive(self, number: int, name: str, data: Any, sender: str) -> None:
+        envelope = Envelope(sender)
+        self.trace.begin(self.instances[number], name, data, envelope)
+        self.instances[number].receive(Event(name, data, envelope=envelope))
+
+    @property
+    def key(self) -> tuple[str, str]:
+        """All that decides on what can happen from now on, and on what the monitors say."""
+        return self.place, repr(self.memories)
+
+    @property
+    def memories(self) -> dict[str, list[Any]]:
+        """What decides on what the monitors of each property say from now on."""
+        return {
+            watched.property.name: [
+                (*monitor.memory[1:], monitor.violated is not None)
+                for monitor in watched._monitors.values()
+            ]
+            for watched in self.watch._watched
+        }
+
+    @property
+    def place(self) -> str:
+        """All that decides on what can happen from now on."""
+        parts = []
+        for number, instance in enumerate(self.instances):
+            runs = sorted(run.state for run in self.runs if run.instance is instance)
+            delays = sorted(
+                d.__self__.event.name for d in self.delays if d.__self__.instance is instance
+            )
+            data = {} if instance.final else instance.data
+            bag = sorted(repr(each[:2]) for each in self.bags[number])
+            waiting = [each.name for each in instance._deferred or ()]
+            config = instance.configuration
+            parts.append(
+                (config.active, config.histories, instance.final, runs, delays, bag, waiting)
+            )
+            parts.append(repr(sorted(data.items(), key=lambda item: item[0])))
+        return repr(parts)
+
+    def violated(self, *, ended: bool) -> set[str]:
+        """Properties that the run violates; with `ended`, also if nothing happens any more."""
+        found = {each.property.name for each in self.watch.violations}
+        if ended:
+            results = self.watch.results(self.clock.now, ended=True)
+            found |= {each.property.name for each in results if each.verdict == FALSE}
+        return found
+
+
+def refuted(
+    system: System, outside: Sequence[str], capacity: int, most: int, *, lossy: bool = False
+) -> set[str] | None:
+    """Return the properties that some run violates; None if there are more than `most` states."""
+    swarm = system.swarms[0]
+    subject = Subject(swarm.name, system, swarm)
+    cast = actors(subject, subject.create_robots({}), Scenario(), Diagnostics())
+
+    def play(path: Sequence[Choice]) -> _Swarm:
+        played = _Swarm(cast, watchable(subject), system, capacity)
+        for choice in path:
+            played.take(choice)
+        return played
+
+    first = play(())
+    seen = {first.key}
+    found = set(first.violated(ended=False))
+    queue: deque[tuple[Choice, ...]] = deque([()])
+    while queue:
+        path = queue.popleft()
+        now = play(path)
+        choices = list(now.choices(outside))
+        if lossy:
+            choices += [("drop", n, m) for n, bag in enumerate(now.bags) for m in range(len(bag))]
+        place, memories = now.place, now.memories
+        happens = False
+        # Properties that see something, though nothing else changes.
+        seeing: set[str] = set()
+        for choice in choices:
+            after = play((*path, choice))
+            ignored = all(line.ignored for line in after.lines[len(now.lines) :])
+            happens |= not ignored or after.place != place
+            seeing |= {name for name, each in after.memories.items() if each != memories[name]}
+            found |= after.violated(ended=False)
+            if after.key not in seen:
+                seen.add(after.key)
+                queue.append((*path, choice))
+                if len(seen) > most:
+                    return None
+        if not happens:
+            found |= now.violated(ended=True) - seeing
+    return found
