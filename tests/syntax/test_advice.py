@@ -14,6 +14,7 @@ MODEL = """package p
 
 event A : std_msgs/Empty
 event B : std_msgs/Empty
+swarm event E : std_msgs/Empty
 
 function go : abstraction { action "go" : p_msgs/Go }
 
@@ -53,6 +54,9 @@ STATEMENTS = (
     ("on A -> Done / n = 1; exit / n = 2", "on A -> Done / n = 1", "{0}"),
     ("on A -> Done / n = 1 // twice", "on A -> Done / n = 1", "{0}"),
     ("on A / defer", "on A / defer", "{0}"),
+    ("on A / send E after 5 s to uav", "send E after 5 s to uav", "{0}"),
+    ("on A [in T] -> Done; initial T; state T", "in T", "{0}"),
+    ("on A [elapsed > 3 s] -> Done", "elapsed", "{0}"),
     ("timeout 5 s -> Done", "timeout 5 s", "{0}"),
     ("timeout(5 s) -> Done", "timeout(5 s)", "{0}"),
     ("on timeout 500 ms -> Done", "on timeout 500 ms", "{0}"),

@@ -32,6 +32,8 @@ _OTHER_TYPES = {
     "boolean": "bool",
     "str": "string",
 }
+# Functions that need no value in their parentheses.
+_CALLED = ("elapsed", "present")
 # Names of an absent value in other languages.
 _NULL = ("null", "none", "nil", "undefined")
 
@@ -97,7 +99,9 @@ def type_hint(name: str, scope: FileScope, report: Diagnostics) -> str | None:
 
 
 def value_hint(name: str, scope: FileScope, report: Diagnostics) -> str | None:
-    """Hint for a value of an enum without its enum, and for an absent value."""
+    """Hint for a value of an enum without its enum, a function without `()`, an absent value."""
+    if name in _CALLED:
+        return f"it is a function: write `{name}()`"
     enums = scope.names(EnumType) if report.wants_hint("unresolved-name") else ()
     meant = [
         f"{known}.{name}"

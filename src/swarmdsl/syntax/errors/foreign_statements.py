@@ -63,7 +63,15 @@ _HINTS = (
     (r"\binitial @state +(\w+)", "", r"write `initial \1`, and declare the state next to it"),
     (r"\bparallel @(?!state\b)(\w+)", "`state`", r"write `parallel state \1`"),
     (
-        r"^ *@(?:deep +)?(?:state|initial|final|choice|history|parallel)\b",
+        r"^ *@(?:deep +)?history +(\w+)",
+        "`region`",
+        (
+            r"write `history \1` in a region to restore that one; to restore all regions, put the "
+            r"parallel state into a state, and `deep history \1` beside it"
+        ),
+    ),
+    (
+        r"^ *@(?:state|initial|final|choice|parallel)\b",
         "`region`",
         "put the states of a parallel state in regions: `region Name { ... }`",
     ),

@@ -36,6 +36,12 @@ TRANSITIONS = (
     ),
     (r"\bon +@(entry|exit)\b", "", r"write `\1 / ...` without `on`"),
     (r"(?:^|\{) *@-> *([\w.]+)", "", r"write `on done -> \1` to leave the state when it is done"),
+    (
+        r"\b(send +[\w.]+(?:\([^)]*\))?) +(after [^/]*?\w) *@to +([\w.]+(?:\[[^]]*\])?)",
+        "",
+        r"write the address before the delay: `\1 to \3 \2`",
+    ),
+    (r"\bin @([\w.]+)", "`(`", r"write `in(\1)`"),
     (r"\bon +@after\b", "", "write `after` without `on`"),
     (r"\b(entry|exit) *@:", "", r"write `\1 / ...`"),
     (r"\b(entry|exit) *@\{ *\}", "", r"delete `\1 { }`: it does nothing"),
