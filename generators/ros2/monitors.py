@@ -6,7 +6,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl.codegen import Diagnostics, Span, code_cell, dataclass, fresh
 from swarmdsl.codegen.python import Call, Source, comments, layout, source_place
-from swarmdsl.codegen.shared import condition_text, constant, envelopes_of, sentence_text
+from swarmdsl.codegen.shared import (
+    condition_text,
+    constant,
+    envelopes_of,
+    facts_of,
+    sentence_text,
+)
 from swarmdsl.ir import (
     Claim,
     Count,
@@ -20,7 +26,6 @@ from swarmdsl.ir import (
     System,
     subexpressions,
 )
-from swarmdsl.ir.sentences import facts_in
 
 from .imports import WIDTH, Imports
 from .launch import Launch
@@ -94,7 +99,7 @@ def conditions(machine: StateMachine, system: System) -> dict[str, Expression]:
             if system.members_by_name[role.member].behavior == machine.name
         }
         for property_ in system.properties:
-            for fact in _facts(property_) if property_.subject == swarm.name else ():
+            for fact in facts_of(property_) if property_.subject == swarm.name else ():
                 if isinstance(fact, Fact) and fact.guard is not None:
                     role = fact.robots.role if fact.robots is not None else property_.each
                     if role in roles and _unknown_param(fact.guard, machine) is None:
@@ -166,7 +171,7 @@ def _is_told(
         for node in role.nodes
         if node.part is None and node.executable == module
     }
-    for fact in _facts(property_):
+    for fact in facts_of(property_):
         if isinstance(fact, Fact) and fact.guard is not None:
             role = fact.robots.role if fact.robots is not None else property_.each
             param = _unknown_param(fact.guard, machines.get(role or ""))
@@ -195,7 +200,7 @@ def _check_senders(properties: Iterable[Property], system: System, report: Diagn
     sent = {name for machine in system.machines for name in sent_events(machine)}
     unknown = sent - envelopes_of(system).keys()
     for property_ in properties:
-        for fact in _facts(property_):
+        for fact in facts_of(property_):
             if isinstance(fact, Fact) and fact.act == "arrives" and fact.name in unknown:
                 what = (
                     f"that `{fact.name}` comes from outside: robots send it too, and do not tell "
@@ -203,12 +208,6 @@ def _check_senders(properties: Iterable[Property], system: System, report: Diagn
                 )
                 help_ = f"let a transition on `{fact.name}` use `event.sender`"
                 report.report("no-place", fact.origin, target=TARGET, what=what, help=help_)
-
-
-def _facts(property_: Property) -> Iterator[Fact | Count]:
-    scope = property_.scope.claims if property_.scope is not None else ()
-    for claim in (*property_.claims, *scope):
-        yield from facts_in(claim)
 
 
 class _Writer:

@@ -52,6 +52,7 @@ if TYPE_CHECKING:
     )
     from swarmdsl.codegen.shared.property_texts import (
         condition_text,
+        facts_of,
         sentence_text,
     )
     from swarmdsl.codegen.shared.state_expressions import (
@@ -91,7 +92,7 @@ else:
             ),
             "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
             "swarmdsl.codegen.shared.part_values": "check_part_values",
-            "swarmdsl.codegen.shared.property_texts": "condition_text sentence_text",
+            "swarmdsl.codegen.shared.property_texts": "condition_text facts_of sentence_text",
             "swarmdsl.codegen.shared.state_expressions": "expressions_of timed_states",
             "swarmdsl.codegen.shared.swarmros": "bridge_files",
             "swarmdsl.codegen.shared.units": "doc_with_unit",
@@ -124,6 +125,7 @@ __all__ = [
     "envelopes_of",
     "evaluate",
     "expressions_of",
+    "facts_of",
     "field_type",
     "follows_members",
     "has_node",

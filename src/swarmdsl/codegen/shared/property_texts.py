@@ -1,12 +1,12 @@
-"""Properties in the words of the model."""
+"""Properties in the words of the model, and their facts."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.codegen.swarm_printer.expressions import expression
-from swarmdsl.ir import Expression, Property
-from swarmdsl.ir.sentences import Condition, Named, Part, sentence
+from swarmdsl.ir import Count, Expression, Fact, Property
+from swarmdsl.ir.sentences import Condition, Named, Part, facts_in, sentence
 
 
 def condition_text(condition: Expression) -> str:
@@ -29,3 +29,10 @@ def parts_text(parts: Iterable[Part]) -> str:
         else expression(each.expression if isinstance(each, Condition) else each)
         for each in parts
     )
+
+
+def facts_of(property_: Property) -> Iterator[Fact | Count]:
+    """Yield the facts in a property and in its scope."""
+    scope = property_.scope.claims if property_.scope is not None else ()
+    for claim in (*property_.claims, *scope):
+        yield from facts_in(claim)
