@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
+
 from swarmdsl.execution.engine import NO_ENVELOPE, Envelope, Event, InstanceLike, Run, State
 from swarmdsl.execution.monitor import LOST, Interest, Watch
 from swarmdsl.execution.simulate.clock import Clock
@@ -20,6 +22,14 @@ def observe(trace: Trace, watch: Watch, clock: Clock) -> None:
         trace.reporters[instance] = Reporter(life, interests[alike], watch, clock, trace)
 
 
+class _Everything(Container["str | None"]):
+    """Events by which values can change: all of them."""
+
+    def __contains__(self, _event: object) -> bool:
+        """Return True."""
+        return True
+
+
 class Reporter(ReportingObserver):
     """Observer of an instance that notes what it does, and makes a line only where it matters.
 
@@ -34,7 +44,6 @@ class Reporter(ReportingObserver):
         "_life",
         "_states",
         "_trace",
-        "_values",
         "_was_inside",
         "_watch",
         "envelope",
@@ -48,11 +57,12 @@ class Reporter(ReportingObserver):
         self, life: Life, interest: Interest, watch: Watch, clock: Clock, trace: Trace
     ) -> None:
         self._life, self._watch, self._clock, self._trace = life, watch, clock, trace
-        self._acts, self._values = interest.acts, interest.values
+        self._acts = interest.acts
         self._states = {state: 1 << bit for bit, state in enumerate(sorted(interest.states))}
         self._inside = self._was_inside = 0
         # A robot that comes or is lost always matters.
-        self.heard = interest.heard | {None, LOST}
+        heard = interest.heard | {None, LOST}
+        self.heard: Container[str | None] = _Everything() if interest.values else heard
         self.event: str | None = None
         self.envelope = NO_ENVELOPE
         self.noted: list[tuple[str, object]] = []
@@ -60,15 +70,14 @@ class Reporter(ReportingObserver):
 
     def receive(self, event: Event) -> None:
         """Let the instance process an event from others, which may be one of millions."""
-        trace, instance = self._trace, self._life.instance
-        self._life.arrives()
-        self.event, self.envelope = event.name, event.envelope
-        trace.reporting = self
-        instance.receive(event)
-        if self.noted or event.name in self.heard or self._values or self._watch.happened:
-            trace.flush()
-        else:
-            trace.reporting = None
+        life, name = self._life, event.name
+        life.arrives()
+        self.event, self.envelope = name, event.envelope
+        self._trace.reporting = self
+        life.instance.receive(event)
+        # If none of this is so, it ends when the next one begins.
+        if self.noted or name in self.heard or self._watch.happened:
+            self._trace.flush()
 
     def begin(self, event: str | None, envelope: Envelope) -> None:
         """Begin with an event from outside, or with the start of the instance."""
@@ -81,7 +90,6 @@ class Reporter(ReportingObserver):
         watch, noted = self._watch, self.noted
         if (
             self._inside != self._was_inside
-            or self._values
             or self.event in self.heard
             or watch.happened
             or (self._acts and not self._acts.isdisjoint(noted))
