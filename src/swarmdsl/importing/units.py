@@ -24,6 +24,7 @@ from swarmdsl.ir import (
     Assignment,
     Binary,
     Call,
+    Construction,
     Expression,
     Field,
     FieldAccess,
@@ -34,6 +35,7 @@ from swarmdsl.ir import (
     Param,
     ParamRef,
     Primitive,
+    Query,
     Service,
     StateMachine,
     System,
@@ -46,6 +48,18 @@ from swarmdsl.syntax.types import FLOAT, INT, unit_of, with_unit
 from swarmdsl.syntax.units import ANY, PERCENT, PLAIN, RADIAN, UNITS, Unit, unit_of_ros
 
 T = TypeVar("T")
+
+_EXPRESSIONS = (
+    Literal,
+    VariableRef,
+    ParamRef,
+    FieldAccess,
+    Unary,
+    Binary,
+    Call,
+    Query,
+    Construction,
+)
 
 
 def give_units(system: System) -> System:
@@ -85,7 +99,7 @@ class _Units:
             return cast("T", tuple(map(self.node, node)))
         if isinstance(node, (Primitive, Named, Array, Span)) or "__parts__" not in vars(type(node)):
             return node
-        if isinstance(node, (Literal, VariableRef, ParamRef, FieldAccess, Unary, Binary, Call)):
+        if isinstance(node, _EXPRESSIONS):
             return cast("T", self.expression(node)[0])
         if isinstance(node, Assignment):
             type_ = self._at(node.variable, node.path)
@@ -115,6 +129,34 @@ class _Units:
             case Binary(operator=word, left=left, right=right):
                 (first, second), unit = self._operation(word, (left, right))
                 return replace(tree, left=first, right=second), unit
+            case Query(array=array, condition=condition, key=key):
+                found = replace(
+                    tree,
+                    array=self.expression(array)[0],
+                    condition=self.expression(condition)[0] if condition is not None else None,
+                    key=self.expression(key)[0] if key is not None else None,
+                )
+                return found, unit_of(tree.type) if tree.type is not None else None
+            case Construction(type=of, values=values):
+                given = (
+                    (name, self.stored(value, self._fields.get((of, name))))
+                    for name, value in values
+                )
+                return replace(tree, values=tuple(given)), None
+            case Call(function="append" | "replace" | "contains" as word, arguments=(array, *rest)):
+                changed = self.expression(array)[0]
+                element = array.type.element if isinstance(array.type, Array) else None
+                at = 0 if word != "replace" else 1
+                stored = (
+                    self.stored(each, element) if number == at else self.expression(each)[0]
+                    for number, each in enumerate(rest)
+                )
+                unit = unit_of(tree.type) if tree.type is not None else None
+                return replace(tree, arguments=(changed, *stored)), unit
+            case Call(function="item" | "remove", arguments=arguments):
+                items = tuple(self.expression(each)[0] for each in arguments)
+                unit = unit_of(tree.type) if tree.type is not None else None
+                return replace(tree, arguments=items), unit
             case Call(function=word, arguments=arguments):
                 made_, unit = self._operation(word, arguments)
                 return replace(tree, arguments=made_), unit
@@ -169,6 +211,10 @@ def _converted(tree: Expression, found: Unit | None, expected: Unit | None) -> E
         return replace(tree, operand=_converted(tree.operand, found, expected))
     if units_fit(found, expected) or expected is PERCENT:
         return tree
+    if isinstance(tree, Call) and tree.function in ("int", "round", "floor", "ceil"):
+        # An integer divided by a unit is none.
+        inner = _converted(tree.arguments[0], found, expected)
+        return replace(tree, arguments=(inner,))
     if isinstance(tree, Binary) and tree.operator in ("*", "/"):
         factor = _quotient(expected, found) if tree.operator == "*" else _quotient(found, expected)
         if isinstance(tree.right, Literal) and factor is not None:
