@@ -42,7 +42,8 @@ _REASONS: dict[str, dict[str, str]] = {
         "interfaces are not drawn; types are drawn without package and bounds": (
             "Action.external Action.feedback Action.goal Action.result Action.type "
             "Constant.name Constant.type "
-            "Constant.value Message.constants Message.external Message.fields Message.type "
+            "Constant.value Field.name Field.type Message.constants Message.external "
+            "Message.fields Message.type "
             "Named.package Primitive.bound Service.external Service.request Service.response "
             "Service.type System.interfaces"
         ),
@@ -58,12 +59,14 @@ _REASONS: dict[str, dict[str, str]] = {
         ),
         "properties are not drawn": (
             "Chance.bound Chance.probability Count.comparison Count.number Count.role "
-            "Count.state Fact.act Fact.guard Fact.name Fact.robots Junction.claims "
-            "Junction.operator Property.chance Property.claims Property.doc Property.each "
+            "Count.state Fact.guard "
+            "Property.chance Property.claims Property.doc Property.each "
             "Property.kind Property.name Property.scope Property.subject Property.times "
-            "Property.within Robots.index Robots.number Robots.other Robots.quantifier "
-            "Robots.role Scope.claims Scope.kind System.properties"
+            "Property.within Robots.index Robots.number "
+            "Scope.claims Scope.kind System.properties"
         ),
+        "the measures of a fitness are of the swarm in the diagram": "Fitness.subject",
+        "inputs are drawn without documentation": "FitnessInput.doc",
         "communication settings are not drawn": (
             "CommunicationSettings.technology CommunicationSettings.values Member.communication"
         ),
@@ -92,7 +95,10 @@ _REASONS: dict[str, dict[str, str]] = {
             "Connector.source Connector.target CountRange.doc CountRange.lower "
             "CountRange.role CountRange.upper Environment.doc Environment.docs "
             "Environment.name Environment.size Environment.world Fitness.doc Fitness.docs "
-            "Fitness.goal Fitness.inputs Fitness.name Fitness.params Fitness.value "
+            "Fitness.goal Fitness.inputs Fitness.name Fitness.params Fitness.subject "
+            "Fitness.value FitnessInput.doc FitnessInput.measure FitnessInput.name "
+            "FitnessInput.type Measure.aggregate Measure.claim Measure.each Measure.kind "
+            "Measure.over "
             "Member.base Member.behavior Member.communication Member.connectors Member.doc "
             "Member.docs Member.name Member.params Member.parts Member.ports "
             "Multiplicity.lower Multiplicity.upper Optimization.counts Optimization.doc "
@@ -143,6 +149,8 @@ NOT_LOWERED = {
     "ImportRos.doc": "imports are resolved by the loader",
     "ImportRos.path": "imports are resolved by the loader",
     "Model.imports": "imports are resolved by the loader",
+    "Fitness.subject": "the resolved subject is lowered",
+    "Measure.about": "it is that of the fitness",
     "Property.subject": "the resolved subject is lowered",
     "TypeRef.array": "the resolved type is lowered",
     "TypeRef.bound": "the resolved type is lowered",

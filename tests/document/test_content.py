@@ -274,7 +274,12 @@ def test_diagrams_lead_to_what_they_show(sar: Page) -> None:
             link[0].get("data-id"): link.get("href").removeprefix("#") for link in picture.iter("a")
         }
 
-    around = {"role.uav": "Uav", "role.rover": "Rover", "environment": "Field"}
+    around = {
+        "role.uav": "Uav",
+        "role.rover": "Rover",
+        "environment": "Field",
+        "fitness": "Rescued",
+    }
     assert shown("SearchAndRescue") == around
     chart = shown("RoverRescue")
     assert chart["Mission.Rescue.Bid"] == "RoverRescue.Mission.Rescue.Bid"

@@ -149,7 +149,7 @@ def test_sentences(seed: int, pytestconfig: pytest.Config) -> None:
     rules = grammar.rules["Declaration"].body
     starts = [part.rule for part in inside(rules) if isinstance(part, Use)]
     starts += [grammar.start, "StateMachine"]
-    count = max(400, pytestconfig.getoption("--mutants") // SEEDS)
+    count = max(600, pytestconfig.getoption("--mutants") // SEEDS)
     accepted = sum(check_same(sentences.sentence(starts[n % len(starts)])) for n in range(count))
 
     assert accepted > count // 3

@@ -90,6 +90,11 @@ def work(line, instead="HERE"):
     return HEAD + WORK.replace(instead, line).replace("HERE", "")
 
 
+FITNESS = """\
+member Car { param speed : float64 = 1.0; behavior Other }
+swarm S { car : Car[2]; fitness F }
+fitness F {
+  """
 DO = "do sweep(speed = 1.0, area = nothing)"
 PLACES = {
     "param of a role": (
@@ -238,6 +243,25 @@ PLACES = {
     ),
     "tested state": (state("on Low [in(|)] -> Last"), {"First", "Inner"}, {"Low", "limit"}),
     "tested state inside": (state("on Low [not in(First.|"), {"Inner", "Done"}, {"Last", "count"}),
+    "role of a measure": (HEAD + FITNESS + "in x : uint32 = count(|) }", {"car"}, {"Only", "go"}),
+    "state of a measure": (
+        HEAD + FITNESS + "in x : uint32 = count(car in |) }", {"Only", "End"}, {"car", "go"},
+    ),
+    "state of a measure of each robot": (
+        HEAD + FITNESS + "in x : duration = max each car : time(in |) }", {"Only"}, {"car"},
+    ),
+    "event of a measure": (
+        HEAD + FITNESS + "in x : uint32 = total(car sends |) }", {"Low", "High"}, {"car", "Only"},
+    ),
+    "measure": (
+        HEAD + FITNESS + "in x : uint32 = | }",
+        {"count", "total", "time", "mean", "min", "max", "sum"}, {"maximize"},
+    ),
+    "swarm of a fitness": (HEAD + FITNESS + "} fitness G of |", {"S"}, {"Other"}),
+    "role of a property": (HEAD + FITNESS + "} property P : no |", {"car"}, {"Only"}),
+    "state of a property": (
+        HEAD + FITNESS + "} property P : each car : never in |", {"Only", "End"}, {"car"},
+    ),
     "below a mistake": (state("on on on\n    |"), ITEMS, {"event", "statemachine"}),
     "field behind a mistake": (
         work("on Low -> Overdo sweep(|)", DO), {"speed"}, {"action", "state", "on"},

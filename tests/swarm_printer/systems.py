@@ -21,6 +21,7 @@ from swarmdsl.ir import (
     Expression,
     Field,
     Fitness,
+    FitnessInput,
     Function,
     FunctionPort,
     Interface,
@@ -409,7 +410,8 @@ def _connectors(
 
 
 def _fitness(draw: st.DrawFn, name: str) -> Fitness:
-    inputs = [Field(each, draw(st.sampled_from([INT, FLOAT])), draw(docs)) for each in ("s", "by")]
+    types = st.sampled_from([INT, FLOAT])
+    inputs = [FitnessInput(each, draw(types), None, draw(docs)) for each in ("s", "by")]
     params = _params(draw, ["w", "min"])
     leaves = [VariableRef(each.name, each.type) for each in inputs]
     value = expressions(

@@ -20,7 +20,18 @@ OTHERS = {
 # What stands inside a line. All else begins one, and has documentation.
 INLINE = {
     *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Address"),
-    *("Chance", "Claim", "Conjunction", "Each", "Fact", "Pattern", "PropertyScope", "Term", "Who"),
+    *(
+        "Chance",
+        "Claim",
+        "Conjunction",
+        "Each",
+        "Fact",
+        "Measure",
+        "Pattern",
+        "PropertyScope",
+        "Term",
+        "Who",
+    ),
     *("Assignment", "Append", "Remove", "Clear", "Cancel", "DeferredEvent"),
     *("OutcomeTrigger", "DoneTrigger", "EventTrigger", "TimeTrigger", "MonitorTrigger"),
 }

@@ -60,7 +60,10 @@ syn match swarmDeclaration #\<leads\>\ze[ \t]*\%(to\)\>#
 syn match swarmDeclaration #\<least\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<lifespan\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<lost\>\ze[ \t]*\%(after\)\>#
+syn match swarmDeclaration #\<max\>\ze[ \t]*\%(count\|each\)\>#
 syn match swarmStatement #\<maximize\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<mean\>\ze[ \t]*\%(count\|each\)\>#
+syn match swarmDeclaration #\<min\>\ze[ \t]*\%(count\|each\)\>#
 syn match swarmStatement #\<minimize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<most\>\ze[ \t]*[0-9"]#
 syn match swarmDeclaration #\<never\>\ze[ \t]*[*A-Za-z_0-9"]#
@@ -82,9 +85,12 @@ syn match swarmDeclaration #\<some\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<starts\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<step\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<sum\>\ze[ \t]*\%(each\)\>#
 syn match swarmDeclaration #\<then\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<time\>\ze[ \t]*\%(\%(until\)\>\|[(]\)#
 syn match swarmDeclaration #\<times\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmStatement #\<to\>\ze[ \t]*[*A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<total\>\ze[ \t]*[(]#
 syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<where\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<within\>\ze[ \t]*[A-Za-z_0-9"-]#

@@ -11,6 +11,7 @@ from swarmdsl.syntax.ast import (
     Activity,
     Component,
     Declaration,
+    Fitness,
     NameUse,
     Node,
     Operation,
@@ -86,7 +87,7 @@ def _usage(owner: TopLevel) -> Usage:
     refs = [ref.target for _, ref in references(owner)]
     names = [use.target for use in nodes_of(owner, NameUse) if not use.is_predefined]
     owners: list[Node | None] = [activity.owner for activity in nodes_of(owner, Activity)]
-    if isinstance(owner, Property):
+    if isinstance(owner, (Fitness, Property)):
         owners.append(owner.about)
     types = (ref.type for ref in nodes_of(owner, TypeRef))
     elements = (type_.element if isinstance(type_, Array) else type_ for type_ in types)

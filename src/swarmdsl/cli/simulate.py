@@ -57,6 +57,11 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     help="Draw the states of all robots over time, as SVG.",
 )
 @click.option(
+    "--results",
+    type=click.Path(path_type=Path),
+    help="Write verdicts on properties, measures and fitness to a file, as JSON.",
+)
+@click.option(
     "--replay",
     type=click.Path(path_type=Path),
     multiple=True,
@@ -91,6 +96,7 @@ def simulate(
     trace: str | None,
     trace_file: Path | None,
     timeline: Path | None,
+    results: Path | None,
     replay: tuple[Path, ...],
     seed: int | None,
     until: int | None,
@@ -118,6 +124,8 @@ def simulate(
         raise click.UsageError("`--no-properties` and `--property` conflict")
     if no_properties and stop_on_violation:
         raise click.UsageError("`--no-properties` and `--stop-on-violation` conflict")
+    if results is not None and len(replay) > 1:
+        raise click.UsageError("`--results` has room for one `--replay`")
     if trace == "none" and trace_file is not None:
         raise click.UsageError("`--trace none` and `--trace-file` conflict: omit one of them")
     is_document = format_ in DOCUMENTS
@@ -144,6 +152,7 @@ def simulate(
         not no_properties,
         stop_on_violation,
         properties,
+        results,
     )
     if not is_document:
         succeeded = run_simulation(request, lambda report: render(report, format_, sys.stderr))

@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from swarmdsl.ir.optimization import (
         CountRange,
         Fitness,
+        FitnessInput,
         Optimization,
         ParamRange,
     )
@@ -81,6 +82,7 @@ if TYPE_CHECKING:
         Count,
         Fact,
         Junction,
+        Measure,
         Property,
         Robots,
         Scope,
@@ -144,8 +146,10 @@ else:
                 "Interface Message Param Service"
             ),
             "swarmdsl.ir.operations": "OPERATIONS",
-            "swarmdsl.ir.optimization": "CountRange Fitness Optimization ParamRange",
-            "swarmdsl.ir.properties": "Chance Claim Count Fact Junction Property Robots Scope",
+            "swarmdsl.ir.optimization": "CountRange Fitness FitnessInput Optimization ParamRange",
+            "swarmdsl.ir.properties": (
+                "Chance Claim Count Fact Junction Measure Property Robots Scope"
+            ),
             "swarmdsl.ir.statemachine": (
                 "Activity Address Assignment Cancel DoneTrigger Effect EventTrigger OutcomeTrigger "
                 "Policy ResultMapping Send State StateKind StateMachine TimeTrigger Transition "
@@ -203,6 +207,7 @@ __all__ = [
     "Field",
     "FieldAccess",
     "Fitness",
+    "FitnessInput",
     "Function",
     "FunctionPort",
     "Heartbeat",
@@ -211,6 +216,7 @@ __all__ = [
     "ItemRef",
     "Junction",
     "Literal",
+    "Measure",
     "Member",
     "Message",
     "Multiplicity",

@@ -8,24 +8,38 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
-from swarmdsl.ir.interfaces import Field, Param
+from swarmdsl.ir.interfaces import Param
+from swarmdsl.ir.properties import Measure
+from swarmdsl.syntax.types import Type
+
+
+@dataclass(frozen=True, slots=True)
+class FitnessInput:
+    """Value that is measured in a run; without a measure, by other programs."""
+
+    name: str
+    type: Type
+    measure: Measure | None = None
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
 class Fitness:
     """Value to maximize or minimize, computed from measurements of a run.
 
-    The expression reads inputs as variables.
+    The expression reads inputs as variables. Measures are about swarm `subject`.
     """
 
     name: str
-    inputs: tuple[Field, ...]
+    inputs: tuple[FitnessInput, ...]
     params: tuple[Param, ...]
     goal: Literal["maximize", "minimize"]
     value: Expression
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+    subject: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

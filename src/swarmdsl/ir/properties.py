@@ -1,4 +1,4 @@
-"""Properties: what must be true of each run of a swarm or a state machine."""
+"""Properties: what must be true of each run; measures: what is measured in it."""
 
 from __future__ import annotations
 
@@ -99,3 +99,19 @@ class Property:
     chance: Chance | None = None
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """Number of robots, how often something happens, how long it lasts, or the time until it.
+
+    A fact about a role without a number is about each of its robots, all of them together.
+    `over` is the mean, least or greatest number in the run instead of that in the end; with an
+    `aggregate`, the sum, mean, least or greatest value of the robots of role `each`.
+    """
+
+    kind: Literal["count", "total", "time", "until"]
+    claim: Claim
+    over: Literal["mean", "min", "max"] | None = None
+    aggregate: Literal["sum", "mean", "min", "max"] | None = None
+    each: str | None = None

@@ -1,4 +1,4 @@
-"""Properties as sentences of the language, in parts: texts, names and expressions."""
+"""Properties and measures as sentences of the language: texts, names and expressions."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.ir.expressions import Expression
-from swarmdsl.ir.properties import Claim, Count, Fact, Junction, Property, Robots
+from swarmdsl.ir.properties import Claim, Count, Fact, Junction, Measure, Property, Robots
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +75,16 @@ def _pattern(property_: Property) -> Iterator[Part]:
     if property_.within is not None:
         yield " within "
         yield property_.within
+
+
+def measure(each: Measure) -> Iterator[Part]:
+    """Yield the parts of a measure: `mean each robot : time(in State)`."""
+    if each.aggregate is not None:
+        yield f"{each.aggregate} each {each.each} : "
+    yield f"{each.over} " if each.over is not None else ""
+    yield "time until " if each.kind == "until" else f"{each.kind}("
+    yield from claim(each.claim)
+    yield "" if each.kind == "until" else ")"
 
 
 def claim(each: Claim) -> Iterator[Part]:

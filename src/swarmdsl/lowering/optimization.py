@@ -7,6 +7,7 @@ from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.docs import lower_docs
 from swarmdsl.lowering.expressions import lower_expression, lower_optional
 from swarmdsl.lowering.interfaces import lower_params
+from swarmdsl.lowering.properties import lower_measure
 from swarmdsl.syntax.ast import (
     CountRange,
     Fitness,
@@ -24,7 +25,13 @@ def lower_fitness(fitness: Fitness, context: Context) -> ir.Fitness:
     return ir.Fitness(
         name=context.names[fitness],
         inputs=tuple(
-            ir.Field(str(item.name), context.type_of(item.type), item.doc, item.name.span)
+            ir.FitnessInput(
+                str(item.name),
+                context.type_of(item.type),
+                lower_measure(item.measure, context) if item.measure is not None else None,
+                item.doc,
+                item.name.span,
+            )
             for item in fitness.items
             if isinstance(item, FitnessInput)
         ),
@@ -34,6 +41,7 @@ def lower_fitness(fitness: Fitness, context: Context) -> ir.Fitness:
         doc=fitness.doc,
         docs=lower_docs(fitness.items),
         origin=fitness.name.span,
+        subject=context.names[fitness.about] if fitness.about is not None else None,
     )
 
 

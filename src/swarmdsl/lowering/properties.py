@@ -1,4 +1,4 @@
-"""Lower properties."""
+"""Lower properties and measures."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from swarmdsl.syntax.ast import (
     Claim,
     Conjunction,
     Fact,
+    Measure,
     Pattern,
     Property,
     PropertyScope,
@@ -46,6 +47,17 @@ def lower_property(owner: Property, context: Context) -> ir.Property:
         chance=ir.Chance(chance.bound, float(chance.probability)) if chance is not None else None,
         doc=owner.doc,
         origin=owner.name.span,
+    )
+
+
+def lower_measure(measure: Measure, context: Context) -> ir.Measure:
+    """Lower a measure."""
+    return ir.Measure(
+        kind="until" if measure.until else measure.kind,
+        claim=_claim(measure.claim, context),
+        over=cast("Literal['mean', 'min', 'max'] | None", measure.over or None),
+        aggregate=cast("Literal['sum', 'mean', 'min', 'max'] | None", measure.aggregate or None),
+        each=measure.each.role.name if measure.each is not None else None,
     )
 
 

@@ -34,6 +34,7 @@ from swarmdsl.analysis.checks.interfaces import (
     check_values,
 )
 from swarmdsl.analysis.checks.livelock import check_livelock
+from swarmdsl.analysis.checks.measures import check_measured_swarm, check_measures
 from swarmdsl.analysis.checks.membership import check_heartbeat, check_membership
 from swarmdsl.analysis.checks.monitor_names import check_monitor_names
 from swarmdsl.analysis.checks.names import check_names, check_names_inside
@@ -129,8 +130,8 @@ PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
     MessageType: (check_standard, check_message_constants),
     ServiceType: (check_standard,),
     ActionType: (check_standard,),
-    Fitness: (check_fitness,),
-    Swarm: (check_swarm, check_heartbeat, check_robot_values),
+    Fitness: (check_fitness, check_measures),
+    Swarm: (check_swarm, check_heartbeat, check_robot_values, check_measured_swarm),
     Environment: (check_environment,),
     Property: (check_property,),
 }

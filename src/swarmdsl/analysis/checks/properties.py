@@ -1,4 +1,4 @@
-"""Checks of properties: what they are about, their robots, and facts that never hold."""
+"""Checks of properties and measures: their subject, their robots, facts that never hold."""
 
 from __future__ import annotations
 
@@ -10,7 +10,16 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
 from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.analysis.resolve.multiplicity import greatest
-from swarmdsl.analysis.resolve.properties import machines_of_fact, role_of_fact, subjects_of
+from swarmdsl.analysis.resolve.properties import (
+    Sentence,
+    each_robot_of,
+    facts_in,
+    machines_of_fact,
+    own_swarms,
+    robots_in,
+    role_of_fact,
+    subjects_of,
+)
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
@@ -18,6 +27,8 @@ from swarmdsl.syntax.ast import (
     Event,
     EventTrigger,
     Fact,
+    Fitness,
+    Measure,
     MonitorTrigger,
     Node,
     Property,
@@ -25,7 +36,7 @@ from swarmdsl.syntax.ast import (
     State,
     StateMachine,
     Swarm,
-    Who,
+    TopLevel,
     nodes_of,
     whole,
 )
@@ -35,14 +46,21 @@ from swarmdsl.syntax.types import BOOL, DURATION
 def check_subjects(project: Project, context: Context) -> None:
     """Check that a property that names no swarm or machine is about the only one."""
     for file, owner in project.declarations():
-        if not isinstance(owner, Property) or owner.subject is not None or file.library:
+        measures = isinstance(owner, Fitness) and bool(nodes_of(owner, Measure))
+        if not isinstance(owner, Property) and not measures:
             continue
-        found = subjects_of(project)
+        assert isinstance(owner, (Property, Fitness))
+        if owner.subject is not None or file.library:
+            continue
+        found = [*own_swarms(project)] if measures else subjects_of(project)
         if len(found) == 1 or any(each.parsed.skipped_names for each in project.files):
             continue
         names = [f"of {each.name}" for each in found]
         help_ = f"write {listed(names)} after its name" if names else "declare a `swarm`"
-        context.report.report("unclear-property", owner.name.span, name=owner.name, help=help_)
+        kind = "fitness" if measures else "property"
+        context.report.report(
+            "unclear-property", owner.name.span, kind=kind, name=owner.name, help=help_
+        )
 
 
 def check_property(owner: Property, context: Context) -> None:
@@ -61,22 +79,29 @@ def check_property(owner: Property, context: Context) -> None:
             text=chance.probability,
             help="write a number from 0 to 1, such as `0.95`",
         )
-    if isinstance(owner.about, StateMachine):
-        _check_no_robots(owner, owner.about, context)
-    elif owner.about is not None:
-        for fact in nodes_of(owner, Fact):
-            _check_robots(fact, owner, context)
-    for fact in nodes_of(owner, Fact):
+    check_facts(owner, owner, context)
+
+
+def check_facts(sentence: Sentence, owner: TopLevel, context: Context) -> None:
+    """Check the facts in a sentence of a declaration."""
+    facts = facts_in(sentence)
+    if isinstance(sentence.about, StateMachine):
+        _check_no_robots(sentence, sentence.about, context)
+    elif sentence.about is not None:
+        for fact in facts:
+            if not isinstance(sentence, Measure) or fact is not each_robot_of(sentence):
+                _check_robots(fact, sentence, context)
+    for fact in facts:
         if fact.guard is not None:
             context.expect(fact.guard, BOOL, context.typing)
-        if owner.about is not None and not context.incomplete:
-            _check_possible(fact, owner, context)
+        if sentence.about is not None and not context.incomplete:
+            _check_possible(fact, sentence, context)
 
 
-def _check_no_robots(owner: Property, machine: StateMachine, context: Context) -> None:
+def _check_no_robots(owner: Sentence, machine: StateMachine, context: Context) -> None:
     """Report roles in a property of a machine."""
-    places = [fact.counted.span for fact in nodes_of(owner, Fact) if fact.counted is not None]
-    places += [who.role.span for who in nodes_of(owner, Who)]
+    places = [fact.counted.span for fact in facts_in(owner) if fact.counted is not None]
+    places += [who.role.span for who in robots_in(owner)]
     places += [owner.each.role.span] if owner.each is not None else []
     for place in places:
         context.report.report(
@@ -89,7 +114,7 @@ def _check_no_robots(owner: Property, machine: StateMachine, context: Context) -
         )
 
 
-def _check_robots(fact: Fact, owner: Property, context: Context) -> None:
+def _check_robots(fact: Fact, owner: Sentence, context: Context) -> None:
     """Check that a fact in a property of a swarm says which robots it is about."""
     if fact.who is None:
         if owner.each is None and fact.counted is None and (fact.act or fact.event is None):
@@ -97,8 +122,8 @@ def _check_robots(fact: Fact, owner: Property, context: Context) -> None:
                 "unnamed-robot",
                 fact.span,
                 which="which robot it is about",
-                help="begin the property with `each ROLE :`, or write `all ROLE`, `some ROLE` or "
-                "`no ROLE` here",
+                help=f"begin the {_kind(owner)} with `each ROLE :`, or write `all ROLE`, "
+                "`some ROLE` or `no ROLE` here",
             )
         return
     who, role = fact.who, fact.who.role.target
@@ -108,7 +133,7 @@ def _check_robots(fact: Fact, owner: Property, context: Context) -> None:
     if who.other and (owner.each is None or owner.each.role.target is not role):
         misplaced(
             fault="has no robot to be another one of",
-            help=f"begin the property with `each {role.name} :`",
+            help=f"begin the {_kind(owner)} with `each {role.name} :`",
         )
     most = greatest(role)
     if who.index:
@@ -129,7 +154,11 @@ def _check_robots(fact: Fact, owner: Property, context: Context) -> None:
         )
 
 
-def _check_possible(fact: Fact, owner: Property, context: Context) -> None:
+def _kind(sentence: Sentence) -> str:
+    return "measure" if isinstance(sentence, Measure) else "property"
+
+
+def _check_possible(fact: Fact, owner: Sentence, context: Context) -> None:
     """Report a fact that can never hold."""
     reason = _limit(fact) or _never_done(fact, owner) or _never_true(fact, context)
     if reason is not None:
@@ -159,7 +188,7 @@ def _limit(fact: Fact) -> str | None:
     return f"role `{role.name}` has at most {most} robot{'s' if most != 1 else ''}"
 
 
-def _never_done(fact: Fact, owner: Property) -> str | None:
+def _never_done(fact: Fact, owner: Sentence) -> str | None:
     """Describe why machines never do this; None if one can."""
     if fact.event is None and fact.function is None:
         return None
@@ -201,7 +230,7 @@ def _never_true(fact: Fact, context: Context) -> str | None:
     return "its condition is always false"
 
 
-def _machines_of(owner: Property) -> list[StateMachine]:
+def _machines_of(owner: Sentence) -> list[StateMachine]:
     if isinstance(owner.about, StateMachine):
         return [owner.about]
     from swarmdsl.analysis.resolve.addresses import machines_in

@@ -14,7 +14,7 @@ from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.machines import link_machine
-from swarmdsl.analysis.resolve.properties import link_property
+from swarmdsl.analysis.resolve.properties import link_fitness, link_property
 from swarmdsl.analysis.resolve.report_unresolved import (
     report_activity,
     report_missing_inside,
@@ -37,7 +37,6 @@ from swarmdsl.syntax.ast import (
     Event,
     Expression,
     Fitness,
-    FitnessInput,
     Function,
     Member,
     Operation,
@@ -66,7 +65,7 @@ _TOP_LEVEL: dict[str, type[Any]] = {
     for kind in (StateMachine, Component, Member, Environment, Event, Function, Fitness, Swarm)
 }
 
-K = TypeVar("K", Param, Variable, FitnessInput, Part, Port, Operation, Role)
+K = TypeVar("K", Param, Variable, Part, Port, Operation, Role)
 
 
 def link(project: Project, report: Diagnostics) -> None:
@@ -132,7 +131,8 @@ class Linker:
                 _link_member(owner, scope, report)
                 values = _named(all_items(owner, Param), Param)
             case Fitness():
-                values = {**_named(owner.items, FitnessInput), **_named(owner.items, Param)}
+                link_fitness(owner, scope, ValueLinker(scope, self._enums, report), report)
+                return
             case Optimization():
                 _link_optimization(owner, scope, report)
             case Swarm():

@@ -1,4 +1,4 @@
-"""Resolve names in properties: the subject, roles, states, and values of robots.
+"""Resolve names in properties and measures: subject, roles, states, and values of robots.
 
 A state has its name or a path, as in tests: `Search.Sweep` is a state `Sweep` anywhere inside a
 state `Search`, in a reused machine too.
@@ -7,6 +7,7 @@ state `Search`, in a reused machine too.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import TypeVar
 
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.report_unresolved import report_missing_inside, resolve_or_report
@@ -20,11 +21,14 @@ from swarmdsl.syntax.ast import (
     Choice,
     Component,
     Container,
-    Each,
     Expression,
     Fact,
+    Fitness,
+    FitnessInput,
     History,
+    Measure,
     Member,
+    Node,
     Param,
     Part,
     Property,
@@ -33,21 +37,32 @@ from swarmdsl.syntax.ast import (
     Role,
     StateMachine,
     Swarm,
+    TopLevel,
     Variable,
     Vertex,
     Who,
     nodes_of,
+    walk,
 )
 
 Path = tuple[str, ...]
+Sentence = Property | Measure
+"""What has facts about the robots of its subject, or about the robot of its `each`."""
+N = TypeVar("N", bound=Node)
+
 _SUBJECTS: tuple[type[Swarm | StateMachine], ...] = (Swarm, StateMachine)
 
 
 def subjects_of(project: Project) -> list[PropertySubject]:
     """Return what a property that names no subject can be about: swarms, else machines."""
-    own = [node for file, node in project.declarations() if not file.library]
-    swarms = [node for node in own if isinstance(node, Swarm)]
-    return [*swarms] or [node for node in own if isinstance(node, StateMachine)]
+    own = (node for file, node in project.declarations() if not file.library)
+    return [*own_swarms(project)] or [node for node in own if isinstance(node, StateMachine)]
+
+
+def own_swarms(project: Project) -> list[Swarm]:
+    """Return what a fitness that names no swarm can be about: the swarms of the model."""
+    own = (node for file, node in project.declarations() if not file.library)
+    return [node for node in own if isinstance(node, Swarm)]
 
 
 def link_property(
@@ -55,25 +70,84 @@ def link_property(
 ) -> None:
     """Resolve the names in a property except those of events and functions."""
     owner.about = _subject(owner, scope, report)
-    roles = roles_of(owner.about)
-    if isinstance(owner.about, Swarm):
-        refs = [node.role for node in nodes_of(owner, Each)]
-        refs += [node.role for node in nodes_of(owner, Who)]
-        refs += [node.counted for node in nodes_of(owner, Fact) if node.counted is not None]
+    guards = _link_facts(owner, owner, scope, values, report)
+    values.link_only([e for e in nodes_of(owner, Expression) if e not in guards], owner, {})
+
+
+def link_fitness(
+    owner: Fitness, scope: FileScope, values: ValueLinker, report: Diagnostics
+) -> None:
+    """Resolve the names in a fitness except those of events and functions."""
+    measures = nodes_of(owner, Measure)
+    owner.about = owner.subject.target if owner.subject is not None else None
+    if measures and owner.subject is None:
+        swarms = own_swarms(scope.project)
+        owner.about = swarms[0] if len(swarms) == 1 else None
+    guards: set[Expression] = set()
+    for measure in measures:
+        measure.about = owner.about
+        guards |= _link_facts(measure, owner, scope, values, report)
+    own: dict[str, FitnessInput | Param] = {}
+    for kind in (FitnessInput, Param):
+        for item in owner.items:
+            if isinstance(item, kind):
+                own.setdefault(str(item.name), item)
+    values.link_only([e for e in nodes_of(owner, Expression) if e not in guards], owner, own)
+
+
+def facts_in(sentence: Sentence) -> list[Fact]:
+    """Return the facts in a sentence, in document order."""
+    return _nodes(sentence, Fact)
+
+
+def robots_in(sentence: Sentence) -> list[Who]:
+    """Return what names robots in a sentence, in document order."""
+    return _nodes(sentence, Who)
+
+
+def each_robot_of(measure: Measure) -> Fact | None:
+    """Return the fact of a measure that is about each robot of a role: `count(role in State)`."""
+    if measure.until or len(measure.claim.any) > 1 or len(measure.claim.any[0].all) > 1:
+        return None
+    term = measure.claim.any[0].all[0]
+    who = term.fact.who if term.fact is not None and not term.negated else None
+    return term.fact if who is not None and not (who.quantifier or who.lower or who.index) else None
+
+
+def _nodes(sentence: Sentence, kind: type[N]) -> list[N]:
+    if isinstance(sentence, TopLevel):
+        return [*nodes_of(sentence, kind)]
+    return [node for node in walk(sentence) if isinstance(node, kind)]
+
+
+def _link_facts(
+    sentence: Sentence,
+    owner: Property | Fitness,
+    scope: FileScope,
+    values: ValueLinker,
+    report: Diagnostics,
+) -> set[Expression]:
+    """Resolve roles, states and values in facts; return the expressions in them."""
+    facts = facts_in(sentence)
+    if isinstance(sentence.about, Swarm):
+        roles = roles_of(sentence.about)
+        refs = [sentence.each.role] if sentence.each is not None else []
+        refs += [node.role for node in robots_in(sentence)]
+        refs += [fact.counted for fact in facts if fact.counted is not None]
         for ref in refs:
             ref.target = roles.get(ref.name)
             if ref.target is None:
-                kind = f"role in swarm `{owner.about.name}`"
+                kind = f"role in swarm `{sentence.about.name}`"
                 report_missing_inside(kind, ref.name, ref.span, roles, scope, report)
     guards = set()
-    for fact in nodes_of(owner, Fact):
-        machines = machines_of_fact(fact, owner)
+    for fact in facts:
+        machines = machines_of_fact(fact, sentence)
         if fact.state is not None and machines:
             _link_state(fact.state, machines, scope, report)
         if fact.guard is not None:
             guards.add(fact.guard)
-            values.link_only([fact.guard], owner, values_of_fact(fact, owner))
-    values.link_only([e for e in nodes_of(owner, Expression) if e not in guards], owner, {})
+            values.link_only([fact.guard], owner, values_of_fact(fact, sentence))
+    return guards
 
 
 def _subject(owner: Property, scope: FileScope, report: Diagnostics) -> PropertySubject | None:
@@ -91,7 +165,7 @@ def roles_of(subject: PropertySubject | None) -> dict[str, Role]:
     return {str(item.name): item for item in items if isinstance(item, Role)}
 
 
-def role_of_fact(fact: Fact, owner: Property) -> Role | None:
+def role_of_fact(fact: Fact, owner: Sentence) -> Role | None:
     """Return the role that a fact is about: its own, or that of `each`."""
     if fact.counted is not None:
         return fact.counted.target
@@ -100,7 +174,7 @@ def role_of_fact(fact: Fact, owner: Property) -> Role | None:
     return owner.each.role.target if owner.each is not None else None
 
 
-def machines_of_fact(fact: Fact, owner: Property) -> list[StateMachine]:
+def machines_of_fact(fact: Fact, owner: Sentence) -> list[StateMachine]:
     """Return the machines that the robots of a fact and their parts run."""
     if isinstance(owner.about, StateMachine):
         return [owner.about] if fact.counted is None and fact.who is None else []
@@ -114,7 +188,7 @@ def machines_of_fact(fact: Fact, owner: Property) -> list[StateMachine]:
     return list(dict.fromkeys(machine for machine in uses if machine is not None))
 
 
-def values_of_fact(fact: Fact, owner: Property) -> dict[str, Variable | Param]:
+def values_of_fact(fact: Fact, owner: Sentence) -> dict[str, Variable | Param]:
     """Return the variables and params of the robots of a fact, without those of parts."""
     role = role_of_fact(fact, owner)
     member = role.member.target if role is not None else None

@@ -341,12 +341,16 @@ CODES: dict[str, Code] = {
     "still-named": Code("SW1506", "warning", "the old name `{name}` is still used here"),
     "cannot-add": Code("SW1507", "error", "cannot add {what}: {reason}"),
     # ---- properties
-    "unclear-property": Code("SW1601", "error", "property `{name}` does not say what it is about"),
+    "unclear-property": Code("SW1601", "error", "{kind} `{name}` does not say what it is about"),
     "unnamed-robot": Code("SW1602", "error", "this does not say {which}"),
     "impossible-fact": Code("SW1603", "warning", "this can never hold: {reason}"),
     "misplaced-robots": Code("SW1604", "error", "`{name}` {fault}"),
     "bad-chance": Code("SW1605", "error", "{text} is not a probability"),
     "violated-property": Code("SW1606", "error", "property `{name}` is violated{who} at {time}"),
+    "momentary-fact": Code("SW1607", "error", "`{kind}` is about what lasts; this only happens"),
+    "foreign-fitness": Code(
+        "SW1608", "error", "the measures of fitness `{name}` are about swarm `{other}`"
+    ),
     # ---- verification
     "refuted-property": Code("SW1701", "error", "property `{name}` does not hold{who}"),
     "stuck-swarm": Code("SW1702", "warning", "the swarm can get stuck: nothing goes on by itself"),

@@ -8,9 +8,11 @@ from typing import Literal
 from swarmdsl import ir
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
+from swarmdsl.codegen.shared.property_texts import parts_text
 from swarmdsl.codegen.swarm_printer.composition import heartbeat
 from swarmdsl.codegen.swarm_printer.expressions import expression, with_names
 from swarmdsl.codegen.swarm_printer.layout import quoted
+from swarmdsl.ir.sentences import measure
 
 
 def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
@@ -159,10 +161,17 @@ def _environment(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edg
 def _fitness(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edge]]:
     for each in system.fitness:
         if each.name == swarm.fitness:
-            data = [f"in {field.name} : {type_name(field.type)}" for field in each.inputs]
+            data = [_input(field) for field in each.inputs]
             data += map(param_line, each.params)
             goal = f"{each.goal} {expression(with_names(each.value))}"
             yield _around(swarm, "fitness", each, _groups(data, [goal]))
+
+
+def _input(field: ir.FitnessInput) -> str:
+    declared = f"in {field.name} : {type_name(field.type)}"
+    if field.measure is None:
+        return declared
+    return f"{declared} = {parts_text(measure(field.measure))}"
 
 
 def _around(

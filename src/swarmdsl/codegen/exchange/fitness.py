@@ -14,7 +14,7 @@ from swarmdsl.base.naming import snake_case
 from swarmdsl.codegen.api import Generator, NoOptions, OutputFile
 from swarmdsl.codegen.shared.constants import constant, params_by_name
 from swarmdsl.codegen.templates import Templates
-from swarmdsl.ir import Array, Field, Fitness, Primitive, System
+from swarmdsl.ir import Array, Fitness, FitnessInput, Primitive, System
 from swarmdsl.ir.expression_printer import (
     PYTHON_DIVISION,
     PYTHON_FUNCTIONS,
@@ -70,7 +70,7 @@ def _can_be_computed(fitness: Fitness, report: Diagnostics) -> bool:
     return not unknown and not structured
 
 
-def _is_plain(each: Field) -> bool:
+def _is_plain(each: FitnessInput) -> bool:
     """Return True for messages of std_msgs with such `data`."""
     match each.type:
         case Primitive():

@@ -14,6 +14,7 @@ from swarmdsl.ir import (
     CountRange,
     Environment,
     Fitness,
+    FitnessInput,
     Heartbeat,
     Multiplicity,
     Optimization,
@@ -24,7 +25,7 @@ from swarmdsl.ir import (
     Swarm,
     doc_of,
 )
-from swarmdsl.ir.sentences import head
+from swarmdsl.ir.sentences import head, measure
 
 _ONE = Multiplicity(1, 1)
 
@@ -80,14 +81,22 @@ def print_environment(environment: Environment) -> list[str]:
 def print_fitness(fitness: Fitness, names: Names) -> list[str]:
     """Print a fitness with its inputs and params."""
     inputs = [
-        line
-        for each in fitness.inputs
-        for line in documented(each.doc, [f"in {each.name} : {names.type(each.type)}"])
+        line for each in fitness.inputs for line in documented(each.doc, [_input(each, names)])
     ]
     goal = [f"{fitness.goal} {expression(fitness.value)}"]
     objective = documented(doc_of(fitness.docs, "value"), goal)
     lines = [*inputs, *print_params(fitness.params, names), *objective]
-    return documented(fitness.doc, block(f"fitness {fitness.name}", lines))
+    head = f"fitness {fitness.name}"
+    if fitness.subject is not None:
+        head += f" of {fitness.subject}"
+    return documented(fitness.doc, block(head, lines))
+
+
+def _input(each: FitnessInput, names: Names) -> str:
+    declared = f"in {each.name} : {names.type(each.type)}"
+    if each.measure is None:
+        return declared
+    return f"{declared} = {parts_text(measure(each.measure))}"
 
 
 def print_optimization(optimization: Optimization) -> list[str]:

@@ -14,7 +14,7 @@ from swarmdsl.driver.workspace.fragments import Fragment, with_users
 from swarmdsl.project.loader import File, Project
 from swarmdsl.project.rosidl import standard
 from swarmdsl.syntax.action_messages import generated_names
-from swarmdsl.syntax.ast import ActionType, Interface, Property
+from swarmdsl.syntax.ast import ActionType, Fitness, Interface, Property
 
 
 @dataclass
@@ -87,7 +87,7 @@ def affected(
     if change.declarations_changed:
         # Diagnostics of unresolved names depend on all names.
         found.update(noted)
-        # What a property that names no subject is about depends on all declarations.
+        # What a property or fitness that names no subject is about depends on all declarations.
         found.update(each for each in fragments if _names_no_subject(each))
     if change.names:
         found.update(_containing(change.names, fragments))
@@ -95,9 +95,9 @@ def affected(
 
 
 def _names_no_subject(fragment: Fragment) -> bool:
-    """Return True if a property in a fragment does not say what it is about."""
+    """Return True if a property or fitness in a fragment does not say what it is about."""
     return any(
-        isinstance(each, Property) and each.subject is None
+        isinstance(each, (Fitness, Property)) and each.subject is None
         for each in fragment.parsed.model.declarations
     )
 

@@ -13,6 +13,7 @@ from swarmdsl.syntax.action_messages import generated_from
 from swarmdsl.syntax.ast import (
     Activity,
     Declaration,
+    Fitness,
     Interface,
     NameUse,
     Node,
@@ -126,7 +127,7 @@ def _targets(
     for use in nodes_of(owner, NameUse):
         if use.target is not None:
             yield use.target
-    if isinstance(owner, Property) and owner.about is not None:
+    if isinstance(owner, (Fitness, Property)) and owner.about is not None:
         yield owner.about
     for activity in nodes_of(owner, Activity):
         if activity.owner is not None:

@@ -1,11 +1,11 @@
-"""Monitors of properties: deterministic automata with clocks, one for each property.
+"""Monitors of properties, deterministic automata with clocks, and gauges of measures.
 
 Standard library only, and nothing else of swarmdsl, so that generated packages can carry them.
 A `Watch` turns the lines of a run into the truth of claims; a `Monitor` gets the truth of each
 claim at each step, and knows nothing of robots.
 """
 
-from .claims import Claim, Count, Fact, Junction, Property, Robots
+from .claims import Claim, Count, Fact, Junction, Measure, Property, Robots
 from .facts import (
     LOST,
     MOMENTARY,
@@ -19,6 +19,7 @@ from .facts import (
     meant_states,
     test_of,
 )
+from .meters import Gauge, Meter, Reading, aggregated
 from .monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
 from .patterns import Pattern, pattern_of
 from .watch import Interest, PropertyResult, ViolatedError, Violation, Watch
@@ -34,14 +35,18 @@ __all__ = [
     "Count",
     "Fact",
     "FactTracker",
+    "Gauge",
     "Has",
     "Interest",
     "Junction",
     "LineLike",
+    "Measure",
+    "Meter",
     "Monitor",
     "Pattern",
     "Property",
     "PropertyResult",
+    "Reading",
     "RobotLike",
     "Robots",
     "Route",
@@ -50,6 +55,7 @@ __all__ = [
     "ViolatedError",
     "Violation",
     "Watch",
+    "aggregated",
     "can_hold",
     "meant_states",
     "pattern_of",

@@ -1,4 +1,4 @@
-"""Properties as plain data: what robots are or do, in the pattern and scope of a sentence."""
+"""Properties and measures as plain data: what robots are or do, in a sentence or a number."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ class Robots(NamedTuple):
     """Robots of a role, selected by a quantifier.
 
     It is `all`, `some` or `no`, `index` for that with a number, or `number` for `least` to `most`.
-    `other` leaves out the robot that the sentence is about.
+    `other` leaves out the robot that the sentence is about. In a measure, `every` stands for a
+    fact about each of them.
     """
 
     role: str
@@ -69,6 +70,21 @@ class Property(NamedTuple):
     each: str | None = None
     chance: Any = None
     origin: Any = None
+
+
+class Measure(NamedTuple):
+    """Number of robots, how often something happens, how long it lasts, or the time until it.
+
+    `kind` is `count`, `total`, `time` or `until`. `over` is `mean`, `min` or `max` of a number in
+    the run; `aggregate` is `sum`, `mean`, `min` or `max` of the robots of the role `each`.
+    """
+
+    name: str
+    kind: str
+    claim: Claim
+    over: str | None = None
+    aggregate: str | None = None
+    each: str | None = None
 
 
 def facts_in(claim: Claim) -> list[Fact | Count]:

@@ -1,32 +1,22 @@
-"""Properties watched in one run, from the lines of its trace to verdicts."""
+"""Properties and measures of one run, from the lines of its trace to verdicts and values."""
 
 from __future__ import annotations
 
-import operator
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
-from .claims import Claim, Count, Fact, Junction, Property, Robots, facts_in
-from .facts import ACTS, MOMENTARY, ActorLike, FactTracker, Has, LineLike, Route, meant_states
+from .claims import Measure, Property
+from .facts import ACTS, ActorLike, FactTracker, Has, LineLike, Route, meant_states
+from .meters import Gauge, Reading
 from .monitor import FALSE, OPEN, TRUE, Monitor, Verdict
+from .truth import Claims, Trackers, is_momentary
 
 REMEMBERED = 8
 """Number of trace lines kept with a violation, of those that changed a fact."""
 START = 5_000_000_000
 """Time in nanoseconds in which machines start at one moment if nothing else happens."""
-
-Truth = Callable[[str | None], bool]
-"""Truth of a claim, for the robot of `each`."""
-COMPARISONS: Mapping[str, Callable[[Any, Any], bool]] = {
-    "==": operator.eq,
-    "!=": operator.ne,
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
-}
 
 
 class Violation(NamedTuple):
@@ -65,7 +55,7 @@ class ViolatedError(Exception):
 
 
 class Watch:
-    """Monitors of some properties in one run, a listener of its trace.
+    """Monitors of properties and gauges of measures in one run, a listener of its trace.
 
     Lines come in the order of time; those without `interest` can be left out, except for the first
     one of a machine, its loss, and the next one of all after something `happened`. `has` evaluates
@@ -78,19 +68,18 @@ class Watch:
         properties: Iterable[Property],
         has: Has,
         *,
+        measures: Iterable[Measure] = (),
         stops: bool = False,
         told: Callable[[Property, Verdict, int], None] | None = None,
     ) -> None:
         self.violations: list[Violation] = []
-        self._trackers: dict[tuple[object, ...], FactTracker] = {}
-        self._has = has
+        self._trackers = Trackers(has)
         self._stops = stops
         self._told = told
-        self._watched = [_Watched(each, self) for each in properties]
-        self._users: dict[FactTracker, list[_Watched]] = {}
-        for each in self._watched:
-            for tracker in each.trackers:
-                self._users.setdefault(tracker, []).append(each)
+        self._watched = [_Watched(each, self._trackers) for each in properties]
+        self._gauges = [Gauge(each, self._trackers) for each in measures]
+        self._users = _users((each, each.claims) for each in self._watched)
+        self._readers = _users((each, each.claims) for each in self._gauges)
         self._routes: dict[ActorLike, Route] = {}
         self.late_after: int | None = None
         """Time until which nothing is late; it may be too early."""
@@ -134,9 +123,10 @@ class Watch:
             self._last.append(line)
         if not self._begun or not changed:
             return
-        affected = {user: None for tracker in changed for user in self._users.get(tracker, ())}
-        for each in affected:
-            robots = each.affected(changed)
+        for gauge in _affected(self._readers, changed):
+            gauge.step(line.time, gauge.claims.affected(changed, gauge.robots))
+        for each in _affected(self._users, changed):
+            robots = each.claims.affected(changed, each.robots)
             self._note(each, each.step(line.time, robots), line.time)
             if each.due is not None and (self.late_after is None or each.due < self.late_after):
                 self.late_after = each.due
@@ -152,7 +142,7 @@ class Watch:
 
     def interest(self, actor: ActorLike) -> Interest:
         """Return what can change a fact in the lines of a machine."""
-        trackers = [each for each in self._trackers.values() if each.follows(actor)]
+        trackers = self._trackers.following(actor)
         names = {act: {each.name for each in trackers if each.act == act} for act in ACTS}
         states = {
             state for name in names["in"] for state in meant_states(actor.states, name.split("."))
@@ -186,27 +176,26 @@ class Watch:
             found.append(PropertyResult(each.property, worst, robots, violations))
         return found
 
-    def tracker(self, fact: Fact | Count, role: str | None) -> FactTracker:
-        """Return the tracker of a fact of a role, shared by all properties."""
-        if isinstance(fact, Count):
-            key: tuple[object, ...] = ("in", fact.state, role, None)
-        else:
-            key = (fact.act, fact.name, role, fact.condition)
-        if key not in self._trackers:
-            self._trackers[key] = FactTracker(fact, role, self._has)
-        return self._trackers[key]
+    def readings(self, time: int, limit: int | None = None) -> list[Reading]:
+        """Return the values of the measures at a time; the run could last until the limit."""
+        if not self._begun:
+            self._begin()
+        return [each.read(time, limit) for each in self._gauges]
 
     def _join(self, actor: ActorLike) -> Route:
         """Follow a machine from its first line on."""
-        trackers = [each for each in self._trackers.values() if each.follows(actor)]
-        route = self._routes[actor] = Route(trackers)
+        route = self._routes[actor] = Route(self._trackers.following(actor))
         for each in self._watched:
             each.join(actor)
+        for gauge in self._gauges:
+            gauge.join(actor)
         return route
 
     def _begin(self) -> None:
         """Take the first step, when all machines have started."""
         self._begun = True
+        for gauge in self._gauges:
+            gauge.step(0, gauge.robots)
         for each in self._watched:
             self._note(each, each.step(0, each.robots), 0)
         self.late_after = min(
@@ -237,21 +226,34 @@ class Watch:
             raise ViolatedError
 
 
+U = TypeVar("U")
+
+
+def _users(sentences: Iterable[tuple[U, Claims]]) -> dict[FactTracker, list[U]]:
+    """Return, for each tracker, what uses it."""
+    found: dict[FactTracker, list[U]] = {}
+    for user, claims in sentences:
+        for tracker in claims.trackers:
+            found.setdefault(tracker, []).append(user)
+    return found
+
+
+def _affected(users: Mapping[FactTracker, list[U]], changed: Iterable[FactTracker]) -> Iterable[U]:
+    return {user: None for tracker in changed for user in users.get(tracker, ())}
+
+
 class _Watched:
     """Monitors of one property: one, or one for each robot of a role."""
 
-    def __init__(self, property_: Property, watch: Watch) -> None:
+    def __init__(self, property_: Property, trackers: Trackers) -> None:
         self.property = property_
-        self.trackers: dict[FactTracker, None] = {}
+        self.claims = Claims(property_.each, trackers)
         self.told: Verdict | None = None
         """Verdict so far that has been told last."""
-        self._shared: set[FactTracker] = set()
-        """Facts that are not only about the robot of `each`."""
-        self._watch = watch
-        self._scope = [self._truth(each) for each in property_.scope]
-        self._claims = [self._truth(each) for each in property_.claims]
-        acts = {each.act for each in facts_in(property_.claims[0]) if isinstance(each, Fact)}
-        self._sentence = replace(property_.sentence, momentary=not acts.isdisjoint(MOMENTARY))
+        self._scope = [self.claims.truth(each) for each in property_.scope]
+        self._claims = [self.claims.truth(each) for each in property_.claims]
+        momentary = is_momentary(property_.claims[0])
+        self._sentence = replace(property_.sentence, momentary=momentary)
         self._monitors: dict[str | None, Monitor] = {}
         if property_.each is None:
             self._monitors[None] = self._monitor()
@@ -260,7 +262,7 @@ class _Watched:
         """Time before which nothing is late; it may be too early."""
 
     @property
-    def robots(self) -> Iterable[str | None]:
+    def robots(self) -> Collection[str | None]:
         """Robots that have a monitor; None for the one of all of them."""
         return self._monitors
 
@@ -269,16 +271,6 @@ class _Watched:
         robot = actor.robot
         if robot.role == self.property.each and robot.name not in self._monitors:
             self._monitors[robot.name] = self._monitor()
-
-    def affected(self, changed: Mapping[FactTracker, set[str | None]]) -> Iterable[str | None]:
-        """Return the robots whose monitors must take a step."""
-        if self.property.each is None or not self._shared.isdisjoint(changed):
-            return self.robots
-        if len(changed) == 1:
-            (robots,) = changed.values()
-        else:
-            robots = set().union(*(changed[each] for each in self.trackers if each in changed))
-        return [robot for robot in robots if robot in self._monitors]
 
     def step(self, time: int, robots: Iterable[str | None]) -> Iterable[tuple[str | None, int]]:
         """Take a step; return the robots that violate the property now, with the times."""
@@ -327,54 +319,3 @@ class _Watched:
 
     def _monitor(self) -> Monitor:
         return Monitor(self._sentence)
-
-    # ---- claims
-
-    def _truth(self, claim: Claim) -> Truth:
-        if isinstance(claim, Junction):
-            parts = [self._truth(each) for each in claim.claims]
-            if claim.operator == "not":
-                (part,) = parts
-                return lambda me: not part(me)
-            together = all if claim.operator == "and" else any
-            return lambda me: together(part(me) for part in parts)
-        tracker = self._watch.tracker(claim, self._role(claim))
-        self.trackers[tracker] = None
-        if isinstance(claim, Count):
-            self._shared.add(tracker)
-            compare, number = COMPARISONS[claim.comparison], claim.number
-            return lambda me: compare(len(tracker.holding), number)
-        if claim.robots is None and claim.act != "arrives" and self.property.each is not None:
-            return lambda me: me in tracker.holding
-        self._shared.add(tracker)
-        if claim.robots is not None:
-            return _of_robots(claim.robots, tracker)
-        return lambda me: bool(tracker.holding)
-
-    def _role(self, fact: Fact | Count) -> str | None:
-        """Return the role whose robots a fact is about, None for all."""
-        if isinstance(fact, Count):
-            return fact.role
-        if fact.act == "arrives":
-            return None
-        return fact.robots.role if fact.robots is not None else self.property.each
-
-
-def _of_robots(robots: Robots, tracker: FactTracker) -> Truth:
-    if robots.quantifier == "index":
-        name = f"{robots.role}[{robots.number}]"
-        return lambda me: name in tracker.holding
-    if robots.quantifier == "number":
-        least, most = robots.least, robots.most
-        return lambda me: (
-            least <= len(tracker.holding) and (most is None or len(tracker.holding) <= most)
-        )
-
-    def count(me: str | None) -> int:
-        return len(tracker.holding) - (robots.other and me in tracker.holding)
-
-    if robots.quantifier == "some":
-        return lambda me: count(me) > 0
-    if robots.quantifier == "no":
-        return lambda me: count(me) == 0
-    return lambda me: count(me) == len(tracker.robots) - (robots.other and me in tracker.robots)

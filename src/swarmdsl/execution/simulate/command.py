@@ -29,16 +29,23 @@ from swarmdsl.execution.monitor import PropertyResult, Verdict, ViolatedError
 from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
-from swarmdsl.execution.simulate.durations import format_duration
+from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader
+from swarmdsl.execution.simulate.measures import (
+    FitnessResult,
+    evaluate,
+    fitness_of,
+    measures_of,
+)
 from swarmdsl.execution.simulate.properties import watch, watchable
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.reporter import observe
+from swarmdsl.execution.simulate.results import as_document
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.subject import Document, Subject, choose
-from swarmdsl.execution.simulate.summary import Summary, property_table
+from swarmdsl.execution.simulate.summary import Summary, measure_table, property_table
 from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line, as_json, as_text
 from swarmdsl.execution.simulate.verdicts import Recording, report_violations
@@ -80,6 +87,7 @@ class Request:
     stop_on_violation: bool = False
     only: tuple[str, ...] = ()
     """Names of the properties that are watched; none for all."""
+    results: Path | None = None
 
 
 def simulate(request: Request, tell: Tell) -> bool | None:
@@ -178,15 +186,16 @@ class _Play:
         self._wrong = False
         self._written: list[Path] = []
         self._until = request.until if request.until is not None else scenario.until
-        seed = request.seed if request.seed is not None else scenario.seed
+        self._seed = request.seed if request.seed is not None else scenario.seed
         self._watched = [
             each
             for each in (watchable(subject) if request.properties else ())
             if not request.only or each.name in request.only
         ]
+        self._fitness = fitness_of(subject)
         self._listeners: list[Callable[[Line], None]] = []
         self._world = World(
-            subject.system, cast, scenario, seed, self._listeners, subject.heartbeat
+            subject.system, cast, scenario, self._seed, self._listeners, subject.heartbeat
         )
 
     def replay(self, tell: Tell) -> bool:
@@ -197,16 +206,16 @@ class _Play:
             source = read_source(path, None, report, "a trace", MOST_RECORDED)
             if source is None:
                 continue
-            recording = Recording(self._watched)
-            seen = recording.see
-            found = replay(source, self._subject, self._cast, report, seen)
-            results = recording.results(found.end)
+            recording = Recording(self._watched, self._fitness)
+            found = replay(source, self._subject, self._cast, report, recording.see)
+            results, fitness = recording.results(found.end)
             report_violations(results, report)
+            self._write_results({"replayed": str(path)}, results, fitness, report)
             which = f"{printable(str(path))}: " if several else ""
             lines = f"{found.lines} line{'s' if found.lines != 1 else ''}"
             members = f"{found.members} member{'s' if found.members != 1 else ''}"
             click.echo(f"{which}{lines} of {members} as in the model", err=True)
-            for line in property_table(results):
+            for line in (*property_table(results), *measure_table(fitness)):
                 click.echo(line, err=True)
         tell(report)
         return not report.has_errors
@@ -219,10 +228,12 @@ class _Play:
         ending = "until an endless loop"
         results: list[PropertyResult] = []
         summary = Summary(self._subject, self._world)
+        fitness: FitnessResult | None = None
         history: dict[str, list[tuple[int, Verdict]]] = {}
         monitors = watch(
             self._watched,
             self._world.data,
+            measures=measures_of(self._fitness),
             stops=self._request.stop_on_violation,
             told=None
             if self._request.timeline is None
@@ -241,9 +252,10 @@ class _Play:
                     self._listeners.append(self._writer(stream))
                 if stream is None or not stream.isatty():
                     self._show_board(stack)
-                if self._watched and self._listeners:
+                watched = bool(self._watched) or self._fitness is not None
+                if watched and self._listeners:
                     self._listeners.append(monitors.see)  # the last one: it can end the run
-                elif self._watched:
+                elif watched:
                     observe(self._world.trace, monitors, self._world.clock)
                 try:
                     ending = _ENDINGS[self._run(tell)]
@@ -255,7 +267,13 @@ class _Play:
                     interrupted, ending = True, "until it was interrupted"
                 sys.stdout.flush()
                 ended = ending == _ENDINGS["ended"]
-                results = monitors.results(self._world.clock.now, ended=ended)
+                now = self._world.clock.now
+                results = monitors.results(now, ended=ended)
+                if self._fitness is not None:
+                    # What has not happened when nothing is left to happen never will.
+                    over = ended or ending == _ENDINGS["quiet"]
+                    readings = monitors.readings(now, self._limit if over else now)
+                    fitness = evaluate(self._fitness, readings)
                 if picture is not None:
                     picture()
         except OSError as error:
@@ -266,8 +284,9 @@ class _Play:
             times = "once" if count == 1 else f"{count} times"
             report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
         report_violations(results, report)
+        self._write_results(self._conditions(ending), results, fitness, report)
         tell(report)
-        for line in summary.text(ending, results, brief=bool(self._request.only)):
+        for line in summary.text(ending, results, fitness, brief=bool(self._request.only)):
             click.echo(line, err=True)
         request = self._request
         unplayed = request.events is None and request.scenario is None
@@ -279,6 +298,36 @@ class _Play:
             click.echo(f"\nwritten: {', '.join(names)}", err=True)
         return None if interrupted else not (report.has_errors or self._wrong)
 
+    def _conditions(self, ending: str) -> dict[str, object]:
+        """Return what led to the results of a run."""
+        scenario = self._request.scenario
+        return {
+            "scenario": str(scenario) if scenario is not None else None,
+            "seed": self._seed,
+            "seconds": self._world.clock.now / SECOND,
+            "ending": ending.removeprefix("until "),
+        }
+
+    def _write_results(
+        self,
+        conditions: Mapping[str, object],
+        results: Sequence[PropertyResult],
+        fitness: FitnessResult | None,
+        report: Diagnostics,
+    ) -> None:
+        """Write the results of a run or of a replayed trace, if requested."""
+        path = self._request.results
+        if path is None:
+            return
+        head = {"subject": self._subject.name, **conditions}
+        try:
+            with ExitStack() as stack:
+                stream = self._write_to(path, stack, report)
+                if stream is not None:
+                    stream.write(as_document(head, results, fitness))
+        except OSError as error:
+            _report_unwritten(path, error, report)
+
     def _run(self, tell: Tell) -> Ending:
         pace = Pace() if self._request.real_time else None
         if self._request.events != _STDIN:
@@ -289,6 +338,12 @@ class _Play:
         Thread(target=self._queue, args=(tell, arrivals), daemon=True).start()
         return run_live(self._world, arrivals, self._until, pace)
 
+    @property
+    def _limit(self) -> int:
+        """Time at which the run must end."""
+        last = sum(each.after for each in self._inputs)
+        return self._until if self._until is not None else last + DEFAULT_UNTIL
+
     def _show_board(self, stack: ExitStack) -> None:
         """Show the live table, if the terminal is not used otherwise."""
         if not sys.stderr.isatty() or self._request.events == _STDIN:
@@ -297,9 +352,7 @@ class _Play:
 
         from swarmdsl.execution.simulate.live_table import Board
 
-        last = sum(each.after for each in self._inputs)
-        until = self._until if self._until is not None else last + DEFAULT_UNTIL
-        board = Board(self._cast, self._world.clock, until, Console(stderr=True))
+        board = Board(self._cast, self._world.clock, self._limit, Console(stderr=True))
         self._listeners.append(board.note)
         stack.enter_context(board.display())
 

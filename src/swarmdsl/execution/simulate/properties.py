@@ -1,4 +1,4 @@
-"""Properties of a model, watched in a run."""
+"""Properties and measures of a model, watched in a run."""
 
 from __future__ import annotations
 
@@ -28,14 +28,21 @@ def watch(
     properties: Sequence[ir.Property],
     data: Data,
     *,
+    measures: Sequence[ir.FitnessInput] = (),
     stops: bool = False,
     told: Callable[[monitor.Property, Verdict, int], None] | None = None,
 ) -> Watch:
-    """Return the monitors of some properties in one run, a listener of its trace.
+    """Return the monitors of properties and gauges of measures in one run, a listener of it.
 
     With `stops`, a violation raises ViolatedError. `told` is called with each verdict so far.
     """
-    return Watch([_plain(each) for each in properties], conditions(data), stops=stops, told=told)
+    return Watch(
+        [_plain(each) for each in properties],
+        conditions(data),
+        measures=[_measure(each.name, each.measure) for each in measures if each.measure],
+        stops=stops,
+        told=told,
+    )
 
 
 def conditions(data: Data) -> Callable[[Any, Any], bool]:
@@ -53,6 +60,16 @@ def conditions(data: Data) -> Callable[[Any, Any], bool]:
             return False
 
     return has
+
+
+def _measure(name: str, measure: ir.Measure) -> monitor.Measure:
+    claim = claim_of(measure.claim)
+    fact = measure.claim
+    robots = fact.robots if isinstance(fact, ir.Fact) and measure.kind != "until" else None
+    if robots is not None and robots.quantifier == "index" and robots.index is None:
+        assert isinstance(claim, monitor.Fact)
+        claim = claim._replace(robots=monitor.Robots(robots.role, "every"))
+    return monitor.Measure(name, measure.kind, claim, measure.over, measure.aggregate, measure.each)
 
 
 def _plain(property_: ir.Property) -> monitor.Property:

@@ -10,6 +10,7 @@ from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.execution.monitor import PropertyResult
 from swarmdsl.execution.simulate.coverage import Coverage
 from swarmdsl.execution.simulate.durations import format_duration
+from swarmdsl.execution.simulate.measures import FitnessResult, measure_rows
 from swarmdsl.execution.simulate.statistics import Life
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.verdicts import rows
@@ -30,7 +31,12 @@ class Summary:
         self._lives = list(world.trace.lives.values())
 
     def text(
-        self, ending: str, properties: Iterable[PropertyResult] = (), *, brief: bool = False
+        self,
+        ending: str,
+        properties: Iterable[PropertyResult] = (),
+        fitness: FitnessResult | None = None,
+        *,
+        brief: bool = False,
     ) -> Iterator[str]:
         """Yield the lines of the summary, or only the verdicts; the run is over."""
         world = self._world
@@ -51,6 +57,7 @@ class Summary:
         yield from _table(("event", "sent", *_counts(world)), self._events())
         yield from _table(("ignored event", "in state", "times"), self._ignored_events(), left=2)
         yield from property_table(properties)
+        yield from measure_table(fitness)
         yield from self._unseen()
 
     @property
@@ -146,6 +153,12 @@ def _counts(world: World) -> dict[str, Counter[str]]:
 def property_table(results: Iterable[PropertyResult]) -> Iterator[str]:
     """Format the verdicts on properties."""
     yield from _table(("property", "verdict", "where"), rows(results), left=3)
+
+
+def measure_table(result: FitnessResult | None) -> Iterator[str]:
+    """Format measures and fitness."""
+    rows = measure_rows(result) if result is not None else ()
+    yield from _table(("measure", "value", ""), rows, left=3)
 
 
 def _table(head: Row, rows: Iterable[Row], left: int = 1) -> Iterator[str]:

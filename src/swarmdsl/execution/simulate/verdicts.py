@@ -9,9 +9,10 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.monitor import FALSE, PropertyResult, Violation
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import format_duration
+from swarmdsl.execution.simulate.measures import FitnessResult, evaluate, measures_of
 from swarmdsl.execution.simulate.properties import watch
 from swarmdsl.execution.simulate.trace import Line, as_text
-from swarmdsl.ir import Property
+from swarmdsl.ir import Fitness, Property
 
 _SHOWN = 4
 """Number of trace lines and robots that are shown."""
@@ -67,25 +68,30 @@ def rows(results: Iterable[PropertyResult]) -> Iterator[tuple[str, str, str]]:
 class Recording:
     """Lines of replayed traces, watched in the order of time when all are known."""
 
-    def __init__(self, properties: Sequence[Property]) -> None:
+    def __init__(self, properties: Sequence[Property], fitness: Fitness | None) -> None:
         self._properties = properties
+        self._fitness = fitness
         self._lines: list[tuple[int, Line, dict[str, Any]]] = []
 
     def see(self, line: Line, data: Mapping[str, Any] | None, place: int) -> None:
         """Keep a line with the data of its machine, and its place in the trace."""
-        if self._properties:
+        if self._properties or self._fitness is not None:
             self._lines.append((place, line, dict(data or {})))
 
-    def results(self, end: int) -> list[PropertyResult]:
-        """Return the verdicts on the traces until a time; a log can end at any time."""
+    def results(self, end: int) -> tuple[list[PropertyResult], FitnessResult | None]:
+        """Return verdicts and fitness of the traces until a time; a log can end at any time."""
         if not self._lines:
-            return []
+            return [], None
         known: dict[Actor, Mapping[str, Any]] = {}
-        monitors = watch(self._properties, lambda actor: known[actor])
+        measures = measures_of(self._fitness)
+        monitors = watch(self._properties, lambda actor: known[actor], measures=measures)
         for _, line, data in sorted(self._lines, key=_order):
             known[line.actor] = data
             monitors.see(line)
-        return monitors.results(end, ended=False)
+        results = monitors.results(end, ended=False)
+        if self._fitness is None:
+            return results, None
+        return results, evaluate(self._fitness, monitors.readings(end))
 
 
 def _order(each: tuple[int, Line, Mapping[str, Any]]) -> tuple[int, bool, int]:

@@ -13,6 +13,7 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.testing.measures import ExpectedMeasure
 from swarmdsl.ir import Property
 
 ActionKind = Literal["sends", "starts", "cancels"]
@@ -120,7 +121,8 @@ Step = Send | End | Pass | Lose | Expect
 class Case:
     """A test. It passes if at least the share `passing` of its runs does.
 
-    In each run, no one of `properties` may be violated, and all of `violates` must be.
+    In each run, no one of `properties` may be violated, and all of `violates` must be; in the
+    end, `measures` are as expected.
     """
 
     name: str
@@ -133,6 +135,7 @@ class Case:
     passing: float = 1.0
     properties: tuple[tuple[Property, Span], ...] = ()
     violates: tuple[tuple[Property, Span], ...] = ()
+    measures: tuple[ExpectedMeasure, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.testing.case import Case, End, InvalidTest, Step, TestFile
+from swarmdsl.execution.testing.measures import read_measures
 from swarmdsl.execution.testing.models import Model, Models
 from swarmdsl.execution.testing.names import Names
 from swarmdsl.execution.testing.steps import StepReader
@@ -26,7 +27,7 @@ from swarmdsl.project.read_source import read_source
 
 _SHARED = ("swarm", "machine", "scenario", "seeds", "passing", "properties")
 _FILE = ("model", *_SHARED, "test")
-_TEST = ("name", *_SHARED, "steps", "always", "violates")
+_TEST = ("name", *_SHARED, "steps", "always", "violates", "measures")
 _NEVER = {"aborted": 0.0, "preempted": 0.0, "never": 1.0}
 # Upper limit that is reasonable for a test.
 _MOST_SEEDS = 10_000
@@ -130,6 +131,7 @@ class _Reader:
             tuple(range(scenario.seed, scenario.seed + count)),
             share,
             *self._properties(table, subject),
+            read_measures(table, subject),
         )
 
     def _properties(

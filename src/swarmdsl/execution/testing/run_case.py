@@ -11,6 +11,7 @@ from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import FALSE, Violation, Watch
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.durations import format_duration
+from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_of
 from swarmdsl.execution.simulate.properties import watch
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.verdicts import violation_fields
@@ -73,8 +74,10 @@ class _CaseRun:
         listeners = [self._recorder.see, listener]
         watched = [each for each, _ in (*case.properties, *case.violates)]
         self._watch: Watch | None = None
-        if watched:
-            self._watch = watch(watched, lambda actor: self._world.data(actor))
+        self._fitness = fitness_of(case.subject) if case.measures else None
+        if watched or self._fitness is not None:
+            measures = measures_of(self._fitness)
+            self._watch = watch(watched, lambda actor: self._world.data(actor), measures=measures)
             listeners.append(self._watch.see)
         self._world = World(
             case.subject.system,
@@ -98,6 +101,7 @@ class _CaseRun:
                 place = step.place
                 self._do(step)
             self._judge_properties()
+            self._judge_measures()
         except _FailedError as failed:
             now = self._world.clock.now
             when = f"after {format_duration(now)}" if now else "at the start"
@@ -134,6 +138,17 @@ class _CaseRun:
                     f"property `{each.name}` to be violated",
                     f"its verdict is {verdicts[each.name]}",
                 )
+
+    def _judge_measures(self) -> None:
+        """Compare the measures and the fitness in the end."""
+        if self._watch is None or self._fitness is None:
+            return
+        readings = self._watch.readings(self._world.clock.now)
+        result = evaluate(self._fitness, readings)
+        for each in self._case.measures:
+            actual = each.differs(result)
+            if actual:
+                raise _FailedError(each.place, each.text, actual)
 
     def _violation(self, place: Span, violation: Violation) -> Failure:
         self._world.trace.flush()

@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from swarmdsl.analysis.resolve.addresses import machines_in, roles_of, swarms_of
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.membership import member_events, presence_calls
+from swarmdsl.analysis.resolve.properties import (
+    Sentence,
+    facts_in,
+    machines_of_fact,
+    matches,
+    own_swarms,
+    state_paths,
+    subjects_of,
+)
+from swarmdsl.analysis.resolve.properties import roles_of as property_roles
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import content, regions, vertices
 from swarmdsl.driver.workspace import Workspace
@@ -24,9 +34,12 @@ from swarmdsl.syntax.ast import (
     EnumType,
     Event,
     EventTrigger,
+    Fact,
     FieldUse,
     FinalState,
+    Fitness,
     FitnessInput,
+    Measure,
     Member,
     NameUse,
     Node,
@@ -37,6 +50,8 @@ from swarmdsl.syntax.ast import (
     Part,
     Port,
     PortRef,
+    Property,
+    PropertySubject,
     Ref,
     Region,
     Role,
@@ -120,6 +135,12 @@ class Candidates:
                 return [v for each in named if each.name == path[-1] for v in _substates(each)]
             levels = [_substates(each) for each in reversed(self._containers())]
             return [vertex for level in levels for vertex in level]
+        if isinstance(owner, (Property, Fitness)) and ref.kind in ("Role", "Vertex"):
+            return self._in_sentence(holder, ref, owner, path)
+        if isinstance(holder, Fact) and not holder.act and isinstance(owner, (Property, Fitness)):
+            # An event from outside, or a role before a verb.
+            roles = property_roles(self._about(owner)).values()
+            return [*self._visible((NODES["Event"],)), *roles]
         if isinstance(around, Optimization) and kind is Role:
             swarm = self._scope.one(around.swarm.name, Swarm)
             return [each for each in swarm.items if isinstance(each, Role)] if swarm else ()
@@ -136,6 +157,44 @@ class Candidates:
             for node in self._visible((kind,))
             if not package or self._scope.find(f"{package}.{node.name}")  # type: ignore[attr-defined]
         ]
+
+    def _in_sentence(
+        self, holder: Node, ref: Ref[Node], owner: Property | Fitness, path: list[str]
+    ) -> Iterable[Node]:
+        """Return the roles or the states that a property or a measure can name."""
+        about = self._about(owner)
+        roles = property_roles(about)
+        if ref.kind == "Role" or not isinstance(holder, Fact):
+            return list(roles.values())
+        sentences: list[Sentence] = [owner] if isinstance(owner, Property) else []
+        sentences += nodes_of(owner, Measure)
+        for sentence in sentences:
+            if holder in facts_in(sentence):
+                sentence.about = about
+                named = [sentence.each.role] if sentence.each is not None else []
+                named += [holder.who.role] if holder.who is not None else []
+                named += [holder.counted] if holder.counted is not None else []
+                for role in named:
+                    role.target = roles.get(role.name)
+                machines = machines_of_fact(holder, sentence)
+                paths = [found for machine in machines for found in state_paths(machine)]
+                return [
+                    v
+                    for names, v in paths
+                    if path == [""] or (names[:-1] and matches(names[:-1], path))
+                ]
+        return ()
+
+    def _about(self, owner: Property | Fitness) -> PropertySubject | None:
+        """Return what a property or the measures of a fitness are about."""
+        if owner.subject is not None:
+            name = owner.subject.name
+            return self._scope.one(name, Swarm) or self._scope.one(name, StateMachine)
+        project = self._workspace.project
+        own: Sequence[PropertySubject] = (
+            own_swarms(project) if isinstance(owner, Fitness) else subjects_of(project)
+        )
+        return own[0] if len(own) == 1 else None
 
     def _roles(self) -> list[Node]:
         """Return the roles of the swarms that run the machine; of all swarms if none does."""

@@ -53,12 +53,18 @@ from swarmdsl.syntax.ast.behaviour import (
     Vertex,
 )
 from swarmdsl.syntax.ast.composition import (
+    Claim,
+    Conjunction,
     CountRange,
+    Each,
     Environment,
     EnvironmentUse,
+    Fact,
     Fitness,
+    FitnessInput,
     FitnessUse,
     Heartbeat,
+    Measure,
     Multiplicity,
     Objective,
     Optimization,
@@ -68,8 +74,11 @@ from swarmdsl.syntax.ast.composition import (
     Setting,
     Size,
     Swarm,
+    Term,
+    Who,
     World,
     in_metres,
+    whole,
 )
 from swarmdsl.syntax.ast.file import (
     Declaration,
@@ -106,17 +115,10 @@ from swarmdsl.syntax.ast.nodes import (
 )
 from swarmdsl.syntax.ast.properties import (
     Chance,
-    Claim,
-    Conjunction,
-    Each,
-    Fact,
     Pattern,
     Property,
     PropertyScope,
     PropertySubject,
-    Term,
-    Who,
-    whole,
 )
 from swarmdsl.syntax.ast.values import (
     Call,
@@ -130,7 +132,6 @@ from swarmdsl.syntax.ast.values import (
     ExpressionTree,
     FieldUse,
     FieldValue,
-    FitnessInput,
     IndexUse,
     InState,
     NameUse,
@@ -218,6 +219,7 @@ __all__ = [
     "IndexUse",
     "Initial",
     "Interface",
+    "Measure",
     "Member",
     "MessageType",
     "Model",

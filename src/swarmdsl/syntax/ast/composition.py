@@ -1,13 +1,15 @@
-"""Nodes of composition.tx: swarms, environments, fitness functions, optimizations."""
+"""Nodes of composition.tx: swarms, environments, fitness, optimizations, and facts."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, field
 from swarmdsl.syntax.ast.architecture import Member, PartValue
+from swarmdsl.syntax.ast.behaviour import StateMachine, Vertex
+from swarmdsl.syntax.ast.interfaces import Event, Function
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, Word
-from swarmdsl.syntax.ast.values import Expression, FitnessInput, Param
+from swarmdsl.syntax.ast.values import Expression, Input, Param
 
 
 @dataclass(slots=True, eq=False)
@@ -68,6 +70,91 @@ class FitnessUse(Documented):
 
 
 @dataclass(slots=True, eq=False)
+class Who(Node):
+    """`some other role`, `2..3 role`, `role[1]`, `role`; numbers as written, or empty."""
+
+    quantifier: str
+    other: bool
+    lower: str
+    upper: str
+    role: Ref[Role]
+    index: str
+
+
+@dataclass(slots=True, eq=False)
+class Fact(Node):
+    """`who in State`, `who sends Event`, `count(role in State) > 1`, or an event from outside.
+
+    `act` and `comparison` are as written, or empty.
+    """
+
+    counted: Ref[Role] | None
+    state: Ref[Vertex] | None
+    comparison: str
+    number: str
+    who: Who | None
+    guard: Expression | None
+    act: str
+    event: Ref[Event] | None
+    function: Ref[Function] | None
+
+
+@dataclass(slots=True, eq=False)
+class Term(Node):
+    """A fact or a claim in parentheses, perhaps after `not`."""
+
+    negated: bool
+    claim: Claim | None
+    fact: Fact | None
+
+
+@dataclass(slots=True, eq=False)
+class Conjunction(Node):
+    """Terms joined by `and`."""
+
+    all: list[Term]
+
+
+@dataclass(slots=True, eq=False)
+class Claim(Node):
+    """Conjunctions joined by `or`."""
+
+    any: list[Conjunction]
+
+
+@dataclass(slots=True, eq=False)
+class Each(Node):
+    """`each role :`."""
+
+    role: Ref[Role]
+
+
+@dataclass(slots=True, eq=False)
+class Measure(Node):
+    """`mean each role : time(in State)`, `max count(role in State)`, `time until all role ...`.
+
+    Words that are not there are empty; only the linker sets what it is `about`.
+    """
+
+    aggregate: str
+    each: Each | None
+    kind: Literal["count", "total", "time"]
+    claim: Claim
+    until: str
+    over: str
+    about: Swarm | StateMachine | None = field(
+        default=None, init=False, metadata={"elsewhere": True}
+    )
+
+
+@dataclass(slots=True, eq=False)
+class FitnessInput(Input):
+    """`in name : Type = measure`, measured in a run."""
+
+    measure: Measure | None
+
+
+@dataclass(slots=True, eq=False)
 class Objective(Documented):
     """`maximize expression` or `minimize expression`."""
 
@@ -77,10 +164,12 @@ class Objective(Documented):
 
 @dataclass(slots=True, eq=False)
 class Fitness(TopLevel):
-    """`fitness Name { ... }`."""
+    """`fitness Name of Swarm { ... }`; only the linker sets what it is `about`."""
 
     name: Word
+    subject: Ref[Swarm] | None
     items: list[FitnessInput | Param | Objective]
+    about: Swarm | None = field(default=None, init=False, metadata={"elsewhere": True})
 
 
 @dataclass(slots=True, eq=False)
@@ -150,3 +239,12 @@ class Environment(TopLevel):
 
     name: Word
     items: list[World | Size]
+
+
+_MOST_DIGITS = 9
+
+
+def whole(digits: str) -> int:
+    """Return a number as written; one that is larger than any swarm is as good as another."""
+    significant = digits.lstrip("0")
+    return int(significant or "0") if len(significant) <= _MOST_DIGITS else 10**_MOST_DIGITS

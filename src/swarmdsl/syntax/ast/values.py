@@ -32,7 +32,7 @@ class NameUse(Node):
     """
 
     name: str
-    target: Variable | Param | Constant | EnumType | FitnessInput | Element | None = field(
+    target: Variable | Param | Constant | EnumType | Input | Element | None = field(
         default=None, init=False, metadata={"elsewhere": True}
     )
 
@@ -199,8 +199,8 @@ class Variable(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class FitnessInput(Documented):
-    """`in name : Type`, measured in a run."""
+class Input(Documented):
+    """`in name : Type` of a fitness."""
 
     name: Word
     type: TypeRef

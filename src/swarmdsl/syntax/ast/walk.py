@@ -21,10 +21,11 @@ from swarmdsl.syntax.ast import (
     values,
 )
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel
+from swarmdsl.syntax.ast.values import Input
 
 _MODULES = (nodes, values, interfaces, behaviour, architecture, composition, properties, file)
 
-_ABSTRACT = (Node, Documented, TopLevel)
+_ABSTRACT = (Node, Documented, TopLevel, Input)
 NODES: dict[str, type[Node]] = {
     cls.__name__: cls
     for module in _MODULES

@@ -38,6 +38,7 @@ TERMINALS = {
     "ROOT": "a value",
     "PRIMARY": "a value",
     "INDEX": "a number",
+    "NOCOLON": "another fact",
     "PROBABILITY": "a probability such as `0.9`",
     "BEFOREDOT": "`.`",
     "DOTTED": "`.`",

@@ -46,7 +46,7 @@ _COLUMNS: dict[type[Node], tuple[str, ...]] = {
     EnumValue: ("=",),
     Event: (_NAME, ":"),
     Field: (":",),
-    FitnessInput: (":",),
+    FitnessInput: (":", "="),
     Function: (":", "{"),
     FunctionPort: (_NAME, ":"),
     Param: (":", "="),

@@ -15,6 +15,7 @@ from swarmdsl.syntax.ast import (
     Fact,
     IndexUse,
     InState,
+    Measure,
     MessageType,
     Model,
     Multiplicity,
@@ -108,6 +109,8 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                 marks.tight.add(tokens.before(counted.span.start).start)
             case IndexUse(base=base):
                 marks.tight.add(tokens.code(base.span.end)[0].start)
+            case Measure(until=""):
+                marks.tight.add(tokens.before(node.claim.span.start).start)
             case State(machine=machine) if machine is not None:
                 _mark_list(marks, tokens, machine.span.start, machine.name)
             case Transition(effects=[effect, *_]) | Branch(effects=[effect, *_]):

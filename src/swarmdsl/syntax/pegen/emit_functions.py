@@ -287,8 +287,13 @@ class Emission:
             if not self.look.analysis.nullable(part):
                 self._line(f"{text} += {self._text(part, fail)}")
                 continue
+            if isinstance(part, Use):
+                part = self.look.analysis.grammar.rules[part.rule].body
             if not isinstance(part, Terminal):
                 raise self._unsupported("a text is too complicated")
+            if part.regex.startswith("(?!"):  # what may not follow
+                self._line(f"if {self.look.regex(part.regex)}(text, {_START}) is None: {fail}")
+                continue
             self._line(f"if {self._can_begin(part)}:")
             with self._block():
                 match = self._match(part.regex)

@@ -15,6 +15,8 @@ from swarmdsl.ir import (
     Event,
     Expression,
     Field,
+    Fitness,
+    FitnessInput,
     Function,
     Interface,
     Member,
@@ -252,7 +254,8 @@ def _others(system: System) -> Iterator[Element]:
         yield with_doc(element, world.doc, world.docs)
     for fitness in system.fitness:
         values = ((fitness.goal, expression_value(fitness.value)),)
-        inputs = (_field(each, "input") for each in fitness.inputs)
+        values += properties(about=_named(fitness.subject, "swarm"))
+        inputs = (_input(each, fitness, system) for each in fitness.inputs)
         ref = Ref("fitness", fitness.name)
         children = (*inputs, *param_elements(fitness.params))
         element = Element("fitness", (fitness.name,), values, children, ref, fitness.origin)
@@ -298,31 +301,45 @@ def _swarm(swarm: Swarm) -> Element:
 
 def _property(each: Property, system: System) -> Element:
     kind = "statemachine" if each.subject in system.machines_by_name else "swarm"
-    says = (value for part in sentence(each) for value in _said(part, each, system))
-    values = properties(about=_named(each.subject, kind), says=tuple(says))
+    says = _says(sentence(each), each.each, each.subject, system)
+    values = properties(about=_named(each.subject, kind), says=says)
     ref = Ref("property", each.name)
     return with_doc(Element("property", (each.name,), values, (), ref, each.origin), each.doc)
 
 
-def _said(part: sentences.Part, property_: Property, system: System) -> Value:
+def _input(each: FitnessInput, fitness: Fitness, system: System) -> Element:
+    measured: Value = ()
+    if each.measure is not None and fitness.subject is not None:
+        parts = sentences.measure(each.measure)
+        measured = _says(parts, each.measure.each, fitness.subject, system)
+    values = properties(type=type_value(each.type), measure=measured)
+    return with_doc(Element("input", (each.name,), values, origin=each.origin), each.doc)
+
+
+def _says(parts: Iterable[sentences.Part], each: str | None, subject: str, system: System) -> Value:
+    """Return a sentence, about each robot of a role or about its subject, as a value."""
+    return tuple(value for part in parts for value in _said(part, each, subject, system))
+
+
+def _said(part: sentences.Part, each: str | None, subject: str, system: System) -> Value:
     match part:
         case str():
             return (part,)
         case sentences.Named("state", name, role):
-            return (_state(name, _machines(role or property_.each, property_, system)),)
+            return (_state(name, _machines(role or each, subject, system)),)
         case sentences.Named(kind, name):
             return (Ref(kind, name),)
         case sentences.Condition(condition, role):
-            machines = _machines(role or property_.each, property_, system)
+            machines = _machines(role or each, subject, system)
             return expression_value(condition, machines[0].name if machines else "")
     return expression_value(part)
 
 
-def _machines(role: str | None, property_: Property, system: System) -> list[StateMachine]:
+def _machines(role: str | None, subject: str, system: System) -> list[StateMachine]:
     """Return the machine of a property, or those that a robot of a role runs, its own first."""
-    names: list[str | None] = [property_.subject]
+    names: list[str | None] = [subject]
     for swarm in system.swarms:
-        if swarm.name == property_.subject:
+        if swarm.name == subject:
             robots = [each.member for each in swarm.roles if each.name == role]
             members = [system.members_by_name[name] for name in robots]
             parts = [part.component for member in members for part in member.parts]

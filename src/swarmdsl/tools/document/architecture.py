@@ -151,7 +151,7 @@ def fitness(element: Element, builder: EntryBuilder) -> Entry:
     """Entry of a fitness: its inputs and objective."""
     node = element.node
     assert isinstance(node, Fitness)
-    facts: list[tuple[str, Cell]] = []
+    facts: list[tuple[str, Cell]] = [("about", _target(builder, node.about))]
     inputs = []
     for item in node.items:
         inner = builder.elements.of(item)
@@ -159,9 +159,10 @@ def fitness(element: Element, builder: EntryBuilder) -> Entry:
             doc: Cell = (" ", Prose(item.doc)) if item.doc else ()
             facts.append((item.goal, (*builder.code(item.value, element), *doc)))
         elif isinstance(item, FitnessInput) and inner is not None:
-            inputs.append(builder.row(inner, (builder.type(item.type, inner),)))
+            measure = builder.code(item.measure, inner)
+            inputs.append(builder.row(inner, (builder.type(item.type, inner), measure)))
     blocks = (
-        Table("Inputs", ("input", "type", "description"), tuple(inputs)),
+        Table("Inputs", ("input", "type", "measure", "description"), tuple(inputs)),
         builder.params(element, (item for item in node.items if isinstance(item, Param))),
     )
     return builder.entry(element, [*facts, ("used by", builder.used_by(element))], blocks)

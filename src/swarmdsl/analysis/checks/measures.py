@@ -1,0 +1,57 @@
+"""Checks of measures: their types, and facts that do not last."""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.properties import check_facts
+from swarmdsl.analysis.resolve.properties import facts_in
+from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.syntax.ast import Fitness, FitnessInput, FitnessUse, Measure, Swarm
+from swarmdsl.syntax.types import DURATION, FLOAT, INT, Type
+
+
+def check_measures(fitness: Fitness, context: Context) -> None:
+    """Check the measures of a fitness."""
+    for item in fitness.items:
+        if isinstance(item, FitnessInput) and item.measure is not None:
+            check_facts(item.measure, fitness, context)
+            _check_lasting(item.measure, context)
+            context.check_fits(_type(item.measure), item.type.type, item.measure.span)
+
+
+def check_measured_swarm(swarm: Swarm, context: Context) -> None:
+    """Report a fitness of a swarm whose measures are about another one."""
+    for item in swarm.items:
+        fitness = item.fitness.target if isinstance(item, FitnessUse) else None
+        if fitness is None or fitness.about in (None, swarm):
+            continue
+        assert fitness.about is not None
+        at = fitness.subject.span if fitness.subject is not None else fitness.name.span
+        context.report.report(
+            "foreign-fitness",
+            item.span,
+            name=fitness.name,
+            other=fitness.about.name,
+            related=(Label(at, "its measures are about another swarm"),),
+            help=f"declare a fitness `of {swarm.name}`, or measure nothing in this one",
+        )
+
+
+def _type(measure: Measure) -> Type:
+    if measure.kind == "time":
+        return DURATION
+    return FLOAT if "mean" in (measure.aggregate, measure.over) else INT
+
+
+def _check_lasting(measure: Measure, context: Context) -> None:
+    """Report what only happens where the measure is about what is."""
+    if measure.kind == "total" or measure.until:
+        return
+    for fact in facts_in(measure):
+        if fact.event is not None or fact.function is not None:
+            context.report.report(
+                "momentary-fact",
+                fact.span,
+                kind=measure.kind,
+                help="count how often it happens with `total(...)`, or name a state with `in`",
+            )

@@ -1,0 +1,111 @@
+"""Measures and fitness of a run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.shared.constants import Value, constant, params_by_name
+from swarmdsl.execution.engine import ExecutionError
+from swarmdsl.execution.monitor import Reading
+from swarmdsl.execution.simulate.durations import SECOND, format_duration
+from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.ir import Fitness, FitnessInput, Param
+from swarmdsl.syntax.types import DURATION
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Measure of a fitness at the end of a run."""
+
+    input: FitnessInput
+    reading: Reading
+
+    @property
+    def is_time(self) -> bool:
+        """True if the value is in nanoseconds."""
+        return self.input.type == DURATION
+
+
+@dataclass(frozen=True)
+class FitnessResult:
+    """Fitness at the end of a run: its value, or the reason why it has none."""
+
+    fitness: Fitness
+    measures: tuple[Measured, ...]
+    value: float | None
+    reason: str = ""
+
+
+def fitness_of(subject: Subject) -> Fitness | None:
+    """Return the fitness of a swarm if something of it is measured."""
+    system, swarm = subject.system, subject.swarm
+    if system is None or swarm is None or swarm.fitness is None:
+        return None
+    found = next(each for each in system.fitness if each.name == swarm.fitness)
+    return found if measures_of(found) else None
+
+
+def measures_of(fitness: Fitness | None) -> list[FitnessInput]:
+    """Return the inputs of a fitness that are measured, in order."""
+    inputs = fitness.inputs if fitness is not None else ()
+    return [each for each in inputs if each.measure is not None]
+
+
+def evaluate(fitness: Fitness, readings: Sequence[Reading]) -> FitnessResult:
+    """Return the fitness of a run with these values of its measures."""
+    measures = tuple(map(Measured, measures_of(fitness), readings))
+    data: dict[str, float | None] = {each.input.name: each.reading.value for each in measures}
+    known = params_by_name(fitness.params)
+    values = {each.name: _constant(each, known) for each in fitness.params}
+    reason = next(_missing(fitness, data, values), "")
+    if reason:
+        return FitnessResult(fitness, measures, None, reason)
+    try:
+        value = float(function_of(fitness.value)({**values, **data}, None))
+    except (ArithmeticError, ValueError, ExecutionError) as error:
+        return FitnessResult(fitness, measures, None, str(error))
+    if not math.isfinite(value):
+        return FitnessResult(fitness, measures, None, "it is not finite")
+    return FitnessResult(fitness, measures, value)
+
+
+def _constant(param: Param, known: Mapping[str, Param]) -> Value | None:
+    """Return the value of a param, times in nanoseconds; None if it has none."""
+    value = constant(param.default, known) if param.default is not None else None
+    if isinstance(value, (int, float)) and param.type == DURATION:
+        return round(value * SECOND)
+    return value
+
+
+def _missing(
+    fitness: Fitness, data: Mapping[str, object], params: Mapping[str, object]
+) -> Iterator[str]:
+    """Yield the reasons why a fitness cannot be computed."""
+    for each in fitness.inputs:
+        if each.name not in data:
+            yield f"`{each.name}` is not measured"
+        elif data[each.name] is None:
+            yield f"`{each.name}` has no value, because there is no robot"
+    for name, value in params.items():
+        if value is None:
+            yield f"param `{name}` has no value"
+
+
+def measure_rows(result: FitnessResult) -> Iterator[tuple[str, str, str]]:
+    """Yield the measures and the fitness with their values."""
+    for each in result.measures:
+        missed = "" if each.reading.reached else "not reached"
+        yield each.input.name, value_text(each.reading.value, is_time=each.is_time), missed
+    goal = f"fitness, to {result.fitness.goal}"
+    note = f"{goal}: {result.reason}" if result.reason else goal
+    yield result.fitness.name, value_text(result.value, is_time=False), note
+
+
+def value_text(value: float | None, *, is_time: bool) -> str:
+    """Format a number, or a time in nanoseconds."""
+    if value is None:
+        return "-"
+    return format_duration(round(value)) if is_time else f"{value:.6g}"
