@@ -69,6 +69,8 @@ def _not_covered(property_: ir.Property) -> str:
     facts = list(facts_in(property_.claims[0]))
     if property_.kind == "times" and any(map(is_act, facts)):
         mixed = not all(map(is_act, facts)) or _negates(property_.claims[0])
+        # It would count the moments at which nothing of the kind happens.
+        mixed |= any(map(_can_be_idle, facts))
         return "it counts what happens together with what is" if mixed else ""
     if property_.kind == "possible":
         if property_.scope is not None:
@@ -76,6 +78,15 @@ def _not_covered(property_: ir.Property) -> str:
         if any(map(is_act, facts)):
             return "`always possible` is covered for states only"
     return ""
+
+
+def _can_be_idle(fact: ir.Fact | ir.Count) -> bool:
+    """Return True if a fact can hold for no robot: `no`, `all` of none, `0..2`."""
+    robots = fact.robots if isinstance(fact, ir.Fact) else None
+    if robots is None:
+        return False
+    least = robots.number.lower if robots.number is not None else 1
+    return robots.quantifier in ("no", "all") or least == 0
 
 
 def _negates(claim: ir.Claim) -> bool:
