@@ -14,8 +14,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.toml import parse_toml
-from swarmdsl.execution.monitor import facts
-from swarmdsl.execution.monitor import watch as monitors
+from swarmdsl.execution.monitor import facts, truth
 from swarmdsl.execution.simulate import properties
 from swarmdsl.execution.simulate.actors import actors
 from swarmdsl.execution.simulate.inputs import Input
@@ -184,6 +183,6 @@ def test_only_what_changes(
         return route._all
 
     monkeypatch.setattr(facts.Route, "trackers_of", all_trackers)
-    monkeypatch.setattr(monitors._Watched, "affected", lambda watched, changed: watched.robots)
+    monkeypatch.setattr(truth.Claims, "affected", lambda claims, changed, robots: robots)
     assert found == [verdicts(example, events, seed) for seed in range(3)]
     assert all(found)
