@@ -1,0 +1,1 @@
+"""Estimates from many runs: intervals, sequential tests, quantiles, histograms."""
