@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import sys
+from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -25,6 +28,16 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     if text is not None and length is None:
         raise click.BadParameter(f"`{text}` is not a duration like `90s`, `500ms` or `10min`")
     return length
+
+
+def _check_runs(runs: int | None, needs: Mapping[str, bool], conflicts: Mapping[str, bool]) -> None:
+    """Check options that need `--runs`, or say nothing about many runs."""
+    for name, given in needs.items():
+        if given and runs is None:
+            raise click.UsageError(f"`--{name}` needs `--runs`")
+    for name, given in conflicts.items():
+        if given and runs is not None:
+            raise click.UsageError(f"`--runs` and `--{name}` conflict")
 
 
 @click.command(
@@ -82,6 +95,49 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     multiple=True,
     help="Run what this property is about, and watch only it; may be repeated.",
 )
+@click.option(
+    "--runs",
+    type=click.IntRange(1, 1_000_000),
+    metavar="N",
+    help="Run so many times, with the seeds from `--seed` on, and print estimates.",
+)
+@click.option(
+    "--jobs",
+    type=click.IntRange(1, 256),
+    metavar="J",
+    help="Number of processes for `--runs`.  [default: one for each processor]",
+)
+@click.option(
+    "--early",
+    is_flag=True,
+    help="End `--runs` when the tests of all properties with a chance have decided.",
+)
+@click.option(
+    "--confidence",
+    type=click.FloatRange(0, 1, min_open=True, max_open=True),
+    default=0.95,
+    show_default=True,
+    help="Level of the intervals of `--runs`.",
+)
+@click.option(
+    "--indifference",
+    type=click.FloatRange(0, 0.5, min_open=True),
+    default=0.02,
+    show_default=True,
+    help="Distance from a chance within which either decision of the sequential test is right.",
+)
+@click.option(
+    "--error",
+    type=click.FloatRange(0, 0.5, min_open=True, max_open=True),
+    default=0.05,
+    show_default=True,
+    help="Probability of a wrong decision of the sequential test farther away.",
+)
+@click.option(
+    "--histogram",
+    type=click.Path(path_type=Path),
+    help="Draw the measures of `--runs`, as SVG.",
+)
 @click.option("--no-properties", is_flag=True, help="Do not watch the properties of the model.")
 @click.option("--stop-on-violation", is_flag=True, help="End the run when a property is violated.")
 @click.option("--real-time", is_flag=True, help="Run in real time.")
@@ -99,6 +155,13 @@ def simulate(
     results: Path | None,
     replay: tuple[Path, ...],
     seed: int | None,
+    runs: int | None,
+    jobs: int | None,
+    early: bool,
+    confidence: float,
+    indifference: float,
+    error: float,
+    histogram: Path | None,
     until: int | None,
     properties: tuple[str, ...],
     no_properties: bool,
@@ -112,8 +175,8 @@ def simulate(
     Without a scenario, every function succeeds after a second. The trace goes to standard
     output, a summary to standard error.
     """
-    from swarmdsl.execution.simulate.command import Request
     from swarmdsl.execution.simulate.command import simulate as run_simulation
+    from swarmdsl.execution.simulate.prepare import Request
 
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` conflict")
@@ -134,6 +197,25 @@ def simulate(
             f"`--format {format_}` and `--trace {trace}` both print: write the "
             "trace to a `--trace-file`"
         )
+    _check_runs(
+        runs,
+        {
+            "jobs": jobs is not None,
+            "early": early,
+            "histogram": histogram is not None,
+        },
+        {
+            "replay": bool(replay),
+            "trace": trace is not None and trace != "none",
+            "trace-file": trace_file is not None,
+            "timeline": timeline is not None,
+            "real-time": real_time,
+            "stop-on-violation": stop_on_violation,
+            "events -": events == "-",
+        },
+    )
+    if histogram is not None:
+        options.check_picture(histogram, "--histogram", ".svg", {})
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
     request = Request(
@@ -154,10 +236,19 @@ def simulate(
         properties,
         results,
     )
+    if runs is None:
+        simulate_ = run_simulation
+    else:
+        from swarmdsl.execution.simulate.estimates import Level
+        from swarmdsl.execution.simulate.many import Many, simulate_many
+
+        level = Level(confidence, indifference, error)
+        many = Many(runs, jobs or os.cpu_count() or 1, level, early, histogram)
+        simulate_ = partial(simulate_many, many)
     if not is_document:
-        succeeded = run_simulation(request, lambda report: render(report, format_, sys.stderr))
+        succeeded = simulate_(request, lambda report: render(report, format_, sys.stderr))
     else:
         found: list[Diagnostic] = []
-        succeeded = run_simulation(request, found.extend)
+        succeeded = simulate_(request, found.extend)
         render(found, format_, sys.stdout)
     return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS

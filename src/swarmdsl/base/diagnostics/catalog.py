@@ -351,6 +351,16 @@ CODES: dict[str, Code] = {
     "foreign-fitness": Code(
         "SW1608", "error", "the measures of fitness `{name}` are about swarm `{other}`"
     ),
+    "violated-in-runs": Code(
+        "SW1609", "error", "property `{name}` is violated in {count} of {runs} runs"
+    ),
+    "refuted-chance": Code(
+        "SW1610",
+        "error",
+        "property `{name}` is not true at {bound} {probability} of the time, after {runs} runs",
+    ),
+    "failed-runs": Code("SW1611", "error", "{count} of {runs} runs have no result: {reason}"),
+    "lost-worker": Code("SW1612", "error", "a process ended by itself, after {runs} runs"),
     # ---- verification
     "refuted-property": Code("SW1701", "error", "property `{name}` does not hold{who}"),
     "stuck-swarm": Code("SW1702", "warning", "the swarm can get stuck: nothing goes on by itself"),

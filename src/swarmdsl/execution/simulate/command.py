@@ -18,16 +18,11 @@ import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.diagnostics.render.printable import printable
-from swarmdsl.base.read_files import MOST_DATA, MOST_RECORDED, lines_of
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.read_files import MOST_RECORDED, lines_of
 from swarmdsl.base.write_stream import write_stream
-from swarmdsl.driver import pipeline
-from swarmdsl.driver.config import find_settings
-from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import PropertyResult, Verdict, ViolatedError
-from swarmdsl.execution.scxml import read as read_scxml
-from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader
@@ -37,24 +32,20 @@ from swarmdsl.execution.simulate.measures import (
     fitness_of,
     measures_of,
 )
+from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Prepared, Request, prepare
 from swarmdsl.execution.simulate.properties import watch, watchable
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.results import as_document
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.scenario_file import read_scenario
-from swarmdsl.execution.simulate.subject import Document, Subject, choose
 from swarmdsl.execution.simulate.summary import Summary, measure_table, property_table
 from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line, as_json, as_text
 from swarmdsl.execution.simulate.verdicts import Recording, report_violations
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.ir import System
 from swarmdsl.project.read_source import read_source
 
 Tell = Callable[[Diagnostics], None]
-_STDIN = "-"
 _ENDINGS: dict[Ending, str] = {
     "ended": "until all machines had ended",
     "quiet": "until nothing was left to happen",
@@ -65,29 +56,6 @@ _STANDARD_INPUT = 0
 _AT_ONCE = 1 << 16
 _MOST_SHOWN = 5
 """Maximum number of states shown of a loop."""
-
-
-@dataclass(frozen=True)
-class Request:
-    """Arguments of the command."""
-
-    paths: tuple[Path, ...]
-    machine: str | None = None
-    swarm: str | None = None
-    events: str | None = None
-    scenario: Path | None = None
-    trace: str | None = None
-    trace_file: Path | None = None
-    timeline: Path | None = None
-    seed: int | None = None
-    until: int | None = None
-    real_time: bool = False
-    replay: tuple[Path, ...] = ()
-    properties: bool = True
-    stop_on_violation: bool = False
-    only: tuple[str, ...] = ()
-    """Names of the properties that are watched; none for all."""
-    results: Path | None = None
 
 
 def simulate(request: Request, tell: Tell) -> bool | None:
@@ -105,58 +73,11 @@ def simulate(request: Request, tell: Tell) -> bool | None:
 
 def _prepare(request: Request, report: Diagnostics) -> _Play | None:
     """Load and check everything before the run."""
-    subject = _subject(request, report)
-    if subject is None:
+    prepared = prepare(request, report)
+    if prepared is None:
         return None
-    scenario = _scenario(request.scenario, subject, report)
-    if scenario is None:
-        return None
-    robots = subject.create_robots(scenario.counts, scenario.alone)
-    cast = actors(subject, robots, scenario, report)
-    if report.has_errors:
-        return None
-    inputs: list[Input] = []
-    if request.events is not None and request.events != _STDIN:
-        path = Path(request.events)
-        source = read_source(path, None, report, "a file of events", MOST_RECORDED)
-        inputs = Reader(subject, cast, report).file(source) if source is not None else []
-    return None if report.has_errors else _Play(request, subject, scenario, cast, inputs)
-
-
-def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scenario | None:
-    """Read a scenario, or return the default one."""
-    if path is None:
-        return Scenario()
-    source = read_source(path, None, report, "a scenario", MOST_DATA)
-    document = parse_toml(source, report) if source is not None else None
-    if document is None:
-        return None
-    scenario = read_scenario(document, subject, report)
-    return scenario if not report.has_errors else None
-
-
-def _subject(request: Request, report: Diagnostics) -> Subject | None:
-    """Load the models and documents, and choose the subject."""
-    documents = [path for path in request.paths if path.suffix == ".scxml"]
-    models = [path for path in request.paths if path not in documents]
-    read = [document for path in documents if (document := _document(path, report)) is not None]
-    system: System | None = None
-    if models or not documents:
-        settings = find_settings(models, report)
-        if report.has_errors:
-            return None
-        checked = pipeline.check(models or settings.sources, settings)
-        report.include(checked.report)
-        system = checked.system
-    if report.has_errors:
-        return None
-    return choose(system, read, request.machine, request.swarm, report, request.only)
-
-
-def _document(path: Path, report: Diagnostics) -> Document | None:
-    source = read_source(path, None, report, most=MOST_DATA)
-    machine = read_scxml(source, report) if source is not None else None
-    return Document(source, machine) if source is not None and machine is not None else None
+    cast, inputs = prepared.stage(report)
+    return None if report.has_errors else _Play(request, prepared, cast, inputs)
 
 
 def _report_unwritten(path: Path, error: OSError, report: Diagnostics) -> None:
@@ -174,11 +95,11 @@ class _Play:
     def __init__(
         self,
         request: Request,
-        subject: Subject,
-        scenario: Scenario,
+        prepared: Prepared,
         cast: Sequence[Actor],
         inputs: Sequence[Input],
     ) -> None:
+        subject, scenario = prepared.subject, prepared.scenario
         self._request = request
         self._subject = subject
         self._cast = cast
@@ -330,7 +251,7 @@ class _Play:
 
     def _run(self, tell: Tell) -> Ending:
         pace = Pace() if self._request.real_time else None
-        if self._request.events != _STDIN:
+        if self._request.events != STANDARD_INPUT:
             return run(self._world, self._inputs, self._until, pace)
         if pace is None:
             return run(self._world, self._typed(tell), self._until)
@@ -346,7 +267,7 @@ class _Play:
 
     def _show_board(self, stack: ExitStack) -> None:
         """Show the live table, if the terminal is not used otherwise."""
-        if not sys.stderr.isatty() or self._request.events == _STDIN:
+        if not sys.stderr.isatty() or self._request.events == STANDARD_INPUT:
             return
         from rich.console import Console
 
@@ -386,7 +307,7 @@ class _Play:
             return None
         if path is None:
             # A person watches the live table or types events instead.
-            watched = sys.stdout.isatty() and self._request.events != _STDIN
+            watched = sys.stdout.isatty() and self._request.events != STANDARD_INPUT
             return None if watched and self._request.trace is None else sys.stdout
         return self._write_to(path, stack, report)
 
@@ -420,7 +341,7 @@ class _Play:
         kind = self._request.trace or ("json" if self._request.trace_file is not None else "text")
         width = max(len(actor.name or "") for actor in self._cast)
         form = as_json if kind == "json" else partial(as_text, width=width)
-        at_once = self._request.real_time or self._request.events == _STDIN
+        at_once = self._request.real_time or self._request.events == STANDARD_INPUT
 
         def write(line: Line) -> None:
             stream.write(f"{form(line)}\n")

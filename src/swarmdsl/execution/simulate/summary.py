@@ -51,11 +51,13 @@ class Summary:
             *table, _ = property_table(properties)
             yield from table
             return
-        yield from _table(("member", "in the end", "since"), self._members(), left=2)
-        yield from _table(("state", "time", "entered"), self._states())
-        yield from _table(("function", "called", *_OUTCOMES, "unfinished"), self._functions())
-        yield from _table(("event", "sent", *_counts(world)), self._events())
-        yield from _table(("ignored event", "in state", "times"), self._ignored_events(), left=2)
+        yield from format_table(("member", "in the end", "since"), self._members(), left=2)
+        yield from format_table(("state", "time", "entered"), self._states())
+        yield from format_table(("function", "called", *_OUTCOMES, "unfinished"), self._functions())
+        yield from format_table(("event", "sent", *_counts(world)), self._events())
+        yield from format_table(
+            ("ignored event", "in state", "times"), self._ignored_events(), left=2
+        )
         yield from property_table(properties)
         yield from measure_table(fitness)
         yield from self._unseen()
@@ -152,16 +154,16 @@ def _counts(world: World) -> dict[str, Counter[str]]:
 
 def property_table(results: Iterable[PropertyResult]) -> Iterator[str]:
     """Format the verdicts on properties."""
-    yield from _table(("property", "verdict", "where"), rows(results), left=3)
+    yield from format_table(("property", "verdict", "where"), rows(results), left=3)
 
 
 def measure_table(result: FitnessResult | None) -> Iterator[str]:
     """Format measures and fitness."""
     rows = measure_rows(result) if result is not None else ()
-    yield from _table(("measure", "value", ""), rows, left=3)
+    yield from format_table(("measure", "value", ""), rows, left=3)
 
 
-def _table(head: Row, rows: Iterable[Row], left: int = 1) -> Iterator[str]:
+def format_table(head: Row, rows: Iterable[Row], left: int = 1) -> Iterator[str]:
     """Format a table with left- and right-aligned columns; empty without rows."""
     lines = [head, *([printable(cell) for cell in row] for row in rows)]
     if len(lines) == 1:

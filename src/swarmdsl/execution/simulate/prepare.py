@@ -1,0 +1,115 @@
+"""What a simulation needs: the subject, the scenario, and the events from outside."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import MOST_DATA, MOST_RECORDED
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Source
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config import find_settings
+from swarmdsl.driver.config.toml import parse_toml
+from swarmdsl.execution.scxml import read as read_scxml
+from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.inputs import Input, Reader
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.scenario_file import read_scenario
+from swarmdsl.execution.simulate.subject import Document, Subject, choose
+from swarmdsl.ir import System
+from swarmdsl.project.read_source import read_source
+
+STANDARD_INPUT = "-"
+"""Name of standard input as a file of events."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """Arguments of the command."""
+
+    paths: tuple[Path, ...]
+    machine: str | None = None
+    swarm: str | None = None
+    events: str | None = None
+    scenario: Path | None = None
+    trace: str | None = None
+    trace_file: Path | None = None
+    timeline: Path | None = None
+    seed: int | None = None
+    until: int | None = None
+    real_time: bool = False
+    replay: tuple[Path, ...] = ()
+    properties: bool = True
+    stop_on_violation: bool = False
+    only: tuple[str, ...] = ()
+    """Names of the properties that are watched; none for all."""
+    results: Path | None = None
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """Subject of a run with its scenario, and its events from outside, if they are in a file."""
+
+    subject: Subject
+    scenario: Scenario
+    events: Source | None
+
+    def stage(self, report: Diagnostics) -> tuple[list[Actor], list[Input]]:
+        """Return the machines of a run, which changes them, and its events from outside."""
+        robots = self.subject.create_robots(self.scenario.counts, self.scenario.alone)
+        cast = actors(self.subject, robots, self.scenario, report)
+        if report.has_errors or self.events is None:
+            return cast, []
+        return cast, Reader(self.subject, cast, report).file(self.events)
+
+
+def prepare(request: Request, report: Diagnostics) -> Prepared | None:
+    """Load and check everything before a run."""
+    subject = _subject(request, report)
+    if subject is None:
+        return None
+    scenario = _scenario(request.scenario, subject, report)
+    if scenario is None:
+        return None
+    events: Source | None = None
+    if request.events is not None and request.events != STANDARD_INPUT:
+        path = Path(request.events)
+        events = read_source(path, None, report, "a file of events", MOST_RECORDED)
+    return None if report.has_errors else Prepared(subject, scenario, events)
+
+
+def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scenario | None:
+    """Read a scenario, or return the default one."""
+    if path is None:
+        return Scenario()
+    source = read_source(path, None, report, "a scenario", MOST_DATA)
+    document = parse_toml(source, report) if source is not None else None
+    if document is None:
+        return None
+    scenario = read_scenario(document, subject, report)
+    return scenario if not report.has_errors else None
+
+
+def _subject(request: Request, report: Diagnostics) -> Subject | None:
+    """Load the models and documents, and choose the subject."""
+    documents = [path for path in request.paths if path.suffix == ".scxml"]
+    models = [path for path in request.paths if path not in documents]
+    read = [document for path in documents if (document := _document(path, report)) is not None]
+    system: System | None = None
+    if models or not documents:
+        settings = find_settings(models, report)
+        if report.has_errors:
+            return None
+        checked = pipeline.check(models or settings.sources, settings)
+        report.include(checked.report)
+        system = checked.system
+    if report.has_errors:
+        return None
+    return choose(system, read, request.machine, request.swarm, report, request.only)
+
+
+def _document(path: Path, report: Diagnostics) -> Document | None:
+    source = read_source(path, None, report, most=MOST_DATA)
+    machine = read_scxml(source, report) if source is not None else None
+    return Document(source, machine) if source is not None and machine is not None else None

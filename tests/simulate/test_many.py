@@ -1,0 +1,197 @@
+"""Many runs: estimates, tests of chances, worst seeds, the same bytes for any number of jobs."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from swarmdsl.cli import run
+from swarmdsl.execution.simulate import many, one_run
+from swarmdsl.execution.simulate.histogram import bars
+
+from .conftest import Simulate
+
+MODEL = """
+statemachine Trying {
+  initial Try
+  state Try {
+    do go(speed = 1.0)
+    on succeeded -> Good
+    on aborted   -> Bad
+  }
+  final Good
+  final Bad
+}
+member Robot { behavior Trying }
+swarm Crew { robot : Robot[2]; fitness Worth }
+fitness Worth {
+  in good    : uint32   = count(robot in Good)
+  in elapsed : duration = time until some robot in Good
+  maximize good
+}
+property Fine of Crew : never some robot in Bad
+property Often of Crew : all robot in Good within 1 min at least 0.5
+property Rarely of Crew : eventually some robot in Good at most 0.5
+"""
+SCENARIO = """
+[functions]
+go = { duration = { uniform = ["1 s", "9 s"] }, aborted = 0.1 }
+"""
+
+
+def estimated(*arguments: str) -> dict[str, Any]:
+    """Return the results of runs of the model that was simulated last."""
+    words = ["model.swarm", "--scenario", "scenario.toml", "--results", "many.json", *arguments]
+    run(["simulate", *words])
+    found: dict[str, Any] = json.loads(Path("many.json").read_text(encoding="utf-8"))
+    return found
+
+
+def test_estimates_name_their_conditions(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulate(MODEL, scenario=SCENARIO)
+    found = estimated("--runs", "60", "--jobs", "1", "--seed", "5")
+    said = capsys.readouterr()
+    assert "Crew: 60 runs, seeds 5 to 64, scenario scenario.toml, intervals of 95 %" in said.out
+    assert (found["runs"], found["first_seed"]) == (60, 5)
+    fine, often, rarely = found["properties"]
+    assert fine["true"] + fine["false"] == 60
+    assert fine["false"] > 0
+    assert "chance" not in fine
+    low, high = often["interval"]
+    assert low < often["true"] / 60 < high
+    assert often["verdict"] == "true"
+    assert often["indifference"] == pytest.approx([0.48, 0.52])
+    assert rarely["verdict"] == "false"
+    assert rarely["decided_after"] <= 60
+    assert f"error[SW1609]: property `Fine` is violated in {fine['false']} of 60 runs" in said.err
+    assert "error[SW1610]: property `Rarely` is not true at most 0.5" in said.err
+    good, _, worth = found["measures"]
+    assert good["quantiles"]["1"] == 2
+    assert worth["mean"] == good["mean"]
+
+
+def test_the_worst_runs_can_be_repeated(simulate: Simulate) -> None:
+    simulate(MODEL, scenario=SCENARIO)
+    found = estimated("--runs", "30", "--jobs", "1")
+    worst = next(each["seed"] for each in found["worst"] if each["why"] == "worst Worth")
+    words = ["model.swarm", "--scenario", "scenario.toml", "--results", "one.json"]
+    run(["simulate", *words, "--trace", "none", "--seed", str(worst)])
+    one = json.loads(Path("one.json").read_text(encoding="utf-8"))
+    assert one["fitness"]["value"] == found["measures"][-1]["quantiles"]["0"]
+
+
+@pytest.mark.parametrize("arguments", [(), ("--early",)])
+def test_the_number_of_jobs_changes_nothing(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...]
+) -> None:
+    simulate(MODEL, scenario=SCENARIO)
+    capsys.readouterr()
+    seen = set()
+    for jobs in ("1", "3"):
+        estimated("--runs", "200", "--jobs", jobs, "--histogram", "many.svg", *arguments)
+        texts = [Path(name).read_bytes() for name in ("many.json", "many.svg")]
+        seen.add((capsys.readouterr().out, *texts))
+    assert len(seen) == 1
+
+
+def test_early_stops_when_all_tests_have_decided(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulate(MODEL, scenario=SCENARIO)
+    found = estimated("--runs", "5000", "--jobs", "1", "--early")
+    after = [each["decided_after"] for each in found["properties"] if "bound" in each]
+    assert found["runs"] == max(after) < 5000
+    assert f"Crew: {found['runs']} of 5000 runs, seeds" in capsys.readouterr().out
+
+
+def test_an_interrupt_leaves_what_there_is(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(runner: one_run.Runner, seed: int) -> one_run.Outcome:
+        if seed == 7:
+            raise KeyboardInterrupt
+        return plain(runner, seed)
+
+    plain = one_run.Runner.run
+    simulate(MODEL, scenario=SCENARIO)
+    monkeypatch.setattr(one_run.Runner, "run", interrupted)
+    words = ["simulate", "model.swarm", "--runs", "50", "--jobs", "1"]
+    assert run(words) == 130
+    assert "Crew: 7 of 50 runs (interrupted), seeds 0 to 6" in capsys.readouterr().out
+
+
+def _die(_seed: int) -> one_run.Outcome:
+    os._exit(3)
+
+
+def test_a_process_that_dies_is_reported(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulate(MODEL, scenario=SCENARIO)
+    monkeypatch.setattr(many, "run_seed", _die)
+    assert run(["simulate", "model.swarm", "--runs", "8", "--jobs", "2"]) == 1
+    assert "error[SW1612]: a process ended by itself, after 0 runs" in capsys.readouterr().err
+
+
+def test_runs_without_a_result(simulate: Simulate, capsys: pytest.CaptureFixture[str]) -> None:
+    loop = """
+statemachine Round {
+  var n : int32 = 1
+  initial A
+  state A { on Start -> B }
+  state B { [n > 0] -> C }
+  state C { [n > 0] -> B; on Stop -> Over }
+  final Over
+}
+"""
+    scenario = '[[messages]]\nevent = "Start"\nat = "1 s"\n'
+    simulate(loop, scenario=scenario)
+    words = ["simulate", "model.swarm", "--scenario", "scenario.toml", "--runs", "3", "--jobs", "1"]
+    assert run(words) == 1
+    said = capsys.readouterr()
+    assert "error[SW1611]: 3 of 3 runs have no result" in said.err
+    assert "3 runs without a result" in said.out
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--runs", "0"),
+        ("--runs", "9999999999"),
+        ("--runs", "x"),
+        ("--runs", "5", "--jobs", "0"),
+        ("--jobs", "2"),
+        ("--runs", "5", "--confidence", "1"),
+        ("--runs", "5", "--error", "0.5"),
+        ("--runs", "5", "--timeline", "t.svg"),
+        ("--runs", "5", "--events", "-"),
+        ("--runs", "5", "--histogram", "t.png"),
+    ],
+)
+def test_mistakes(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...]
+) -> None:
+    simulate(MODEL, scenario=SCENARIO)
+    capsys.readouterr()
+    assert run(["simulate", "model.swarm", *arguments]) == 2
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_an_unknown_property(simulate: Simulate, capsys: pytest.CaptureFixture[str]) -> None:
+    simulate(MODEL, scenario=SCENARIO)
+    words = ["--runs", "5", "--jobs", "1", "--property", "Nothing"]
+    assert run(["simulate", "model.swarm", *words]) == 1
+    assert "error[SW0202]" in capsys.readouterr().err
+
+
+def test_bars() -> None:
+    assert bars([2.0, 2.0]) == (0.0, [2])
+    width, heights = bars([0.0, 1.0, 2.0, 3.0, 10.0])
+    assert sum(heights) == 5
+    assert width * len(heights) == pytest.approx(10)
