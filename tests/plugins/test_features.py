@@ -20,7 +20,7 @@ statemachine M {
   initial Plain
   state Plain {
     defer Told
-    on member_lost [present() < 2 and in(Plain)] -> Work
+    on member_lost [present() < 2 and in(Plain) and elapsed() > 1 s] -> Work
     on Low / send Low(level = got) after 2 s, cancel Low -> Work
   }
   state Work {
@@ -84,7 +84,7 @@ def found(compiled) -> dict[Feature, list[str]]:
         (
             Feature.GUARD,
             [
-                "present() < 2 and in(Plain)",
+                "present() < 2 and in(Plain) and elapsed() > 1 s",
                 "event.level < 2.0",
                 'event.sender == ""',
                 "got < 1.0",
@@ -108,6 +108,7 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.MEMBER_EVENT, ["member_lost"]),
         (Feature.PRESENT, ["present()"]),
         (Feature.IN_STATE, ["in(Plain)"]),
+        (Feature.ELAPSED, ["elapsed()"]),
         (Feature.CROSS_LEVEL, ["on Low -> End"]),
         (Feature.INTO_STATE, ["internal on Low -> In"]),
         (Feature.HISTORY, ["Back"]),

@@ -96,15 +96,16 @@ def replayed(*traces: Iterable[dict[str, Any]]) -> Told:
     report = Diagnostics()
     cast = actors(subject, subject.create_robots({}), Scenario(), report)
     text = "".join(f"{json.dumps(line)}\n" for trace in traces for line in trace)
-    recording = Recording(watchable(subject))
+    recording = Recording(watchable(subject), None)
     found = replay(Source("trace.jsonl", text), subject, cast, report, recording.see)
     assert not list(report)
+    verdicts, _ = recording.results(found.end)
     return {
         result.property.name: (
             result.verdict,
             [(each.robot, each.time // 1_000_000) for each in result.violations],
         )
-        for result in recording.results(found.end)
+        for result in verdicts
     }
 
 

@@ -37,7 +37,7 @@ member Uav {
   behavior Look
   param wait : duration = 1500 ms
   param name : string = "it's $(x)"
-  left : Eye { wait = 500 ms }
+  left : Eye { wait = 500 ms, name = "port" }
 }
 member Stone { }
 environment Field { world "worlds/field.world" }
@@ -122,9 +122,15 @@ def test_params_of_a_robot(generate: Generate) -> None:
     text = generate(MODEL)["param/uav.yaml"].text
     assert yaml.safe_load(text) == {
         "look": {"wait": 1.5, "name": "it's $(x)", "small": 1e-07, "loud": True},
-        "left": {"wait": 0.5, "small": 1e-07, "loud": True},
+        "left": {"wait": 0.5, "name": "port", "small": 1e-07, "loud": True},
     }
     assert "  # How long it looks.\n  wait: 1.5\n" in text
+
+
+def test_params_without_a_value_are_named(generate: Generate) -> None:
+    alone = MODEL.partition("/// All of them.")[0].replace(', name = "port"', "")
+    text = generate(alone)["param/uav.yaml"].text
+    assert "name" not in yaml.safe_load(text)["left"]
     assert "  # name: requires a value of type string\n" in text
 
 
@@ -157,7 +163,7 @@ def test_test_of_the_machines(generate: Generate) -> None:
     }
     assert tests == {
         "uav_look": {"machine": "look", "wait": "1.5", "name": "0"},
-        "uav_left": {"machine": "look", "wait": "0.5", "name": "0"},
+        "uav_left": {"machine": "look", "wait": "0.5", "name": "port"},
     }
     assert files["test/test_machine.py"].executable
     assert "add_rostest(test/machines.test)" in files["CMakeLists.txt"].text

@@ -342,7 +342,9 @@ def _members(
         parts = []
         for place in range(draw(st.integers(0, 2)) if components else 0):
             component = draw(st.sampled_from(components))
-            chosen = [each for each in component.params if draw(st.booleans())]
+            chosen = [
+                each for each in component.params if each.default is None or draw(st.booleans())
+            ]
             values = [(each.name, expressions(draw, each.type, leaves)) for each in chosen]
             offered = asked_of(f"part{number}{place}", component.operations, functions)
             functions += offered
