@@ -104,11 +104,8 @@ def _claim(claim: Claim) -> str:
 def _term(term: Term) -> str:
     negation = "it is not so that " if term.negated else ""
     if term.claim is not None:
-        return (
-            f"{negation}({_claim(term.claim)})"
-            if _joins(term.claim)
-            else (f"{negation}{_claim(term.claim)}")
-        )
+        claim = _claim(term.claim)
+        return f"{negation}({claim})" if _joins(term.claim) else f"{negation}{claim}"
     assert term.fact is not None
     return f"{negation}{_fact(term.fact)}"
 
