@@ -143,7 +143,8 @@ member Carrier extends Cart {
 }
 member Cart { scale : Scale }
 swarm Site { carrier : Carrier[3]; fitness Yield }
-fitness Yield { in loads : uint32; maximize loads * 2 }
+swarm Yard { carrier : Carrier[2] }
+fitness Yield { in loads : uint32 = total(carrier in Lift); maximize loads * 2 }
 optimize Site { evaluations 10; carrier.limit in 1.0 .. 2.0 }
 """
 

@@ -9,6 +9,7 @@ from swarmdsl.base.diagnostics.collector import Level
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.settings import Settings
 from swarmdsl.driver.workspace import Workspace
+from swarmdsl.lowering import lower
 
 Say = Callable[[str], list[str]]
 SETTINGS = Settings(levels={"unused-declaration": Level.WARN})
@@ -211,3 +212,29 @@ def test_a_fact_of_a_property_becomes_impossible(say: Say) -> None:
     assert say(EXCHANGE + sends) == ["impossible-fact"]
     more = EXCHANGE.replace("on Start -> B", "on Start / send Start -> B")
     assert say(more + sends) == []
+
+
+def test_another_swarm_has_the_fitness(tmp_path: Path) -> None:
+    """The swarms are in one file, the fitness that their bodies name is in another one."""
+    model, goal = tmp_path / "model.swarm", tmp_path / "goal.swarm"
+    swarms = f'import "goal.swarm"\n{EXCHANGE}swarm Other {{ hearer : Hearer[1] }}\n'
+    model.write_text(swarms, encoding="utf-8")
+    fitness = "fitness Ends { in ends : uint32 = count(teller in B); maximize ends }\n"
+    goal.write_text(fitness, encoding="utf-8")
+    workspace = Workspace([tmp_path], SETTINGS)
+
+    def said(text: str) -> list[str]:
+        workspace.update({model: text})
+        model.write_text(text, encoding="utf-8")
+        anew = pipeline.check([tmp_path], SETTINGS)
+        found = [(each.name, each.message) for each in workspace.report]
+        assert found == [(each.name, each.message) for each in anew.report]
+        if anew.valid is not None:
+            assert lower(workspace.project) == anew.system
+        return [name for name, _ in found]
+
+    assert "unclear-property" in said(swarms)
+    had = swarms.replace("hearer : Hearer[1] }\nswarm", "hearer : Hearer[1]; fitness Ends }\nswarm")
+    assert had != swarms
+    assert "unclear-property" not in said(had)
+    assert "unclear-property" in said(swarms)

@@ -15,7 +15,6 @@ from swarmdsl.analysis.resolve.properties import (
     each_robot_of,
     facts_in,
     machines_of_fact,
-    own_swarms,
     robots_in,
     role_of_fact,
     subjects_of,
@@ -52,7 +51,7 @@ def check_subjects(project: Project, context: Context) -> None:
         assert isinstance(owner, (Property, Fitness))
         if owner.subject is not None or file.library:
             continue
-        found = [*own_swarms(project)] if measures else subjects_of(project)
+        found = subjects_of(owner, project)
         if len(found) == 1 or any(each.parsed.skipped_names for each in project.files):
             continue
         names = [f"of {each.name}" for each in found]

@@ -25,6 +25,7 @@ from swarmdsl.syntax.ast import (
     Fact,
     Fitness,
     FitnessInput,
+    FitnessUse,
     History,
     Measure,
     Member,
@@ -47,22 +48,37 @@ from swarmdsl.syntax.ast import (
 
 Path = tuple[str, ...]
 Sentence = Property | Measure
-"""What has facts about the robots of its subject, or about the robot of its `each`."""
+"""Node with facts about the robots of its subject, or about the robot of its `each`."""
 N = TypeVar("N", bound=Node)
 
 _SUBJECTS: tuple[type[Swarm | StateMachine], ...] = (Swarm, StateMachine)
 
 
-def subjects_of(project: Project) -> list[PropertySubject]:
-    """Return what a property that names no subject can be about: swarms, else machines."""
-    own = (node for file, node in project.declarations() if not file.library)
-    return [*own_swarms(project)] or [node for node in own if isinstance(node, StateMachine)]
+def subjects_of(owner: Property | Fitness, project: Project) -> Sequence[PropertySubject]:
+    """Return what a property or fitness that names no subject can be about.
+
+    For a property, these are all swarms, or all state machines of a model without swarms.
+    """
+    if isinstance(owner, Fitness):
+        return measured_swarms(owner, project)
+    return _own(project, Swarm) or _own(project, StateMachine)
 
 
-def own_swarms(project: Project) -> list[Swarm]:
-    """Return what a fitness that names no swarm can be about: the swarms of the model."""
+def measured_swarms(fitness: Fitness, project: Project) -> list[Swarm]:
+    """Return what a fitness that names no swarm can be about: those that have it, else all."""
+    swarms = _own(project, Swarm)
+    return [each for each in swarms if _has(each, fitness)] or swarms
+
+
+def _own(project: Project, kind: type[N]) -> list[N]:
     own = (node for file, node in project.declarations() if not file.library)
-    return [node for node in own if isinstance(node, Swarm)]
+    return [node for node in own if isinstance(node, kind)]
+
+
+def _has(swarm: Swarm, fitness: Fitness) -> bool:
+    """Return True if a swarm has a fitness; this reference is resolved before."""
+    uses = (item for item in swarm.items if isinstance(item, FitnessUse))
+    return any(use.fitness.target is fitness for use in uses)
 
 
 def link_property(
@@ -81,8 +97,8 @@ def link_fitness(
     measures = nodes_of(owner, Measure)
     owner.about = owner.subject.target if owner.subject is not None else None
     if measures and owner.subject is None:
-        swarms = own_swarms(scope.project)
-        owner.about = swarms[0] if len(swarms) == 1 else None
+        found = measured_swarms(owner, scope.project)
+        owner.about = found[0] if len(found) == 1 else None
     guards: set[Expression] = set()
     for measure in measures:
         measure.about = owner.about
@@ -153,7 +169,7 @@ def _link_facts(
 def _subject(owner: Property, scope: FileScope, report: Diagnostics) -> PropertySubject | None:
     ref = owner.subject
     if ref is None:
-        found = subjects_of(scope.project)
+        found = subjects_of(owner, scope.project)
         return found[0] if len(found) == 1 else None
     ref.target = resolve_or_report(scope, ref.name, ref.span, _SUBJECTS, report)
     return ref.target

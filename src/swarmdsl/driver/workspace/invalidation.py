@@ -14,7 +14,7 @@ from swarmdsl.driver.workspace.fragments import Fragment, with_users
 from swarmdsl.project.loader import File, Project
 from swarmdsl.project.rosidl import standard
 from swarmdsl.syntax.action_messages import generated_names
-from swarmdsl.syntax.ast import ActionType, Fitness, Interface, Property
+from swarmdsl.syntax.ast import ActionType, Fitness, Interface, Property, Swarm
 
 
 @dataclass
@@ -87,7 +87,9 @@ def affected(
     if change.declarations_changed:
         # Diagnostics of unresolved names depend on all names.
         found.update(noted)
-        # What a property or fitness that names no subject is about depends on all declarations.
+    if change.declarations_changed or any(map(_has_swarm, found)):
+        # The subject of a property or fitness that names none depends on all declarations, that of
+        # a fitness also on the swarms that have it.
         found.update(each for each in fragments if _names_no_subject(each))
     if change.names:
         found.update(_containing(change.names, fragments))
@@ -100,6 +102,10 @@ def _names_no_subject(fragment: Fragment) -> bool:
         isinstance(each, (Fitness, Property)) and each.subject is None
         for each in fragment.parsed.model.declarations
     )
+
+
+def _has_swarm(fragment: Fragment) -> bool:
+    return any(isinstance(each, Swarm) for each in fragment.parsed.model.declarations)
 
 
 def _containing(names: Collection[str], fragments: Iterable[Fragment]) -> Iterator[Fragment]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.analysis.resolve.addresses import machines_in, roles_of, swarms_of
 from swarmdsl.analysis.resolve.inheritance import all_items
@@ -12,7 +12,6 @@ from swarmdsl.analysis.resolve.properties import (
     facts_in,
     machines_of_fact,
     matches,
-    own_swarms,
     state_paths,
     subjects_of,
 )
@@ -190,10 +189,7 @@ class Candidates:
         if owner.subject is not None:
             name = owner.subject.name
             return self._scope.one(name, Swarm) or self._scope.one(name, StateMachine)
-        project = self._workspace.project
-        own: Sequence[PropertySubject] = (
-            own_swarms(project) if isinstance(owner, Fitness) else subjects_of(project)
-        )
+        own = subjects_of(owner, self._workspace.project)
         return own[0] if len(own) == 1 else None
 
     def _roles(self) -> list[Node]:
