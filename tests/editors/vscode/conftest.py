@@ -15,6 +15,7 @@ from . import environment
 
 ROOT = Path(__file__).resolve().parents[3]
 HOST = ROOT / ".vscode-host"
+NOTES = "NOTES.md"
 NOTE = "```swarm\nstate Idle {\n}\n```\n\nstate Idle\n"
 EXAMPLE = ROOT / "examples" / "search_and_rescue"
 
@@ -38,7 +39,7 @@ def whole(packages: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory)
 
     scratch = tmp_path_factory.mktemp("vscode")
     folder = shutil.copytree(EXAMPLE, scratch / EXAMPLE.name)
-    (folder / "NOTES.md").write_text(NOTE, encoding="utf-8")
+    (folder / NOTES).write_text(NOTE, encoding="utf-8")
     with opened(HOST, chromium, packages[0], folder, scratch / "home") as window:
         window.open("behaviours.swarm")
         window.server(__version__)
@@ -49,6 +50,10 @@ def whole(packages: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory)
 def window(whole):
     """Return the window, with no open files and the example restored."""
     whole.leave()
+    given = {path.name for path in EXAMPLE.iterdir()} | {NOTES}
+    for path in whole.folder.glob("*.*"):
+        if path.name not in given and path.is_file():
+            path.unlink()  # a model that a test has made is part of the project
     for path in EXAMPLE.iterdir():
         copy = whole.folder / path.name
         # A rewritten file is read again, perhaps during an edit.
