@@ -98,6 +98,7 @@ def test_a_project_says_what_the_model_is(swarmc: Callable[..., Ran], folder: Pa
         (["empty"], 1, "error[SW1102]: no test in `empty`"),
         (["-k", "nothing"], 1, "`-k nothing` leaves out all 1"),
         (["--fail-under", "101"], 2, ""),
+        (["--fail-under", "nan"], 2, ""),
         (["--seed", "x"], 2, ""),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from functools import reduce
 from pathlib import Path
@@ -26,6 +27,20 @@ class _Place(click.Path):
 
 
 PLACE = _Place(path_type=Path)
+
+
+class Number(click.FloatRange):
+    """Number in a range; NaN is in none, though it compares as neither less nor greater."""
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, context: click.Context | None
+    ) -> Any:
+        """Return the number as Click does."""
+        number = super().convert(value, param, context)
+        if math.isnan(number):
+            self.fail(f"{value!r} is not a number", param, context)
+        return number
+
 
 _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import os
 import sys
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.cli import options
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
+from swarmdsl.cli.many_runs import many_of, many_runs
 from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
@@ -28,16 +27,6 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     if text is not None and length is None:
         raise click.BadParameter(f"`{text}` is not a duration like `90s`, `500ms` or `10min`")
     return length
-
-
-def _check_runs(runs: int | None, needs: Mapping[str, bool], conflicts: Mapping[str, bool]) -> None:
-    """Check options that need `--runs`, or say nothing about many runs."""
-    for name, given in needs.items():
-        if given and runs is None:
-            raise click.UsageError(f"`--{name}` needs `--runs`")
-    for name, given in conflicts.items():
-        if given and runs is not None:
-            raise click.UsageError(f"`--runs` and `--{name}` conflict")
 
 
 @click.command(
@@ -95,49 +84,7 @@ def _check_runs(runs: int | None, needs: Mapping[str, bool], conflicts: Mapping[
     multiple=True,
     help="Run what this property is about, and watch only it; may be repeated.",
 )
-@click.option(
-    "--runs",
-    type=click.IntRange(1, 1_000_000),
-    metavar="N",
-    help="Run so many times, with the seeds from `--seed` on, and print estimates.",
-)
-@click.option(
-    "--jobs",
-    type=click.IntRange(1, 256),
-    metavar="J",
-    help="Number of processes for `--runs`.  [default: one for each processor]",
-)
-@click.option(
-    "--early",
-    is_flag=True,
-    help="End `--runs` when the tests of all properties with a chance have decided.",
-)
-@click.option(
-    "--confidence",
-    type=click.FloatRange(0, 1, min_open=True, max_open=True),
-    default=0.95,
-    show_default=True,
-    help="Level of the intervals of `--runs`.",
-)
-@click.option(
-    "--indifference",
-    type=click.FloatRange(0, 0.5, min_open=True),
-    default=0.02,
-    show_default=True,
-    help="Distance from a chance within which either decision of the sequential test is right.",
-)
-@click.option(
-    "--error",
-    type=click.FloatRange(0, 0.5, min_open=True, max_open=True),
-    default=0.05,
-    show_default=True,
-    help="Probability of a wrong decision of the sequential test farther away.",
-)
-@click.option(
-    "--histogram",
-    type=click.Path(path_type=Path),
-    help="Draw the measures of `--runs`, as SVG.",
-)
+@many_runs
 @click.option("--no-properties", is_flag=True, help="Do not watch the properties of the model.")
 @click.option("--stop-on-violation", is_flag=True, help="End the run when a property is violated.")
 @click.option("--real-time", is_flag=True, help="Run in real time.")
@@ -155,19 +102,13 @@ def simulate(
     results: Path | None,
     replay: tuple[Path, ...],
     seed: int | None,
-    runs: int | None,
-    jobs: int | None,
-    early: bool,
-    confidence: float,
-    indifference: float,
-    error: float,
-    histogram: Path | None,
     until: int | None,
     properties: tuple[str, ...],
     no_properties: bool,
     stop_on_violation: bool,
     real_time: bool,
     format_: str,
+    **many_options: Any,
 ) -> int:
     """Simulate a swarm or a state machine, in virtual time.
 
@@ -197,25 +138,7 @@ def simulate(
             f"`--format {format_}` and `--trace {trace}` both print: write the "
             "trace to a `--trace-file`"
         )
-    _check_runs(
-        runs,
-        {
-            "jobs": jobs is not None,
-            "early": early,
-            "histogram": histogram is not None,
-        },
-        {
-            "replay": bool(replay),
-            "trace": trace is not None and trace != "none",
-            "trace-file": trace_file is not None,
-            "timeline": timeline is not None,
-            "real-time": real_time,
-            "stop-on-violation": stop_on_violation,
-            "events -": events == "-",
-        },
-    )
-    if histogram is not None:
-        options.check_picture(histogram, "--histogram", ".svg", {})
+    many = many_of(**many_options)
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
     request = Request(
@@ -236,14 +159,11 @@ def simulate(
         properties,
         results,
     )
-    if runs is None:
+    if many is None:
         simulate_ = run_simulation
     else:
-        from swarmdsl.execution.simulate.estimates import Level
-        from swarmdsl.execution.simulate.many import Many, simulate_many
+        from swarmdsl.execution.simulate.many import simulate_many
 
-        level = Level(confidence, indifference, error)
-        many = Many(runs, jobs or os.cpu_count() or 1, level, early, histogram)
         simulate_ = partial(simulate_many, many)
     if not is_document:
         succeeded = simulate_(request, lambda report: render(report, format_, sys.stderr))

@@ -29,7 +29,7 @@ from swarmdsl.cli.exit_code import ERRORS, OK
 @click.option("--coverage", is_flag=True, help="Show states and transitions that are not covered.")
 @click.option(
     "--fail-under",
-    type=click.FloatRange(0, 100),
+    type=options.Number(0, 100),
     metavar="PERCENT",
     help="Fail if the coverage of states and transitions is lower.",
 )
