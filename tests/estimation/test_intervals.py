@@ -72,6 +72,13 @@ def test_the_errors_of_the_sequential_test(probability: float, expected: str) ->
     assert wrong < 20
 
 
+@pytest.mark.parametrize(("probability", "success"), [(0.99, False), (0.01, True)])
+def test_one_run_decides_nothing_near_0_and_1(probability: float, success: bool) -> None:
+    test = SequentialTest(Region.around(probability, 0.02, 0.05))
+    test.add(success=success)
+    assert test.decision is None
+
+
 @pytest.mark.parametrize("probability", [0.0, 0.5, 1.0])
 def test_the_region_is_between_0_and_1(probability: float) -> None:
     region = Region.around(probability, 0.02, 0.01)

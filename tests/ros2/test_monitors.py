@@ -205,3 +205,7 @@ def test_who_is_not_heard_is_told(ros: Any, variant: Callable[..., Path]) -> Non
     assert "OneLoaded: true, but carrier[1] not heard" in monitor.log
     last = [each for each in monitor.trace if "property" in each][-1]
     assert last["conditions"] == ["carrier[1] not heard"]
+    # Nothing was loaded.
+    assert "SomeLoad: true, but its scope never began, carrier[1] not heard" in monitor.log
+    assert last["property"] == "SomeLoad"
+    assert last["remark"] == "its scope never began"

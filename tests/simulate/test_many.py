@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import re
+import shlex
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +72,7 @@ def test_estimates_name_their_conditions(
     assert rarely["verdict"] == "false"
     assert rarely["decided_after"] <= 60
     assert f"error[SW1609]: property `Fine` is violated in {fine['false']} of 60 runs" in said.err
-    assert "error[SW1610]: property `Rarely` is not true at most 0.5" in said.err
+    assert "error[SW1610]: property `Rarely` is not true in at most 0.5" in said.err
     good, _, worth = found["measures"]
     assert good["quantiles"]["1"] == 2
     assert worth["mean"] == good["mean"]
@@ -84,6 +86,73 @@ def test_the_worst_runs_can_be_repeated(simulate: Simulate) -> None:
     run(["simulate", *words, "--trace", "none", "--seed", str(worst)])
     one = json.loads(Path("one.json").read_text(encoding="utf-8"))
     assert one["fitness"]["value"] == found["measures"][-1]["quantiles"]["0"]
+
+
+def test_the_command_of_a_run_chooses_the_same_subject(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulate(f"{MODEL}\nswarm Others {{ robot : Robot[2] }}", scenario=SCENARIO)
+    capsys.readouterr()
+    words = ["--scenario", "scenario.toml", "--property", "Fine", "--until", "90500ms"]
+    assert run(["simulate", "model.swarm", *words, "--runs", "20", "--jobs", "1"]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    command = next(each for each in lines if each.startswith("violates Fine")).split(": ")[-1]
+    assert "--until 90500ms" in command
+    run([*shlex.split(command)[1:], "--trace", "none"])
+    assert "error[SW1606]: property `Fine` is violated" in capsys.readouterr().err
+
+
+def test_true_verdicts_about_no_part_of_a_run(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    later = "property Later of Crew : after some robot in Bad, never all robot in Try"
+    simulate(f"{MODEL}\n{later}", scenario=SCENARIO)
+    found = estimated("--runs", "6", "--jobs", "1", "--until", "500ms")
+    assert found["properties"][-1]["remarks"] == {"its scope never began": 6}
+    assert "its scope never began in 6 runs" in capsys.readouterr().out
+
+
+def test_failed_evaluations_are_counted(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = MODEL.replace("initial Try", "var n : int32 = 0\n  initial Try").replace(
+        "on aborted   -> Bad", "on aborted / n = 1 % n -> Bad"
+    )
+    simulate(model, scenario=SCENARIO)
+    capsys.readouterr()
+    words = ["model.swarm", "--scenario", "scenario.toml", "--runs", "30", "--jobs", "2"]
+    run(["simulate", *words])
+    said = capsys.readouterr()
+    fine = re.search(r"^Fine +\d+ +(\d+)", said.out, re.MULTILINE)
+    assert fine is not None
+    assert "warning[SW1007]: evaluation failed in `Trying`: integer modulo by zero" in said.err
+    assert f"times in {fine[1]} of 30 runs" in said.err
+
+
+def test_a_value_out_of_the_range_of_its_type(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = MODEL.replace("on aborted   -> Bad", "on aborted -> Try; after 1 min -> Bad")
+    model = model.replace(
+        "good    : uint32   = count(robot in Good)", "good : uint8 = total(robot starts go)"
+    )
+    simulate(model, scenario='[functions]\ngo = { duration = "100 ms", aborted = 1.0 }\n')
+    found = estimated("--runs", "2", "--jobs", "1")
+    assert found["measures"][-1]["count"] == 0
+    said = capsys.readouterr().out
+    assert re.search(r"no value in 2 runs: `good`: \d+ is out of range of uint8", said)
+
+
+def test_a_histogram_of_nothing_is_not_written(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulate(MODEL.replace("; fitness Worth }", " }"))
+    words = ["--runs", "2", "--jobs", "1", "--histogram", "m.svg"]
+    assert run(["simulate", "model.swarm", *words]) == 0
+    said = capsys.readouterr().err
+    assert "warning[SW1613]: `m.svg` is not written" in said
+    assert "\nwritten: " not in said
+    assert not Path("m.svg").exists()
 
 
 @pytest.mark.parametrize("arguments", [(), ("--early",)])
@@ -107,7 +176,9 @@ def test_early_stops_when_all_tests_have_decided(
     found = estimated("--runs", "5000", "--jobs", "1", "--early")
     after = [each["decided_after"] for each in found["properties"] if "bound" in each]
     assert found["runs"] == max(after) < 5000
-    assert f"Crew: {found['runs']} of 5000 runs, seeds" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert f"Crew: {found['runs']} of 5000 runs, seeds" in said
+    assert "intervals of 95 % for a fixed number of runs" in said
 
 
 def test_an_interrupt_leaves_what_there_is(
@@ -167,7 +238,15 @@ statemachine Round {
         ("--runs", "x"),
         ("--runs", "5", "--jobs", "0"),
         ("--jobs", "2"),
+        ("--early",),
+        ("--confidence", "0.9"),
+        ("--indifference", "0.1"),
+        ("--error", "0.1"),
+        ("--histogram", "t.svg"),
         ("--runs", "5", "--confidence", "1"),
+        ("--runs", "5", "--confidence", "nan"),
+        ("--runs", "5", "--trace", "json"),
+        ("--runs", "5", "--real-time"),
         ("--runs", "5", "--error", "0.5"),
         ("--runs", "5", "--timeline", "t.svg"),
         ("--runs", "5", "--events", "-"),

@@ -83,6 +83,7 @@ def test_an_event_before_the_next_input_is_one_fact(simulate: Simulate) -> None:
     ("goal", "said"),
     [
         ("minimize x / 1 s", ("6", "fitness, to minimize")),
+        ("maximize late / 1 s", ("601.5", "fitness, to maximize: with late not reached")),
         ("maximize 1 / count", ("-", "fitness, to maximize: division by zero")),
         ("maximize other", ("-", "fitness, to maximize: `other` is not measured")),
         ("param w : float64\n  maximize w", ("-", "fitness, to maximize: param `w` has no value")),
@@ -91,8 +92,11 @@ def test_an_event_before_the_next_input_is_one_fact(simulate: Simulate) -> None:
 )
 def test_fitness(simulate: Simulate, goal: str, said: tuple[str, str]) -> None:
     inputs = ["x : duration = time(robot in Going)", "count : uint32 = count(robot in Going)"]
-    if "other" in goal:
-        inputs.append("other : float64")
+    optional = {
+        "other": "other : float64",
+        "late": "late : duration = time until all robot in Busy",
+    }
+    inputs += [text for name, text in optional.items() if name in goal]
     ran = simulate(with_inputs(*inputs, goal=goal), "--trace", "none", events=EVENTS)
     assert measured(ran)["Pace"] == said
     assert ran.code == 0

@@ -57,6 +57,12 @@ def verdicts(ran: Ran) -> dict[str, tuple[str, str]]:
         # Machines start at once: at the first step all of them are in their first state.
         ("all robot in Idle at all times", "false", "at 1 s"),
         ("before Start, all robot in Idle at all times", "true", ""),
+        ("before Stop, robot[2] in Idle at all times", "true", "its scope never ended"),
+        ("after Stop, never robot[2] in Idle", "true", "its scope never began"),
+        ("after Stop until Start, never robot[2] in Idle", "true", "its scope never began"),
+        ("between Start and Stop, never robot[2] in Busy", "true", "its scope never ended"),
+        ("each robot : after hears Stop, never in Idle", "true", "its scope never began"),
+        ("each robot : after hears Start, eventually in Busy", "true", ""),
         ("never count(robot in Going) > 1", "false", "at 1.5 s"),
         ("never count(robot in Busy.Going) > 2", "true", ""),
         ("never robot[2] in Busy", "true", ""),

@@ -31,6 +31,7 @@ class Verdicts:
         self._name = f'{node.get_fully_qualified_name().lstrip("/")}: {{}}'
         self._found = {each.name: (each, OPEN) for each in swarm.properties}
         self._violations = {each.name: [] for each in swarm.properties}
+        self._remarks = {}
         self._diagnostics = node.create_publisher(DiagnosticArray, '/diagnostics', _DEPTH)
         self._verdicts = node.create_publisher(String, '~/verdicts', _HISTORY)
         try:
@@ -56,6 +57,8 @@ class Verdicts:
             ],
             'conditions': list(self._lines.conditions()),
         }
+        if self._remarks.get(property_.name):
+            line['remark'] = self._remarks[property_.name]
         self._verdicts.publish(String(data=_as_json(line)))
         self._write(line)
 
@@ -77,6 +80,7 @@ class Verdicts:
     def finish(self, results, time):
         """Tell the verdicts at the end."""
         for result in results:
+            self._remarks[result.property.name] = result.remark
             self.note(result.property, result.verdict, time)
             self._node.get_logger().info(f'{result.property.name}: {self._said(result.property)}')
         self.tell()
@@ -123,7 +127,8 @@ class Verdicts:
         by_chance = verdict == FALSE and property_.chance is not None
         said = ['false in this run' if by_chance else str(verdict)]
         said += [_by(each) for each in self._violations[property_.name][:1]]
-        conditions = ', '.join(self._lines.conditions())
+        remark = self._remarks.get(property_.name)
+        conditions = ', '.join([*([remark] if remark else []), *self._lines.conditions()])
         return ' '.join(said) + (f', but {conditions}' if conditions else '')
 
     def _write(self, line):

@@ -357,10 +357,11 @@ CODES: dict[str, Code] = {
     "refuted-chance": Code(
         "SW1610",
         "error",
-        "property `{name}` is not true at {bound} {probability} of the time, after {runs} runs",
+        "property `{name}` is not true in at {bound} {probability} of all runs, after {runs} runs",
     ),
     "failed-runs": Code("SW1611", "error", "{count} of {runs} runs have no result: {reason}"),
     "lost-worker": Code("SW1612", "error", "a process ended by itself, after {runs} runs"),
+    "no-histogram": Code("SW1613", "warning", "`{path}` is not written: no measure has a value"),
     # ---- verification
     "refuted-property": Code("SW1701", "error", "property `{name}` does not hold{who}"),
     "stuck-swarm": Code("SW1702", "warning", "the swarm can get stuck: nothing goes on by itself"),

@@ -21,7 +21,13 @@ class Region:
 
     @staticmethod
     def around(probability: float, half: float, error: float) -> Region:
-        """Return the region around a probability; it stays between 0 and 1."""
+        """Return the region around a probability.
+
+        It extends at most half the way to 0 and to 1: if it contained them, one run could decide
+        against a probability of nearly 0 or 1. Around 0 and 1 themselves, it is on one side.
+        """
+        if 0 < probability < 1:
+            half = min(half, probability / 2, (1 - probability) / 2)
         lower = max(probability - half, _LEAST)
         upper = min(probability + half, 1 - _LEAST)
         return Region(min(lower, 1 - 2 * _LEAST), max(upper, 2 * _LEAST), error)

@@ -46,6 +46,8 @@ class Monitor:
         self._scope = sentence.scope
         self._pattern: Pattern | None = None
         self._over = False
+        self._began = False
+        self._ended = False
 
     def copy(self) -> Monitor:
         """Return a monitor that has seen the same."""
@@ -72,6 +74,15 @@ class Monitor:
         pattern = self._pattern
         settled = pattern is None or (pattern.broken is None and not pattern.owes)
         return TRUE if settled else OPEN
+
+    @property
+    def remark(self) -> str:
+        """Return why a verdict is about no part of the run, else an empty string."""
+        if not self._began:
+            return "its scope never began"
+        if self._waits_for_end and not self._ended:
+            return "its scope never ended"
+        return ""
 
     @property
     def due(self) -> int | None:
@@ -137,6 +148,7 @@ class Monitor:
         return self._scope in ("between", "until") and scope[1]
 
     def _open(self, time: int) -> None:
+        self._began = True
         said = self._sentence
         self._pattern = pattern_of(
             said.kind, time, said.within, said.times, momentary=said.momentary
@@ -147,6 +159,7 @@ class Monitor:
         self._pattern.close(time)
         if self._pattern.broken is not None:
             self.violated = time if self._waits_for_end else self._pattern.broken
+        self._ended = True
         self._over = self._scope == "before"
         self._pattern = None
 

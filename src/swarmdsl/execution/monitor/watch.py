@@ -29,12 +29,16 @@ class Violation(NamedTuple):
 
 
 class PropertyResult(NamedTuple):
-    """Verdict on a property at the end of a run; `robots` are those with the same verdict."""
+    """Verdict on a property at the end of a run; `robots` are those with the same verdict.
+
+    `remark` says why a true one is about no part of the run.
+    """
 
     property: Property
     verdict: Verdict
     robots: tuple[str, ...]
     violations: tuple[Violation, ...]
+    remark: str = ""
 
 
 class Interest(NamedTuple):
@@ -173,7 +177,8 @@ class Watch:
             worst = next((v for v in (FALSE, OPEN) if v in verdicts.values()), TRUE)
             robots = tuple(name for name, v in verdicts.items() if v == worst and name is not None)
             violations = tuple(v for v in self.violations if v.property is each.property)
-            found.append(PropertyResult(each.property, worst, robots, violations))
+            remark = each.remark if worst == TRUE else ""
+            found.append(PropertyResult(each.property, worst, robots, violations, remark))
         return found
 
     def readings(self, time: int, limit: int | None = None) -> list[Reading]:
@@ -302,6 +307,14 @@ class _Watched:
         """The worst verdict so far."""
         states = {monitor.state for monitor in self._monitors.values()}
         return next((each for each in (FALSE, OPEN) if each in states), TRUE)
+
+    @property
+    def remark(self) -> str:
+        """Return why a verdict is about no part of the run, for no robot."""
+        remarks = {monitor.remark for monitor in self._monitors.values()}
+        if not remarks:
+            return "there was no robot"
+        return "" if "" in remarks else min(remarks)
 
     def finish(self, time: int, *, ended: bool) -> Mapping[str | None, Verdict]:
         """Return the verdicts by robot."""

@@ -29,6 +29,15 @@ def duration(text: str) -> int | None:
     return length if length <= _LONGEST else None
 
 
+def written_duration(length: int) -> str:
+    """Write a duration so that `duration` reads the same: `90s`."""
+    whole = [unit for unit, size in UNITS.items() if length and length % size == 0]
+    if not whole:
+        return f"{length // UNITS['us']}.{length % UNITS['us']:03}us"
+    unit = max(whole, key=UNITS.__getitem__)
+    return f"{length // UNITS[unit]}{unit}"
+
+
 def is_too_long(text: str) -> bool:
     """Return True if a string is a duration that is too long for ROS."""
     return _WRITTEN.fullmatch(text) is not None and duration(text) is None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
@@ -77,6 +78,9 @@ class Value:
     is_time: bool
     by_seed: tuple[tuple[int, float], ...]
     unreached: int = 0
+    missing: int = 0
+    """Number of runs with a result, but without this value; the first of them has a `reason`."""
+    reason: str = ""
 
 
 class Estimates:
@@ -116,21 +120,29 @@ class Estimates:
             read = [(o.seed, *o.measures[index]) for o in self.outcomes if o.measures]
             by_seed = tuple((seed, value) for seed, value, _ in read if value is not None)
             missed = sum(not reached for *_, reached in read)
-            found.append(Value(each.name, each.type == DURATION, by_seed, missed))
-        fitness = tuple((o.seed, o.fitness) for o in self.outcomes if o.fitness is not None)
-        found.append(Value(self._fitness.name, is_time=False, by_seed=fitness))
+            missing = len(read) - len(by_seed)
+            found.append(Value(each.name, each.type == DURATION, by_seed, missed, missing))
+        ran = [each for each in self.outcomes if not each.failure]
+        fitness = tuple((o.seed, o.fitness) for o in ran if o.fitness is not None)
+        missing = len(ran) - len(fitness)
+        reason = next((each.reason for each in ran if each.reason), "")
+        found.append(Value(self._fitness.name, False, fitness, missing=missing, reason=reason))
         return found
 
     # ---- text
 
-    def head(self, subject: str, scenario: str | None, wanted: int, *, interrupted: bool) -> str:
-        """Return the conditions of all numbers."""
+    def head(
+        self, subject: str, scenario: str | None, wanted: int, *, interrupted: bool, early: bool
+    ) -> str:
+        """Return the conditions of all numbers; runs that end `early` do so by their outcomes."""
         done = len(self.outcomes)
         of = "" if done == wanted else f" of {wanted}"
         why = " (interrupted)" if interrupted else ""
         seeds = f", seeds {self.outcomes[0].seed} to {self.outcomes[-1].seed}" if done else ""
         environment = f"scenario {scenario}" if scenario is not None else "no scenario"
         level = f"intervals of {_percent(self._level.confidence)}"
+        if early and done < wanted and not interrupted:
+            level += " for a fixed number of runs"
         return f"{subject}: {done}{of} runs{why}{seeds}, {environment}, {level}"
 
     def text(self, command: Command) -> Iterator[str]:
@@ -140,7 +152,7 @@ class Estimates:
             yield f"{counted(len(failed), 'run')} without a result"
             yield ""
         yield from format_table(
-            ("property", "true", "false", "open", "chance", "estimate", "test"),
+            ("property", "true", "false", "open", "chance", "estimate", "test", ""),
             (self._verdict_row(number) for number in range(len(self._properties))),
         )
         yield from format_table(
@@ -159,16 +171,23 @@ class Estimates:
     def _verdict_row(self, number: int) -> tuple[str, ...]:
         each = self._properties[number]
         counts = self._counts(number)
+        remarks = self._remarks(number).items()
+        notes = ", ".join(f"{said} in {counted(runs, 'run')}" for said, runs in remarks)
         chance = self._chances.get(each.name)
         if chance is None or each.chance is None:
-            return each.name, *map(str, counts), "", "", ""
+            return each.name, *map(str, counts), "", "", "", notes
         interval = self._interval(counts)
         test = chance.verdict
         if chance.runs is not None:
             test += f" after {counted(chance.runs, 'run')}"
         wanted = f"at {each.chance.bound} {each.chance.probability:g}"
         estimate = f"{_share(counts)} in {interval.lower:.4f} .. {interval.upper:.4f}"
-        return each.name, *map(str, counts), wanted, estimate, test
+        return each.name, *map(str, counts), wanted, estimate, test, notes
+
+    def _remarks(self, number: int) -> Counter[str]:
+        """Return why true verdicts are about no part of a run, and in how many runs."""
+        remarks = (each.remarks[number] for each in self.outcomes if not each.failure)
+        return Counter(filter(None, remarks))
 
     def _counts(self, number: int) -> tuple[int, int, int]:
         """Return how often a verdict was true, false and open."""
@@ -223,6 +242,8 @@ class Estimates:
             "name": each.name,
             **dict(zip(("true", "false", "open"), counts, strict=True)),
         }
+        if remarks := self._remarks(number):
+            found["remarks"] = dict(remarks)
         chance = self._chances.get(each.name)
         if chance is not None and each.chance is not None:
             found |= {
@@ -238,8 +259,20 @@ class Estimates:
 
     # ---- diagnostics
 
+    def _failures(self) -> dict[tuple[str, str], list[int]]:
+        """Return the evaluations that failed, with their number in each run where any did."""
+        found: dict[tuple[str, str], list[int]] = {}
+        for outcome in self.outcomes:
+            for what, count in outcome.failed:
+                found.setdefault(what, []).append(count)
+        return found
+
     def report(self, report: Diagnostics, command: Command) -> None:
-        """Report runs without a result, violated properties, and refuted chances."""
+        """Report failures, runs without a result, violated properties, and refuted chances."""
+        for (machine, reason), failures in self._failures().items():
+            runs = f"{len(failures)} of {len(self.outcomes)} runs"
+            notes = (f"{_times(sum(failures))} in {runs}",)
+            report.report("failed-expression", machine=machine, reason=reason, notes=notes)
         failed = [each for each in self.outcomes if each.failure]
         if failed:
             report.report(
@@ -279,6 +312,10 @@ class Estimates:
                 )
 
 
+def _times(count: int) -> str:
+    return "once" if count == 1 else f"{count} times"
+
+
 def _share(counts: tuple[int, int, int]) -> str:
     true, _, left = counts
     runs = sum(counts)
@@ -289,13 +326,13 @@ def _share(counts: tuple[int, int, int]) -> str:
 
 
 def _percent(share: float) -> str:
-    return f"{100 * share:.4g} %"
+    return f"{100 * share:.10g} %"
 
 
 def _value_row(each: Value, level: float) -> tuple[str, ...]:
     sample = _sample(each, level)
     if sample is None:
-        return each.name, "-", "", "", "", "", "", "no value"
+        return each.name, "-", "", "", "", "", "", _notes(each)
 
     def text(value: float) -> str:
         return value_text(value, is_time=each.is_time)
@@ -303,12 +340,17 @@ def _value_row(each: Value, level: float) -> tuple[str, ...]:
     interval = sample.interval
     between = "" if interval is None else f"{text(interval.lower)} .. {text(interval.upper)}"
     least, _, _, median, _, high, greatest = sample.quantiles
-    notes = [f"not reached in {counted(each.unreached, 'run')}"] if each.unreached else []
     return (
         each.name,
         *(text(sample.mean), between, text(least), text(median), text(high), text(greatest)),
-        ", ".join(notes),
+        _notes(each),
     )
+
+
+def _notes(each: Value) -> str:
+    found = (("not reached", each.unreached), ("no value", each.missing))
+    said = ", ".join(f"{what} in {counted(runs, 'run')}" for what, runs in found if runs)
+    return f"{said}: {each.reason}" if each.reason else said
 
 
 def _sample(each: Value, level: float) -> Sample | None:

@@ -18,6 +18,7 @@ import click
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.write_stream import write_stream
+from swarmdsl.execution.simulate.durations import written_duration
 from swarmdsl.execution.simulate.estimates import Estimates, Level
 from swarmdsl.execution.simulate.histogram import histograms
 from swarmdsl.execution.simulate.one_run import Outcome, Runner, begin, run_seed
@@ -67,9 +68,14 @@ def simulate_many(many: Many, request: Request, tell: Tell) -> bool | None:
         lambda: f"{json.dumps({**conditions, **estimates.as_data()}, indent=2)}\n",
         report,
     )
-    written += _write(many.histogram, lambda: histograms(estimates), report)
+    if any(each.by_seed for each in estimates.values):
+        written += _write(many.histogram, lambda: histograms(estimates), report)
+    elif many.histogram is not None:
+        report.report("no-histogram", path=many.histogram)
     tell(report)
-    ran = estimates.head(prepared.subject.name, scenario, many.runs, interrupted=interrupted)
+    ran = estimates.head(
+        prepared.subject.name, scenario, many.runs, interrupted=interrupted, early=many.early
+    )
     for line in (ran, "", *estimates.text(lambda seed: _command(request, seed))):
         click.echo(line)
     if written:
@@ -147,7 +153,8 @@ def _command(request: Request, seed: int) -> str:
         ("--machine", request.machine),
         ("--scenario", request.scenario),
         ("--events", request.events),
-        ("--until", f"{request.until // 1000}us" if request.until is not None else None),
+        ("--until", written_duration(request.until) if request.until is not None else None),
+        *(("--property", name) for name in request.only),
         ("--seed", seed),
     )
     for option, value in given:

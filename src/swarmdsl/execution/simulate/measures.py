@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.constants import Value, constant, params_by_name
-from swarmdsl.execution.engine import ExecutionError
+from swarmdsl.execution.engine import ExecutionError, bounded
 from swarmdsl.execution.monitor import Reading
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.expressions import function_of
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.ir import Fitness, FitnessInput, Param
+from swarmdsl.ir import Fitness, FitnessInput, Param, VariableRef, subexpressions
+from swarmdsl.ir.integer_ranges import bound_of_any
 from swarmdsl.syntax.types import DURATION
 
 
@@ -28,6 +30,17 @@ class Measured:
         """True if the value is in nanoseconds."""
         return self.input.type == DURATION
 
+    @property
+    def fault(self) -> str:
+        """Return why the value is not one of the type of the input, else an empty string."""
+        bound = bound_of_any(self.input.type)
+        try:
+            if bound is not None:
+                bounded(self.reading.value, bound)
+        except ExecutionError as error:
+            return str(error)
+        return ""
+
 
 @dataclass(frozen=True)
 class FitnessResult:
@@ -37,6 +50,14 @@ class FitnessResult:
     measures: tuple[Measured, ...]
     value: float | None
     reason: str = ""
+
+    @property
+    def unreached(self) -> tuple[str, ...]:
+        """Names of the measures in the fitness that are only lower bounds."""
+        parts = subexpressions(self.fitness.value)
+        used = {part.name for part in parts if isinstance(part, VariableRef)}
+        names = (each.input.name for each in self.measures if not each.reading.reached)
+        return tuple(name for name in names if name in used)
 
 
 def fitness_of(subject: Subject) -> Fitness | None:
@@ -60,7 +81,8 @@ def evaluate(fitness: Fitness, readings: Sequence[Reading]) -> FitnessResult:
     data: dict[str, float | None] = {each.input.name: each.reading.value for each in measures}
     known = params_by_name(fitness.params)
     values = {each.name: _constant(each, known) for each in fitness.params}
-    reason = next(_missing(fitness, data, values), "")
+    faults = (f"`{each.input.name}`: {each.fault}" for each in measures if each.fault)
+    reason = next(chain(_missing(fitness, data, values), faults), "")
     if reason:
         return FitnessResult(fitness, measures, None, reason)
     try:
@@ -98,9 +120,12 @@ def measure_rows(result: FitnessResult) -> Iterator[tuple[str, str, str]]:
     """Yield the measures and the fitness with their values."""
     for each in result.measures:
         missed = "" if each.reading.reached else "not reached"
-        yield each.input.name, value_text(each.reading.value, is_time=each.is_time), missed
+        note = each.fault or missed
+        yield each.input.name, value_text(each.reading.value, is_time=each.is_time), note
     goal = f"fitness, to {result.fitness.goal}"
-    note = f"{goal}: {result.reason}" if result.reason else goal
+    missed = f"with {', '.join(result.unreached)} not reached" if result.unreached else ""
+    reason = result.reason or missed
+    note = f"{goal}: {reason}" if reason else goal
     yield result.fitness.name, value_text(result.value, is_time=False), note
 
 

@@ -22,15 +22,19 @@ QUIET = ("ended", "quiet")
 class Outcome(NamedTuple):
     """Result of a run: verdicts by property, values of measures in order, and the fitness.
 
-    A value is a number or a time in nanoseconds, and False if it was not reached. `failure` says
-    why a run has no result.
+    A value is a number or a time in nanoseconds, and False if it was not reached. `remarks` say
+    why a true verdict is about no part of the run, `reason` why there is no fitness, `failure` why
+    a run has no result. `failed` are the evaluations that failed, by machine and reason.
     """
 
     seed: int
     verdicts: tuple[Verdict, ...] = ()
     measures: tuple[tuple[float | None, bool], ...] = ()
     fitness: float | None = None
+    reason: str = ""
     failure: str = ""
+    remarks: tuple[str, ...] = ()
+    failed: tuple[tuple[tuple[str, str], int], ...] = ()
 
 
 class Runner:
@@ -63,14 +67,19 @@ class Runner:
             return Outcome(seed, failure=str(error))
         now = world.clock.now
         results = monitors.results(now, ended=ending == "ended")
-        verdicts = tuple(each.verdict for each in results)
+        outcome = Outcome(
+            seed,
+            tuple(each.verdict for each in results),
+            remarks=tuple(each.remark for each in results),
+            failed=tuple(world.failures.items()),
+        )
         if self.fitness is None:
-            return Outcome(seed, verdicts)
+            return outcome
         last = sum(each.after for each in inputs)
         limit = until if until is not None else last + DEFAULT_UNTIL
         found = evaluate(self.fitness, monitors.readings(now, limit if ending in QUIET else now))
         measures = tuple((each.reading.value, each.reading.reached) for each in found.measures)
-        return Outcome(seed, verdicts, measures, found.value)
+        return outcome._replace(measures=measures, fitness=found.value, reason=found.reason)
 
 
 _runner: Runner | None = None

@@ -56,4 +56,5 @@ def _property(each: PropertyResult) -> dict[str, Any]:
         "verdict": each.verdict,
         **robots,
         **({"violations": violations} if violations else {}),
+        **({"remark": each.remark} if each.remark else {}),
     }

@@ -62,7 +62,7 @@ def rows(results: Iterable[PropertyResult]) -> Iterator[tuple[str, str, str]]:
         worst = where if result.property.each is not None and result.verdict != "true" else ""
         by_chance = result.verdict == FALSE and result.property.chance is not None
         verdict = "false in this run" if by_chance else result.verdict
-        yield result.property.name, verdict, " ".join(filter(None, (worst, when)))
+        yield result.property.name, verdict, " ".join(filter(None, (worst, when, result.remark)))
 
 
 class Recording:
