@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -321,6 +322,107 @@ def test_a_submachine_is_compared_where_it_is_declared(tmp_path: Path) -> None:
         "~ statemachine Watch",
         "    ~ transition `after 7 s` of state `Search.Pause`: was `after 5 s`",
     ]
+
+
+RECEIVERS = """package lab
+swarm event Alarm : std_msgs/Empty{delivery}
+statemachine Watch {{
+  initial Idle
+  state Idle {{ on Alarm -> Done }}
+  final Done
+}}
+"""
+DELIVERIES = {
+    # Before, after: True if receivers can rely on less.
+    ("", "reliable"): False,
+    ("reliable", ""): False,
+    ("reliable, latest", "best effort"): True,
+    ("", "best effort"): True,
+    ("best effort", "reliable, latest, keep 1"): False,
+    ("reliable, latest", "reliable"): True,
+    ("reliable, keep 1", "reliable, latest"): False,
+    ("reliable", "reliable, latest"): True,  # one waits, where all did
+    ("keep 5", "keep 4"): True,
+    ("keep 5", "keep 6"): False,
+    ("", "keep 6"): True,
+    ("lifespan 2 s", "lifespan 3 s"): False,
+    ("lifespan 2 s", "lifespan 1 s"): True,
+    ("", "lifespan 1 s"): True,
+    ("deadline 2 s", "deadline 3 s"): True,
+    ("deadline 2 s", "deadline 1 s"): False,
+    ("deadline 2 s", ""): True,
+    ("keep 5, lifespan 1 s", "keep 4, lifespan 2 s"): True,
+}
+
+
+@pytest.mark.parametrize(("before", "after"), DELIVERIES)
+def test_a_delivery_breaks_who_relies_on_more(before: str, after: str, tmp_path: Path) -> None:
+    old, new = (
+        system(RECEIVERS.format(delivery=f" {{ {each} }}" if each else ""), tmp_path)
+        for each in (before, after)
+    )
+    changes, breaking = compare(old, new)
+
+    assert [each.property_name for each in changes] == ["delivery"]
+    expected = ["EVENT_DELIVERY"] if DELIVERIES[before, after] else []
+    assert [each.rule for each in breaking] == expected
+
+
+def test_a_delivery_is_told_where_it_is(tmp_path: Path) -> None:
+    before = system(RECEIVERS.format(delivery=" {\n  reliable\n  latest\n}"), tmp_path)
+    after = system(RECEIVERS.format(delivery=" {\n\n  best effort\n}"), tmp_path)
+    changes, breaking = compare(before, after)
+
+    expected = ["4: event `Alarm` delivery is `best effort`, was `reliable, latest`"]
+    lines = format_breaking_changes(breaking, "text", lambda span: f"{span.line}")
+    assert list(lines) == [f"{line} [EVENT_DELIVERY]" for line in expected]
+    told = list(format_changes(changes, (), "json", lambda span: f"{span.line}"))
+    assert [
+        (json.loads(each)["place_before"], json.loads(each)["place_after"]) for each in told
+    ] == [("3", "4")]
+
+
+ROBOTS = """package lab
+event Go : std_msgs/Empty
+endless statemachine Watch {
+  initial Idle
+  state Idle { on Go -> Idle; on member_lost -> Idle }
+}
+member Robot {
+  behavior Watch
+  param rate : float64 = 1.0
+}
+swarm Lab {
+  one : Robot[3]
+  two : Robot[3]
+  one[2] { rate = 7.0 }
+
+  heartbeat 1 s lost after 3 s
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ("one[2]", "one[1]", ["    - robot `one[2]` (14)", "    + robot `one[1]` (14)"]),
+        ("one[2]", "two[2]", ["    - robot `one[2]` (14)", "    + robot `two[2]` (14)"]),
+        ("one", "first", ["    ~ role `first`: renamed from `one` [ROLE_REMOVED] (12)"]),
+        ("7.0", "8.0", ["    ~ robot `one[2]`: values is `rate = 8.0`, was `rate = 7.0` (14)"]),
+        (
+            "after 3 s",
+            "after 4 s",
+            ["    ~ heartbeat is `1 s lost after 4 s`, was `1 s lost after 3 s` (16)"],
+        ),
+        ("  heartbeat", "\n  heartbeat", []),
+    ],
+)
+def test_robots_have_numbers(old: str, new: str, expected: list[str], tmp_path: Path) -> None:
+    before, after = system(ROBOTS, tmp_path), system(ROBOTS.replace(old, new), tmp_path)
+    changes, breaking = compare(before, after)
+
+    lines = list(format_changes(changes, breaking, "text", lambda span: f"{span.line}"))
+    assert lines[1:] == expected
 
 
 def test_every_rule_is_explained() -> None:

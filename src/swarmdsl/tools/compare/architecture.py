@@ -36,6 +36,7 @@ from swarmdsl.ir import (
 from swarmdsl.ir.sentences import sentence
 from swarmdsl.tools.compare.behaviour import machine_element, param_elements
 from swarmdsl.tools.compare.elements import (
+    ROBOT_KIND,
     Element,
     Ref,
     Value,
@@ -43,6 +44,7 @@ from swarmdsl.tools.compare.elements import (
     expression_value,
     join_values,
     properties,
+    role_kind,
     state_kind,
     type_value,
     with_doc,
@@ -120,8 +122,10 @@ def _event(event: Event) -> Element:
         reach="swarm" if event.swarm else "member",
         delivery=", ".join(delivery_settings(event.delivery)),
     )
+    name, given = event.name, event.delivery
+    places = (("delivery", given.origin),) if given is not None else ()
     element = Element(
-        "event", (event.name,), values, ref=Ref("event", event.name), origin=event.origin
+        "event", (name,), values, ref=Ref("event", name), origin=event.origin, places=places
     )
     return with_doc(element, event.doc)
 
@@ -262,10 +266,10 @@ def _others(system: System) -> Iterator[Element]:
         yield with_doc(element, fitness.doc, fitness.docs)
 
 
-def _robot(role: Role, robot: RobotValues) -> Element:
-    name = (f"{role.name}[{robot.index}]",)
+def _robot(swarm: Swarm, role: Role, robot: RobotValues) -> Element:
+    name = (Ref(role_kind(swarm.name), role.name), f"[{robot.index}]")
     values = properties(values=argument_values(robot.values))
-    return with_doc(Element("robot", name, values, origin=robot.origin), robot.doc, robot.docs)
+    return with_doc(Element(ROBOT_KIND, name, values, origin=robot.origin), robot.doc, robot.docs)
 
 
 def _swarm(swarm: Swarm) -> Element:
@@ -279,6 +283,7 @@ def _swarm(swarm: Swarm) -> Element:
                     number=str(role.multiplicity),
                     values=argument_values(role.values),
                 ),
+                ref=Ref(role_kind(swarm.name), role.name),
                 origin=role.origin,
             ),
             role.doc,
@@ -292,9 +297,11 @@ def _swarm(swarm: Swarm) -> Element:
         heartbeat=heartbeat(swarm.heartbeat).removeprefix("heartbeat ") if swarm.heartbeat else "",
     )
     ref = Ref("swarm", swarm.name)
-    robots = (_robot(role, robot) for role in swarm.roles for robot in role.robots)
-    element = Element("swarm", (swarm.name,), values, (*roles, *robots), ref, swarm.origin)
+    robots = (_robot(swarm, role, robot) for role in swarm.roles for robot in role.robots)
     beat = swarm.heartbeat
+    places = (("heartbeat", beat.origin),) if beat is not None else ()
+    children = (*roles, *robots)
+    element = Element("swarm", (swarm.name,), values, children, ref, swarm.origin, places)
     docs = swarm.docs if beat is None or not beat.doc else (*swarm.docs, ("heartbeat", beat.doc))
     return with_doc(element, swarm.doc, docs)
 

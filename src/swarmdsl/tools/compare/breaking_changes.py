@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable, Iterator
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
@@ -62,19 +62,20 @@ class BreakingChange:
 
 
 def find_breaking_changes(
-    changes: Iterable[Change], matching: Matching
+    changes: Iterable[Change], matching: Matching, lessened: Container[str] = ()
 ) -> Iterator[BreakingChange]:
     """Yield the breaking changes.
 
-    An event that a state machine no longer handles or sends is one as well.
+    `lessened` are the events that are delivered with less than before. An event that a state
+    machine no longer handles or sends is a breaking change as well.
     """
     for change in changes:
-        rule = _rule(change)
+        rule = _rule(change, lessened)
         if rule is not None:
             subject = change.subject or f"{change.kind} `{display_name(change.element)}`"
             within = "" if change.element is change.top else f"{_title(change.top)}: "
             message = f"{within}{subject} {_describe(change)}"
-            yield BreakingChange(rule, message, change, change.element.origin)
+            yield BreakingChange(rule, message, change, change.origin)
     for old, new in matching.pairs.items():
         if old.kind == "statemachine":
             yield from _dropped_events(old, new, matching)
@@ -88,7 +89,7 @@ def _title(top: Element) -> str:
     return f"{top.kind} `{display_name(top)}`"
 
 
-def _rule(change: Change) -> str | None:
+def _rule(change: Change, lessened: Container[str]) -> str | None:
     """Rule that a change breaks, if any."""
     kind, element = change.kind, change.element
     values = dict(change.top.values)
@@ -109,6 +110,8 @@ def _rule(change: Change) -> str | None:
         return None
     if (kind, change.property_name) == ("param", "default"):
         return "PARAM_REQUIRED" if not change.after else None
+    if (kind, change.property_name) == ("event", "delivery"):
+        return "EVENT_DELIVERY" if display_name(element) in lessened else None
     if (kind, change.property_name) == ("role", "number"):
         return "ROLE_NUMBER" if _is_narrower(change.before, change.after) else None
     if (kind, change.property_name) == ("component", "operations"):

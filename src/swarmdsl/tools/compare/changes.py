@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from enum import Enum
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
 from swarmdsl.tools.compare.behaviour import TRANSITION_KIND, VERTEX_KIND
 from swarmdsl.tools.compare.elements import Element, Value
 from swarmdsl.tools.compare.matching import Matching, match, value_text
@@ -59,6 +60,11 @@ class Change:
         found = self.new if self.new is not None else self.old
         assert found is not None
         return found
+
+    @property
+    def origin(self) -> Span | None:
+        """Place of the change in the newer model, or of what was removed in the older one."""
+        return self.element.place(self.property_name)
 
     @property
     def subject(self) -> str:

@@ -29,7 +29,8 @@ class Element:
 
     `kind` is the keyword of the language. `name` is unique among siblings of one kind; an element
     without a name, such as a transition, is named by its triggers. `values` are the properties;
-    empty ones are left out. `ref` is how other elements refer to it.
+    empty ones are left out. `ref` is how other elements refer to it. `places` are the places of
+    those properties that have their own.
     """
 
     kind: str
@@ -38,12 +39,17 @@ class Element:
     children: tuple[Element, ...] = ()
     ref: Ref | None = None
     origin: Span | None = field(default=None, repr=False)
+    places: tuple[tuple[str, Span | None], ...] = ()
 
     def walk(self) -> Iterator[Element]:
         """Yield the element and all its descendants."""
         yield self
         for child in self.children:
             yield from child.walk()
+
+    def place(self, property_name: str) -> Span | None:
+        """Place of a property; without one of its own, that of the element."""
+        return dict(self.places).get(property_name) or self.origin
 
 
 def properties(**values: object) -> tuple[tuple[str, Value], ...]:
@@ -109,6 +115,11 @@ def state_kind(machine: str) -> str:
     return f"state of {machine}"
 
 
+def role_kind(swarm: str) -> str:
+    """Return the reference kind of the roles of a swarm."""
+    return f"role of {swarm}"
+
+
 def variable_kind(machine: str) -> str:
     """Return the reference kind of the variables and params of a machine."""
     return f"variable of {machine}"
@@ -122,5 +133,6 @@ def with_doc(element: Element, doc: str, lines: Docs = ()) -> Element:
 
 
 DOC = "documentation"
+ROBOT_KIND = "robot"
 # A character that models cannot contain.
 _MARK = "\0"

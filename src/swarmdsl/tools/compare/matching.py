@@ -10,11 +10,12 @@ from collections.abc import Container, Hashable, Iterable, Iterator, Sequence
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.tools.compare.behaviour import TRANSITION_KIND, VERTEX_KIND
-from swarmdsl.tools.compare.elements import DOC, Element, Ref, Value
+from swarmdsl.tools.compare.elements import DOC, ROBOT_KIND, Element, Ref, Value
 
 _MIN_SIMILARITY = 0.6
 # With more pairs than this, comparing all would take too long.
 _MAX_PAIRS = 20_000
+_LAST = (TRANSITION_KIND, ROBOT_KIND)
 _PSEUDO = ("final state", "choice", "history", "region")
 
 
@@ -46,19 +47,15 @@ def match(before: Element, after: Element) -> Matching:
     matching.pair(before, after)
     _match_siblings(before.children, after.children, matching)
     top = list(matching.pairs.items())[1:]
-    # Transitions are matched last: their names refer to events, states and variables.
+    # Transitions are matched last: their names refer to events, states and variables. Robots are
+    # matched after the roles that their names refer to.
     for old, new in top:
         _match_states(old, new, matching)
     for old, new in [*top, *list(matching.pairs.items())[len(top) + 1 :]]:
-        _match_siblings(
-            _other_children(old, TRANSITION_KIND), _other_children(new, TRANSITION_KIND), matching
-        )
+        _match_siblings(_first_children(old), _first_children(new), matching)
     for old, new in list(matching.pairs.items()):
-        _match_siblings(
-            _children_of_kind(old, TRANSITION_KIND),
-            _children_of_kind(new, TRANSITION_KIND),
-            matching,
-        )
+        for kind in _LAST:
+            _match_siblings(_children_of_kind(old, kind), _children_of_kind(new, kind), matching)
     return matching
 
 
@@ -71,8 +68,8 @@ def _children_of_kind(element: Element, kind: str) -> list[Element]:
     return [child for child in element.children if child.kind == kind]
 
 
-def _other_children(element: Element, kind: str) -> list[Element]:
-    return [child for child in element.children if child.kind not in (kind, VERTEX_KIND)]
+def _first_children(element: Element) -> list[Element]:
+    return [child for child in element.children if child.kind not in (*_LAST, VERTEX_KIND)]
 
 
 def _match_siblings(
@@ -195,6 +192,8 @@ def _similar_pairs(
     olds: dict[Hashable, list[Element]] = defaultdict(list)
     news: dict[Hashable, list[Element]] = defaultdict(list)
     for old in before:
+        if old.kind == ROBOT_KIND:  # a number is not a name that could be another one
+            continue
         olds[old.kind, _pseudo_kind(old)].append(old)
     for new in after:
         news[new.kind, _pseudo_kind(new)].append(new)

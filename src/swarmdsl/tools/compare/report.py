@@ -69,7 +69,7 @@ def _text(
 ) -> Iterator[str]:
     mark, inner = _summarize(top, changes)
     rule = _rule(changes[0], rules) if not inner else ""
-    yield f"{mark} {top.kind} {printable(display_name(top))}{rule}{_at(top, location)}"
+    yield f"{mark} {top.kind} {printable(display_name(top))}{rule}{_at(top.origin, location)}"
     for each in inner:
         sign = _MARKS.get(each.action, "~")
         subject = f"{each.subject}: " if each.subject else ""
@@ -77,7 +77,7 @@ def _text(
             "" if each.action in (Action.ADDED, Action.REMOVED) else f"{subject}{each.description}"
         )
         line = rest or each.subject
-        yield f"    {sign} {printable(line)}{_rule(each, rules)}{_at(each.element, location)}"
+        yield f"    {sign} {printable(line)}{_rule(each, rules)}{_at(each.origin, location)}"
 
 
 def _markdown(
@@ -87,11 +87,11 @@ def _markdown(
     rule = _rule(changes[0], rules) if not inner else ""
     description = f" {changes[0].description}" if not inner else ""
     name = _safe(f"{top.kind} `{display_name(top)}`")
-    yield f"- **{name}**{_safe(description)}{rule}{_safe(_at(top, location))}"
+    yield f"- **{name}**{_safe(description)}{rule}{_safe(_at(top.origin, location))}"
     for each in inner:
         colon = "" if each.action in (Action.ADDED, Action.REMOVED) else ":"
         subject = f"{each.subject}{colon} " if each.subject else ""
-        place = _safe(_at(each.element, location))
+        place = _safe(_at(each.origin, location))
         yield f"  - {_safe(f'{subject}{each.description}')}{_rule(each, rules)}{place}"
 
 
@@ -104,15 +104,16 @@ def _rule(change: Change, rules: Mapping[int, str]) -> str:
     return f" [{rule}]" if rule is not None else ""
 
 
-def _at(element: Element, location: FormatLocation) -> str:
-    return f" ({location(element.origin)})" if element.origin is not None else ""
+def _at(place: Span | None, location: FormatLocation) -> str:
+    return f" ({location(place)})" if place is not None else ""
 
 
 def _as_json(
     change: Change, rules: Mapping[int, str], location: FormatLocation
 ) -> dict[str, object]:
     def at(element: Element | None) -> str | None:
-        return location(element.origin) if element is not None and element.origin else None
+        place = element.place(change.property_name) if element is not None else None
+        return location(place) if place is not None else None
 
     return {
         "change": change.action.value,
