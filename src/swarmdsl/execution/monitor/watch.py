@@ -109,7 +109,7 @@ class Watch:
         changed: dict[FactTracker, set[str | None]] = {}
         if self._begun:
             for tracker in self.happened:
-                changed[tracker] = tracker.reset()
+                changed.setdefault(tracker, set()).update(tracker.reset())
             self.happened = []
         actor = line.actor
         route = self._routes.get(actor)
