@@ -14,7 +14,7 @@ from swarmdsl.execution.verify.network import Network, Step
 from swarmdsl.ir import Claim, Count, Fact, Junction
 from swarmdsl.ir.operations import OPERATIONS
 
-_MOST_CLAIMS = 10
+MOST_CLAIMS = 10
 """Number of claims up to which all combinations of their truth are looked at."""
 
 Truth = Callable[[Sequence[int], Sequence[int]], bool]
@@ -30,8 +30,7 @@ class MonitorTable:
         self._numbers = {self._monitors[0].memory: 0}
         self._steps: dict[tuple[int, tuple[bool, ...]], int] = {}
         self._settled: set[int] = set()
-        if claims + scope <= _MOST_CLAIMS:
-            self._look_ahead()
+        self._look_ahead()
 
     def step(self, state: int, truths: tuple[bool, ...]) -> int:
         """Return the state after a step."""
@@ -98,6 +97,8 @@ class Observer:
         self.terms = Terms(property_, network)
         scope = property_.scope.claims if property_.scope is not None else ()
         self._claims = [self.terms.truth(each) for each in (*property_.claims, *scope)]
+        self._forgets = any(map(is_act, self.terms.facts))
+        """True if a fact holds for a moment: the next line, whatever it shows, ends it."""
         self._rows: dict[int, _Row] = {}
 
     def start(self, state: int) -> int:
@@ -136,11 +137,15 @@ class Observer:
         memory = state & self._mine
         present = network.present(state)
         seen = _Sight(self, present)
+        silent = self._silence(memory, seen) - memory
         for place, _ in present:
             for step in network.row(place):
                 after = network.after(state, step)
-                if step.move is not None and not self._is_silent(place, step.move):
-                    after += self._moments(memory, place, step.move, seen) - memory
+                if step.move is not None:
+                    if self._is_silent(place, step.move):
+                        after += silent
+                    else:
+                        after += self._moments(memory, place, step.move, seen) - memory
                 yield after, step
 
     def following(self, state: int) -> Iterator[int]:
@@ -149,14 +154,17 @@ class Observer:
         memory = state & self._mine
         present = network.present(state)
         seen = _Sight(self, present)
+        silent = self._silence(memory, seen) - memory
         known: Mapping[int, int] | None = None
         total = 0
         for place, _ in present:
             row = self._rows.get(place)
             if row is None:
                 row = self._rows[place] = self._row(place)
-            for change in row.plain:
+            for change in row.losses:
                 yield state + change
+            for change in row.plain:
+                yield state + change + silent
             for change, move in row.loud:
                 yield state + change + self._moments(memory, place, move, seen) - memory
             for change, shifts, sends, sender, moves in row.casts:
@@ -170,7 +178,7 @@ class Observer:
                 after = state + change + total - shifts[place]
                 for each in moves:
                     if each is None:
-                        yield after
+                        yield after + silent
                     else:
                         yield after + self._moments(memory, place, each, seen) - memory
 
@@ -185,6 +193,7 @@ class Observer:
     def _row(self, place: int) -> _Row:
         """Return the steps of a place, equal ones once; those that change a fact are loud."""
         network = self._network
+        losses: dict[int, None] = {}
         plain: dict[int, None] = {}
         loud: dict[tuple[int, tuple[int, ...]], Move] = {}
         casts: dict[tuple[int, tuple[int, ...]], dict[tuple[int, ...] | None, Move | None]] = {}
@@ -193,15 +202,19 @@ class Observer:
             change = network.ones[step.target] - network.ones[place]
             heard = network.heard(step)
             move = step.move
-            silent = move is None or self._is_silent(place, move)
-            facts = None if silent or move is None else tuple(m.holding for m in move.moments)
+            if move is None:
+                losses[change] = None
+                continue
+            silent = self._is_silent(place, move)
+            facts = None if silent else tuple(m.holding for m in move.moments)
             if heard:
                 casts.setdefault((change, heard), {}).setdefault(facts, None if silent else move)
             elif facts is None:
                 plain[change] = None
-            elif move is not None:
+            else:
                 loud.setdefault((change, facts), move)
         return _Row(
+            list(losses),
             list(plain),
             [(change, move) for (change, _), move in loud.items()],
             [
@@ -242,16 +255,26 @@ class Observer:
             memory = self.table.step(memory, truths)
         return memory
 
+    def _silence(self, memory: int, seen: _Sight) -> int:
+        """Return the memory of the monitor after a move that changes no fact.
+
+        It differs only after a fact that held for a moment: this is over then.
+        """
+        if not self._forgets:
+            return memory
+        return self.table.step(memory, tuple(bool(each(*seen.counts)) for each in self._claims))
+
     def _is_silent(self, place: int, move: Move) -> bool:
-        """Return True if a move changes no fact: the monitor need not see it."""
+        """Return True if a move changes no fact."""
         automaton = self._network.groups[self._network.places[place].group].automaton
         lasting = self._lasting(place) & automaton.mask
         return all(each.holding & automaton.mask == lasting for each in move.moments)
 
 
 class _Row(NamedTuple):
-    """Steps of a place: differences of silent ones, loud ones, and those with messages."""
+    """Steps of a place: lost messages and silent moves as differences, loud ones, and sends."""
 
+    losses: list[int]
     plain: list[int]
     loud: list[tuple[int, Move]]
     casts: list[tuple[int, dict[int, int], tuple[int, ...], int, list[Move | None]]]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations
 from typing import Literal
 
 from swarmdsl import ir
@@ -14,7 +15,7 @@ from swarmdsl.execution.verify.automaton import Move, Quotient
 from swarmdsl.execution.verify.explore import Budget, Graph, explore, observe
 from swarmdsl.execution.verify.model import Model, facts_of, roles_of
 from swarmdsl.execution.verify.network import Group, Network
-from swarmdsl.execution.verify.observer import MonitorTable, Observer, Terms, is_act
+from swarmdsl.execution.verify.observer import MOST_CLAIMS, MonitorTable, Observer, Terms, is_act
 from swarmdsl.execution.verify.runs import Run, play, steps_between
 from swarmdsl.ir.sentences import facts_in
 
@@ -66,6 +67,9 @@ def _not_covered(property_: ir.Property) -> str:
     """Return the reason why a property cannot be decided here, or ""."""
     if property_.within is not None:
         return "it is about time"
+    scope = property_.scope.claims if property_.scope is not None else ()
+    if len(property_.claims) + len(scope) > MOST_CLAIMS:
+        return f"it has more than {MOST_CLAIMS} claims"
     facts = list(facts_in(property_.claims[0]))
     if property_.kind == "times" and any(map(is_act, facts)):
         mixed = not all(map(is_act, facts)) or _negates(property_.claims[0])
@@ -238,7 +242,9 @@ def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
             return None
         if table.is_settled(memory):
             continue
-        found = {(state, step(memory, automaton.look(state).holding, term)) for term in arriving}
+        # A line of another robot, on which an event may arrive from outside.
+        holding = automaton.look(state).holding
+        found = {(state, step(memory, holding, term)) for term in (-1, *arriving)}
         moves = list(automaton.moves(state) or ())
         for message in range(len(automaton.whole.alphabet.messages)):
             heard = automaton.move_on(state, message)
@@ -296,6 +302,10 @@ def _possible(
         if _has_delays(model, groups):
             reason = "whether it is possible may depend on the lengths of delays"
             return Verdict(property_, "unknown", states, reason, robot=me)
+        topic = _reordered(model, network)
+        if topic:
+            reason = f"whether it is possible may depend on the order of events on `{topic}`"
+            return Verdict(property_, "unknown", states, reason, robot=me)
         return Verdict(property_, "holds", states, robot=me, full=tuple(sorted(network.full)))
     steps = steps_between(graph.way(lost), lambda s: list(network.followers(s)))
     run = play(network, steps)
@@ -323,6 +333,20 @@ def _state_truth(
         return bool(truth(counts, me))
 
     return holds
+
+
+def _reordered(model: Model, network: Network) -> str:
+    """Return a topic of which different messages of a sender may be on their way, or ""."""
+    for place in network.places:
+        events = [model.alphabet.messages[number].event for number in set(place.bag)]
+        for one, other in combinations(events, 2):
+            topic = model.system.event(one.name).topic
+            same_sender = one.envelope.sender == other.envelope.sender
+            if topic == model.system.event(other.name).topic and (
+                same_sender or not model.demands.identity
+            ):
+                return topic
+    return ""
 
 
 def _has_delays(model: Model, groups: Sequence[Group]) -> bool:
