@@ -194,6 +194,15 @@ class Automaton:
         best = max(values, key=lambda name: len(values[name]), default=None)
         return best if best is not None and len(values[best]) > 1 else None
 
+    @property
+    def is_complete(self) -> bool:
+        """True if all moves are known."""
+        listened = [n for n in range(len(self.alphabet.messages)) if self.listens(n)]
+        return all(
+            steps is not None and all(number in heard for number in listened)
+            for steps, heard in zip(self.steps, self.heard, strict=True)
+        )
+
     # ---- running
 
     def apply(self, body: Body, given: Input, event: Event | None = None) -> None:

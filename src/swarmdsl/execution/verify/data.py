@@ -8,7 +8,7 @@ constants has one representative for each outcome of all comparisons.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import pairwise, product
+from itertools import count, pairwise, product
 from typing import Any
 
 from swarmdsl import ir
@@ -28,11 +28,10 @@ from swarmdsl.syntax.types import FLOATS, INTEGERS
 
 Path = tuple[str, ...]
 Node = tuple[str, str, Path]
-"""Place of data: `var`, `event` or `result`, its name, and fields in it."""
+"""Place of data: `var`, `event`, `sender` or `result`, its name, and fields in it."""
 Cut = tuple[str, Any]
 """Comparison with a constant: operator and value."""
 
-SENDER: Node = ("robot", "sender", ())
 SELF: Node = ("robot", "self", ())
 SENT: Node = ("time", "sent", ())
 _COMPARISONS = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
@@ -40,7 +39,12 @@ _COMPARISONS = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!
 _MOST = 64
 """Maximum number of representatives of one message or result."""
 _OTHER = "another"
-"""Text that stands for all that no model compares with."""
+"""Text that stands for all that a model does not compare with."""
+_HEADERS = {
+    "node": (ir.Named("swarmros", "EventHeader"),),
+    "stamp": (ir.Named("std_msgs", "Header"), ir.Named("swarmros", "EventHeader")),
+}
+"""Fields that a sender fills in, with the types of the headers that have them."""
 
 
 @dataclass(frozen=True)
@@ -98,10 +102,16 @@ class Demands:
     def identity(self) -> bool:
         """True if it counts who a robot or a sender is."""
         named = any(
-            kind == "robot" or (kind == "event" and self._header(name, path) == "node")
+            kind in ("robot", "sender") or self._reads_header("node", (kind, name, path))
             for kind, name, path in self._demanded
         )
         return named or self._identity
+
+    def sender_of(self, event: str) -> Iterator[Doubt]:
+        """Yield a doubt if it counts who has sent an event from outside."""
+        if ("sender", event, ()) in self._demanded:
+            reason = f"the sender of `{event}` from outside is not covered"
+            yield Doubt(reason, getattr(self._read.get(("sender", event, ())), "origin", None))
 
     def fields(self, event: str) -> list[Path]:
         """Return the fields of an event that decide on anything."""
@@ -111,7 +121,7 @@ class Demands:
     def timed(self) -> Iterator[Doubt]:
         """Yield a doubt for each reading of the time."""
         for kind, name, path in self._demanded:
-            if kind == "time" or (kind == "event" and self._header(name, path) == "stamp"):
+            if kind == "time" or self._reads_header("stamp", (kind, name, path)):
                 expression = self._read.get((kind, name, path))
                 yield Doubt("the model reads the time", getattr(expression, "origin", None))
                 return
@@ -181,19 +191,25 @@ class Demands:
             case ir.Primitive(name="string" | "wstring"):
                 texts = sorted({c for _, c in cuts if isinstance(c, str)} - {""})
                 ordered = any(symbol not in ("==", "!=") for symbol, _ in cuts)
-                return ["", *texts, _OTHER], not (is_exact or ordered)
+                other = next(t for n in count() if (t := f"{_OTHER}{n or ''}") not in texts)
+                return ["", *texts, other], not (is_exact or ordered)
             case ir.Primitive(name=name) if name in (*FLOATS, *INTEGERS, "duration"):
                 return _numbers(cuts, name), not is_exact
         return [default_value(type_, self._system) if type_ is not None else 0], False
 
-    def _header(self, event: str, path: Path) -> str:
-        """Return the last field of a path into a header of an event, or ""."""
-        if len(path) < 2:
-            return ""
-        declared = self._system.events_by_name.get(event)
-        around = field_type(declared.type, path[:-1], self._system) if declared else None
-        headers = (ir.Named("std_msgs", "Header"), ir.Named("swarmros", "EventHeader"))
-        return path[-1] if around in headers else ""
+    def _reads_header(self, field: str, node: Node) -> bool:
+        """Return True if a place is a field of a header of an event, or has such a header in it."""
+        kind, name, path = node
+        declared = self._system.events_by_name.get(name)
+        if kind != "event" or declared is None:
+            return False
+        headers = _HEADERS[field]
+        if path and path[-1] == field:
+            return field_type(declared.type, path[:-1], self._system) in headers
+        held = field_type(declared.type, path, self._system)
+        inner = self._system.known_interface(held) if isinstance(held, ir.Named) else None
+        parts = inner.fields if isinstance(inner, ir.Message) else ()
+        return held in headers or any(part.type in headers for part in parts)
 
     # ---- internal: demands
 
@@ -390,7 +406,7 @@ class Demands:
             case ir.EventData():
                 return [("event", each, path) for each in events]
             case ir.EnvelopeField(field=field):
-                return [SENDER if field == "sender" else SENT]
+                return [("sender", each, ()) for each in events] if field == "sender" else [SENT]
             case ir.SelfField(field="id" | "index"):
                 return [SELF]
             case ir.Elapsed(state=state):

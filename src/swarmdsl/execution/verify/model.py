@@ -82,6 +82,7 @@ class Model:
         self._robots: list[list[str | None]] = []
         self._gather(facts)
         self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES)
+        self._unfinished = [each for each in self.kinds if not each.is_complete]
         self._quotients: dict[tuple[int, int, bool], Quotient] = {}
 
     # ---- groups
@@ -126,12 +127,16 @@ class Model:
         return list(found)
 
     def influences(self, groups: Sequence[Group]) -> list[set[int]]:
-        """Return for each group those that can send it a message."""
+        """Return for each group those that can send it a message.
+
+        What a group with too many states sends is not known: it may be anything.
+        """
         return [
             {
                 other
                 for other, source in enumerate(groups)
-                if any(group.hears(m, source) for m in self._sent(source))
+                if source.automaton.whole in self._unfinished
+                or any(group.hears(m, source) for m in self._sent(source))
             }
             for group in groups
         ]
@@ -227,9 +232,6 @@ class Model:
 
     def _gather(self, facts: Mapping[str, Sequence[ir.Fact | ir.Count]]) -> None:
         """Make an automaton for each kind of robot."""
-        sent = {send.event for send in self.sends(self.machines)}
-        topics = {self.system.event(name).topic for name in sent}
-        from_inside = {e.name for e in self.system.events if e.incoming_topic in topics} | sent
         keys: dict[Any, int] = {}
         for robot, cast in self._by_robot.items():
             key = self._key(cast)
@@ -241,7 +243,7 @@ class Model:
             keys[key] = len(self.kinds)
             self._robots.append([robot])
             doubts = self._doubts[len(self.kinds)] = list(self._lacks(cast))
-            kind = self._kind(cast, facts[cast[0].robot.role], from_inside, doubts)
+            kind = self._kind(cast, facts[cast[0].robot.role], doubts)
             self._present(cast)
             automaton = Automaton(kind, self.alphabet)
             self.kinds.append(automaton)
@@ -272,7 +274,6 @@ class Model:
         self,
         cast: Sequence[Actor],
         facts: Sequence[ir.Fact | ir.Count],
-        from_inside: set[str],
         doubts: list[Doubt],
     ) -> Kind:
         results: dict[str, Sequence[Mapping[str, Any]]] = {}
@@ -285,13 +286,23 @@ class Model:
                     results[name] = self._noted(self.demands.results(name), doubts)
                     call = self.system.function(name).communication
                     preempted[name] = call.paradigm == "action"
+        from_inside = self._from_inside(cast)
         for event in self.system.events:
             hears = any(actor.listens(event.name) for actor in cast)
             if hears and event.name not in from_inside and not event.predefined:
                 self.outside[event.name] = None
                 outside[event.name] = self._noted(self.demands.messages(event.name), doubts)
+                doubts += self.demands.sender_of(event.name)
         robots: dict[str | None, Sequence[Actor]] = {cast[0].robot.name: cast}
         return Kind(cast[0].robot.role, cast, facts, outside, results, preempted, robots)
+
+    def _from_inside(self, cast: Sequence[Actor]) -> set[str]:
+        """Return the events that a robot gets from its own machines, or from other robots."""
+        system = self.system
+        own = {send.event for send in self.sends(actor.machine.name for actor in cast)}
+        topics = {system.event(name).topic for name in own}
+        others = {s.event for s in self.sends(self.machines) if system.event(s.event).swarm}
+        return own | others | {e.name for e in system.events if e.incoming_topic in topics}
 
     def _noted(
         self, found: tuple[list[dict[str, Any]], list[Doubt], list[str]], doubts: list[Doubt]

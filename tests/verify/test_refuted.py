@@ -1,0 +1,150 @@
+"""No verdict is stronger than a run of the simulator that contradicts it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from swarmdsl.cli import run
+from swarmdsl.execution.verify.model import Model
+
+from .conftest import verdicts_of
+
+_PRELUDE = """package test
+message Word { word : uint8 }
+message Text { text : string }
+message Signed { header : swarmros/EventHeader }
+event Go : std_msgs/Empty
+event Tick : std_msgs/Empty
+event Say : Text
+swarm event Ask : Word
+swarm event Tell : Word
+swarm event Sign : Signed
+"""
+_ONE = "member A { behavior M }\nswarm S { a : A[%s] }\n"
+_TWO = "member A { behavior M }\nmember B { behavior N }\nswarm S {\n a : A\n b : B\n}\n"
+
+# Models with a property `P` that a run with these events violates, and the verdict.
+REFUTED: dict[str, tuple[str, Sequence[dict[str, Any]], str]] = {
+    # The line after the event changes no fact, but ends that it was heard.
+    "a_moment_ends_with_the_next_line": (
+        "endless statemachine M {\n initial S0\n state S0 { on Go -> S1 }\n"
+        " state S1 {\n on Tick -> S1\n on Say -> S2\n}\n state S2 { on Tick -> S2 }\n}\n"
+        + _ONE % 1
+        + "property P of S : each a : after hears Go, (hears Go or in S2) at all times",
+        [{"event": "Go"}, {"event": "Tick"}],
+        "fails",
+    ),
+    "a_moment_of_some_robot_ends_with_the_next_line": (
+        "endless statemachine M {\n initial S0\n state S0 { on Go -> S1 }\n"
+        " state S1 {\n on Tick -> S1\n on Say -> S2\n}\n state S2 { on Tick -> S2 }\n}\n"
+        + _ONE % 2
+        + "property P of S : after some a hears Go, (some a hears Go or some a in S2) at all times",
+        [{"event": "Go"}, {"event": "Tick"}],
+        "fails",
+    ),
+    "a_moment_of_all_starts_ends_with_the_next_line": (
+        "endless statemachine M {\n initial S0\n state S0 {\n entry / send Ask\n on Go -> S1\n}\n"
+        " state S1 { on Ask -> S1 }\n}\n"
+        + _ONE % 2
+        + "property P of S : each a : (sends Ask or in S1) at all times",
+        [],
+        "fails",
+    ),
+    "a_model_compares_with_any_text": (
+        "endless statemachine M {\n initial S0\n state S0 {\n"
+        ' on Say [event.text == "another"] -> S0\n on Say [event.text == ""] -> S0\n'
+        " on Say -> Bad\n}\n"
+        " state Bad { on Tick -> S0 }\n}\n" + _ONE % 1 + "property P of S : each a : never in Bad",
+        [{"event": "Say", "data": {"text": "x"}}],
+        "fails",
+    ),
+    # What `a` sends after its 20th state is not known; `b` hears it.
+    "a_robot_with_too_many_states_may_send_anything": (
+        "endless statemachine M {\n var n : uint16 = 0\n initial S0\n state S0 {\n"
+        " on Go [n == 30] / send Ask(word = 1) -> S0\n on Go / n = n + 1 -> S0\n}\n}\n"
+        "endless statemachine N {\n initial S0\n state S0 { on Ask -> Bad }\n"
+        " state Bad { on Tick -> S0 }\n}\n" + _TWO + "property P of S : each b : never in Bad",
+        [{"event": "Go"}] * 31,
+        "up to",
+    ),
+    # `a` sends `Go` to itself only; `b` gets it from its own nodes.
+    "an_event_of_one_robot_comes_to_another_from_outside": (
+        "endless statemachine M {\n initial S0\n state S0 {\n on Tick / send Go -> S0\n"
+        " on Go -> S0\n}\n}\nendless statemachine N {\n initial S0\n state S0 { on Go -> Bad }\n"
+        " state Bad { on Tick -> S0 }\n}\n" + _TWO + "property P of S : each b : never in Bad",
+        [{"event": "Go", "member": "b[0]"}],
+        "fails",
+    ),
+    "an_event_from_outside_comes_in_the_name_of_a_robot": (
+        "endless statemachine M {\n initial S0\n state S0 {\n"
+        ' on Tell [event.sender == "a[1]"] -> Bad\n on Tell -> S0\n}\n'
+        " state Bad { on Tick -> S0 }\n}\n" + _ONE % 2 + "property P of S : each a : never in Bad",
+        [{"event": "Tell", "sender": "a[1]", "data": {"word": 1}}],
+        "unknown",
+    ),
+    # Messages that differ in nothing but their senders are compared as a whole.
+    "a_message_that_is_kept_has_its_sender_in_it": (
+        "statemachine M {\n var kept : Signed[<=2]\n initial S0\n state S0 {\n"
+        " on Go / send Sign -> S0\n"
+        ' on Sign [any(k in kept where k.header.node == "a[1]")] -> Bad\n'
+        " on Sign [len(kept) < 2] / append event to kept -> S0\n}\n final Bad\n}\n"
+        + _ONE % 3
+        + "property P of S : each a : never in Bad",
+        [{"event": "Go", "member": "a[1]"}] * 2,
+        "fails",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUTED)
+def test_what_a_run_refutes_does_not_hold(
+    name: str,
+    modelled: Callable[..., Model],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    text, events, outcome = REFUTED[name]
+    monkeypatch.setattr("swarmdsl.execution.verify.model.MOST_STATES", 20)
+    model = modelled(_PRELUDE + text)
+    path = tmp_path / "events.jsonl"
+    path.write_text("".join(f"{json.dumps({'after': 10, **each})}\n" for each in events))
+
+    run(["simulate", str(tmp_path / "model.swarm"), "--events", str(path), "--until", "10s"])
+    assert "property `P` is violated" in capsys.readouterr().err
+    assert verdicts_of(model)["P"].outcome == outcome
+
+
+def test_what_is_possible_only_by_overtaking_is_unknown(modelled: Callable[..., Model]) -> None:
+    model = modelled(
+        _PRELUDE + "endless statemachine M {\n initial S0\n"
+        " state S0 { on Go / send Ask(word = 0), send Ask(word = 1) -> S1 }\n"
+        " state S1 { on Tell -> S0 }\n}\n"
+        "endless statemachine N {\n initial S0\n"
+        " state S0 {\n on Ask [event.word == 1] -> Goal\n on Ask -> Mid\n}\n"
+        " state Mid {\n on Ask [event.word == 1] / send Tell -> S0\n on Ask -> Mid\n}\n"
+        " state Goal { on Ask / send Tell -> S0 }\n}\n"
+        + _TWO
+        + "property P of S : each b : always possible in Goal"
+    )
+    verdict = verdicts_of(model)["P"]
+
+    assert (verdict.outcome, "order of events on `ask`" in verdict.reason) == ("unknown", True)
+
+
+def test_a_chain_of_too_many_claims_is_unknown(modelled: Callable[..., Model]) -> None:
+    chain = " then ".join(f"some a in S{number % 2}" for number in range(10))
+    model = modelled(
+        _PRELUDE + "endless statemachine M {\n initial S0\n state S0 { on Go -> S1 }\n"
+        " state S1 { on Go -> S0 }\n}\n"
+        + _ONE % 1
+        + f"property P of S : before some a hears Tick, {chain}"
+    )
+    verdict = verdicts_of(model)["P"]
+
+    assert (verdict.outcome, verdict.reason) == ("unknown", "it has more than 10 claims")
