@@ -14,7 +14,8 @@ from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify.explore import Budget, Limits
 from swarmdsl.execution.verify.model import Model, Options
-from swarmdsl.execution.verify.prove import Verdict, prove
+from swarmdsl.execution.verify.prove import prove
+from swarmdsl.execution.verify.verdict import Verdict
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -153,7 +153,7 @@ class _Swarm:
 
     @property
     def memories(self) -> dict[str, list[Any]]:
-        """What decides on what the monitors of each property say from now on."""
+        """Memory of the monitors of each property."""
         return {
             watched.property.name: [
                 (*monitor.memory[1:], monitor.violated is not None)

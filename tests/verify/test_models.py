@@ -1,4 +1,4 @@
-"""What `swarmc verify` prints about small models: verdicts, findings and runs."""
+"""Output of `swarmc verify` about small models: verdicts, findings and runs."""
 
 from __future__ import annotations
 

@@ -1,17 +1,12 @@
-"""Automaton of one robot, found by running its machines on each input in each state.
-
-States that no run can tell apart are one: the coarsest partition is refined until it is stable (P.
-Kanellakis and S. Smolka, 1983). This leaves out variables where they are not read any more.
-"""
+"""Automaton of one robot, found by running its machines on each input in each state."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import reduce
 from operator import or_
-from typing import Any, NamedTuple
+from typing import Any
 
-from swarmdsl import ir
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution import monitor
 from swarmdsl.execution.engine import NO_ENVELOPE, Envelope, Event
@@ -21,91 +16,12 @@ from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.expressions import SELF
 from swarmdsl.execution.simulate.properties import claim_of, conditions
 from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.verify.alphabet import Alphabet, frozen
 from swarmdsl.execution.verify.body import Body, Input
-from swarmdsl.execution.verify.data import Demands
+from swarmdsl.execution.verify.moves import Look, Moment, Move
 from swarmdsl.ir import Count, Fact
 
 _OUTCOMES = ("aborted", "preempted")
-
-
-class Moment(NamedTuple):
-    """What one line of a trace shows: the part of it that findings and properties are about.
-
-    `holding` are the facts that hold for the robot then, as a set of bits.
-    """
-
-    actor: int
-    event: str | None
-    taken: tuple[str, ...]
-    holding: int
-    ignored: bool
-    started: tuple[str, ...]
-    sent: tuple[str, ...]
-    failures: tuple[str, ...]
-    loops: bool
-
-
-class Move(NamedTuple):
-    """A step of a robot: its input, what it shows, the messages that it sends, its target."""
-
-    given: Input
-    moments: tuple[Moment, ...]
-    sends: tuple[int, ...]
-    target: int
-
-    @property
-    def idle(self) -> bool:
-        """True if the robot ignores the input."""
-        return all(each.ignored for each in self.moments) and not self.sends
-
-
-class Look(NamedTuple):
-    """What a state of a robot shows.
-
-    `holding` are its facts, `held` those of each machine. `innermost` are the active states with
-    the numbers of their machines. In a `quiet` state nothing is running: it waits for events.
-    """
-
-    ended: bool
-    holding: int
-    innermost: tuple[tuple[int, str], ...]
-    quiet: bool
-    held: tuple[int, ...]
-
-
-@dataclass(frozen=True)
-class Message:
-    """A kind of message between robots: equal for all that decides on anything."""
-
-    number: int
-    event: Event
-    reliable: bool
-
-
-class Alphabet:
-    """Messages that robots send to each other."""
-
-    def __init__(self, system: ir.System | None, demands: Demands) -> None:
-        self.messages: list[Message] = []
-        self.demands = demands
-        self.system = system
-        self._known: dict[Any, int] = {}
-
-    def number(self, event: Event) -> int:
-        """Return the number of the kind of a message."""
-        sender = event.envelope.sender if self.demands.identity else ""
-        key = (event.name, self.shown(event), event.envelope.to, sender)
-        if key not in self._known:
-            self._known[key] = len(self.messages)
-            assert self.system is not None
-            delivery = self.system.event(event.name).delivery
-            reliable = delivery is not None and bool(delivery.reliable)
-            self.messages.append(Message(len(self.messages), event, reliable))
-        return self._known[key]
-
-    def shown(self, event: Event) -> Any:
-        """Return the data of an event that decide on anything."""
-        return tuple((path, _at(event.data, path)) for path in self.demands.fields(event.name))
 
 
 @dataclass
@@ -340,7 +256,7 @@ class Automaton:
         """Return the variables that decide on anything."""
         demands = self.alphabet.demands
         return tuple(
-            (f"{instance.machine.name}.{name}", _frozen(value))
+            (f"{instance.machine.name}.{name}", frozen(value))
             for instance in body.instances
             for name, value in instance.data.items()
             if name != SELF and demands.keeps(instance.machine.name, name)
@@ -413,118 +329,7 @@ def close(automata: Sequence[Automaton], alphabet: Alphabet, states: int, moves:
     return complete
 
 
-class Quotient:
-    """States of an automaton that no run can tell apart are one.
-
-    Runs tell apart the facts of `mask`, and with `thorough` also what findings are about: active
-    states and transitions. `classes` has the state of the quotient for each of the automaton.
-    """
-
-    def __init__(self, whole: Automaton, mask: int, *, thorough: bool) -> None:
-        self.whole = whole
-        self.mask = mask
-        self._thorough = thorough
-        size = len(whole.steps)
-        looks = [self._look(n) for n in range(size)]
-        blocks = _numbered(looks)
-        count = -1
-        while (found := max(blocks) + 1) != count:
-            count = found
-            blocks = _numbered([(blocks[n], self._signature(n, blocks)) for n in range(size)])
-        self.classes = blocks
-        self.count = count
-        first: dict[int, int] = {}
-        for number, block in enumerate(blocks):
-            first.setdefault(block, number)
-        self._representatives = [first[each] for each in range(count)]
-
-    @property
-    def first(self) -> Move:
-        """Start of the robot."""
-        return self._lifted(self.whole.first)
-
-    def moves(self, state: int) -> list[Move] | None:
-        """Return the moves of a state; None if they are not known."""
-        found = self.whole.steps[self._representatives[state]]
-        if found is None:
-            return None
-        chosen = {self._label(move, self.classes[move.target]): move for move in reversed(found)}
-        return [self._lifted(each) for each in reversed(chosen.values())]
-
-    def move_on(self, state: int, message: int) -> Move | None:
-        """Return the move of a state when a message arrives; None if it is not known."""
-        found = self.whole.heard[self._representatives[state]].get(message)
-        return None if found is None else self._lifted(found)
-
-    def follow(self, number: int, move: Move) -> Move:
-        """Return the move of a state of the automaton that looks like one of the quotient."""
-        if move.given.kind == "hear":
-            return self.whole.heard[number][move.given.choice]
-        wanted = self._label(move, move.target)
-        for each in self.whole.steps[number] or ():
-            if self._label(each, self.classes[each.target]) == wanted:
-                return each
-        raise AssertionError("states that are one have the same moves")
-
-    def look(self, state: int) -> Look:
-        """Return what a state shows."""
-        return self.whole.looks[self._representatives[state]]
-
-    def ended(self, state: int) -> bool:
-        """Return True if the robot has ended."""
-        return self.look(state).ended
-
-    def _lifted(self, move: Move) -> Move:
-        return move._replace(target=self.classes[move.target])
-
-    def _look(self, number: int) -> Any:
-        look = self.whole.looks[number]
-        cut = number if self.whole.steps[number] is None else None
-        if self._thorough:
-            return (cut, look)
-        return (cut, look.ended, look.holding & self.mask)
-
-    def _label(self, move: Move, target: int) -> tuple[Any, ...]:
-        given, moments = move.given, move.moments
-        if self._thorough:
-            return (given.kind, given.actor, given.name, moments, move.sends, target)
-        shown = tuple(each.holding & self.mask for each in moments)
-        return (shown, move.idle, move.sends, target)
-
-    def _signature(self, number: int, blocks: Sequence[int]) -> Any:
-        steps = self.whole.steps[number] or ()
-        own = frozenset(self._label(each, blocks[each.target]) for each in steps)
-        heard = tuple(
-            (message, self._label(each, blocks[each.target]))
-            for message, each in sorted(self.whole.heard[number].items())
-        )
-        return own, heard
-
-
 def _plain(fact: Fact | Count) -> monitor.Fact | monitor.Count:
     claim = claim_of(fact)
     assert not isinstance(claim, monitor.Junction)
     return claim
-
-
-def _numbered(keys: Sequence[Any]) -> list[int]:
-    numbers: dict[Any, int] = {}
-    return [numbers.setdefault(each, len(numbers)) for each in keys]
-
-
-def _at(data: Any, path: Sequence[str]) -> Any:
-    for name in path:
-        data = data.get(name) if isinstance(data, dict) else None
-    return _frozen(data)
-
-
-def _frozen(value: Any) -> Any:
-    """Return a value that can be compared and hashed; True is no number."""
-    match value:
-        case dict():
-            return tuple(sorted((name, _frozen(each)) for name, each in value.items()))
-        case list() | tuple():
-            return tuple(map(_frozen, value))
-        case bool():
-            return ("true",) if value else ("false",)
-    return value

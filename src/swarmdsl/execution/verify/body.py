@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import deepcopy
+from functools import partial
 from typing import Any, NamedTuple
 
 from swarmdsl import ir
@@ -25,7 +26,7 @@ from swarmdsl.execution.simulate.trace import Line, Trace
 
 
 class Input(NamedTuple):
-    """What happens to a robot; `actor` is the number of its machine, -1 for all of them.
+    """Input of a robot; `actor` is the number of its machine, -1 for all of them.
 
     `kind` is `end` of an activity, `time` of a delay, `inside` for an event of the robot itself,
     `outside` for one from outside of the swarm, `hear` for one of another robot.
@@ -157,7 +158,7 @@ class Body:
         for instance, actor in zip(self.instances, self.cast, strict=True):
             if instance.running and actor.listens(event.name):
                 self._trace.begin(instance, event.name, event.data, event.envelope)
-                self._guarded(lambda of=instance: of.receive(event))  # type: ignore[misc]
+                self._guarded(partial(instance.receive, event))
         self._forget_ended()
 
     def _guarded(self, action: Callable[[], None]) -> None:

@@ -19,13 +19,14 @@ from swarmdsl.driver.config import find_settings
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject, choose
 from swarmdsl.execution.simulate.trace import as_json
-from swarmdsl.execution.verify import told
+from swarmdsl.execution.verify import diagnostics
 from swarmdsl.execution.verify.explore import Budget, Limits
 from swarmdsl.execution.verify.findings import Survey, survey
 from swarmdsl.execution.verify.model import Model, Options
-from swarmdsl.execution.verify.prove import Verdict, prove
+from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.runs import Run
 from swarmdsl.execution.verify.sizes import shown, sizes
+from swarmdsl.execution.verify.verdict import Verdict
 
 _PAUSE = 0.2
 """Seconds between two reports of the progress."""
@@ -122,7 +123,7 @@ class _Session:
             surveys.append(found)
             for finding in found.findings:
                 self._write(f"{finding.fault}-{finding.name}", finding.run)
-                told.report_finding(finding, size, self._report)
+                diagnostics.report_finding(finding, size, self._report)
         for property_ in properties:
             known = verdicts.get(property_.name)
             if known is not None and known.outcome == "fails":
@@ -134,7 +135,7 @@ class _Session:
             if known is None or _WORST.index(verdict.outcome) <= _WORST.index(known.outcome):
                 verdicts[property_.name] = verdict
             self._write(property_.name, verdict.run)
-            told.report_verdict(verdict, size, self._report)
+            diagnostics.report_verdict(verdict, size, self._report)
 
     # ---- before
 
@@ -177,7 +178,7 @@ class _Session:
             steps = counted_in_thousands(found.transitions, "step")
             rest = "all there are" if found.complete else "there are more"
             self._say(f"  {states}, {steps}: {rest}")
-        lines = list(told.rows(verdicts))
+        lines = list(diagnostics.rows(verdicts))
         if lines:
             self._say("")
         widths = [max(len(line[n]) for line in lines) for n in range(2)] if lines else []
@@ -186,7 +187,7 @@ class _Session:
             self._say(printable(text.rstrip()))
         self._say("")
         self._say("under these conditions:")
-        for condition in told.conditions(model, full):
+        for condition in diagnostics.conditions(model, full):
             self._say(printable(f"  - {condition}"))
         self._say("")
         for path in self._written:

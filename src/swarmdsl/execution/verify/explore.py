@@ -28,7 +28,7 @@ class Limits:
 
 
 class Budget:
-    """What is left of the limits of a command.
+    """Rest of the limits of a command.
 
     `tell` is called with the number of states from time to time.
     """

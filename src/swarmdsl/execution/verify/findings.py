@@ -9,10 +9,11 @@ from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
-from swarmdsl.execution.verify.automaton import Move, Quotient
 from swarmdsl.execution.verify.explore import Budget, Graph, explore
 from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network, Step
+from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.runs import Run, play, steps_between
 
 Fault = Literal["loops", "fails", "stuck", "waits", "unreachable", "untaken", "lost"]
@@ -42,14 +43,12 @@ class Survey:
     complete: bool
     findings: tuple[Finding, ...]
     full: tuple[str, ...] = ()
-    doubtful: bool = False
 
 
 def survey(model: Model, budget: Budget) -> Survey:
     """Look at all states of a swarm; groups that do not exchange messages are looked at apart."""
     states = transitions = 0
     complete = True
-    doubtful = False
     findings: list[Finding] = []
     full: set[str] = set()
     reached: dict[str, _Reached] = {}
@@ -60,7 +59,6 @@ def survey(model: Model, budget: Budget) -> Survey:
         transitions += graph.transitions
         sure = graph.complete and not model.doubts(groups)
         complete &= graph.complete
-        doubtful |= bool(model.doubts(groups))
         full |= network.full
         part = _Part(model, graph)
         found = list(part.findings(sure=sure))
@@ -71,7 +69,7 @@ def survey(model: Model, budget: Budget) -> Survey:
     ignored = {each.name for each in findings if each.fault == "lost"}
     for machine in reached.values():
         findings += machine.missing(ignored)
-    return Survey(states, transitions, complete, tuple(findings), tuple(sorted(full)), doubtful)
+    return Survey(states, transitions, complete, tuple(findings), tuple(sorted(full)))
 
 
 class _Part:

@@ -14,10 +14,14 @@ from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.members import Roster
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.verify.automaton import Alphabet, Automaton, Kind, Quotient, close
-from swarmdsl.execution.verify.data import Demands, Doubt
+from swarmdsl.execution.verify.alphabet import Alphabet
+from swarmdsl.execution.verify.automaton import Automaton, Kind, close
+from swarmdsl.execution.verify.demands import Demands
+from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.network import Group
-from swarmdsl.execution.verify.observer import meaning
+from swarmdsl.execution.verify.quotient import Quotient
+from swarmdsl.execution.verify.representatives import Values
+from swarmdsl.execution.verify.terms import meaning
 from swarmdsl.ir.sentences import facts_in
 
 MOST_STATES, MOST_MOVES = 500, 5_000
@@ -26,7 +30,7 @@ MOST_STATES, MOST_MOVES = 500, 5_000
 
 @dataclass(frozen=True)
 class Options:
-    """How the network behaves."""
+    """Behaviour of the network."""
 
     capacity: int = 2
     lossy: bool = False
@@ -304,13 +308,10 @@ class Model:
         others = {s.event for s in self.sends(self.machines) if system.event(s.event).swarm}
         return own | others | {e.name for e in system.events if e.incoming_topic in topics}
 
-    def _noted(
-        self, found: tuple[list[dict[str, Any]], list[Doubt], list[str]], doubts: list[Doubt]
-    ) -> list[dict[str, Any]]:
-        values, doubtful, said = found
-        doubts += doubtful
-        self.said.update(dict.fromkeys(said))
-        return values
+    def _noted(self, found: Values, doubts: list[Doubt]) -> Sequence[dict[str, Any]]:
+        doubts += found.doubts
+        self.said.update(dict.fromkeys(found.conditions))
+        return found.values
 
     def _lacks(self, cast: Sequence[Actor]) -> Iterator[Doubt]:
         """Yield what a machine uses that proofs do not cover."""

@@ -12,7 +12,9 @@ from typing import NamedTuple
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.verify.automaton import Alphabet, Move, Quotient
+from swarmdsl.execution.verify.alphabet import Alphabet
+from swarmdsl.execution.verify.moves import Move
+from swarmdsl.execution.verify.quotient import Quotient
 
 
 @dataclass(frozen=True)

@@ -2,86 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import product
 from typing import NamedTuple
 
 from swarmdsl import ir
-from swarmdsl.execution.monitor import OPEN, Monitor, Sentence
-from swarmdsl.execution.verify.automaton import Move
+from swarmdsl.execution.verify.monitor_table import MonitorTable
+from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Network, Step
-from swarmdsl.ir import Claim, Count, Fact, Junction
-from swarmdsl.ir.operations import OPERATIONS
-
-MOST_CLAIMS = 10
-"""Number of claims up to which all combinations of their truth are looked at."""
-
-Truth = Callable[[Sequence[int], Sequence[int]], bool]
-"""Truth of a claim, given for each fact how many robots it holds for, and if it does for me."""
-
-
-class MonitorTable:
-    """The automaton of a monitor, as a table: states are numbers, 0 is before the first step."""
-
-    def __init__(self, sentence: Sentence, claims: int, scope: int) -> None:
-        self._claims, self._scope = claims, scope
-        self._monitors = [Monitor(sentence)]
-        self._numbers = {self._monitors[0].memory: 0}
-        self._steps: dict[tuple[int, tuple[bool, ...]], int] = {}
-        self._settled: set[int] = set()
-        self._look_ahead()
-
-    def step(self, state: int, truths: tuple[bool, ...]) -> int:
-        """Return the state after a step."""
-        found = self._steps.get((state, truths))
-        if found is None:
-            monitor = self._monitors[state].copy()
-            monitor.step(0, truths[: self._claims], truths[self._claims :])
-            memory = monitor.memory
-            found = self._numbers.setdefault(memory, len(self._monitors))
-            if found == len(self._monitors):
-                self._monitors.append(monitor)
-            self._steps[state, truths] = found
-        return found
-
-    def is_bad(self, state: int) -> bool:
-        """Return True if the property is violated."""
-        return self._monitors[state].violated is not None
-
-    def is_settled(self, state: int) -> bool:
-        """Return True if it cannot be violated any more."""
-        return state in self._settled
-
-    def fails_at_end(self, state: int) -> bool:
-        """Return True if the property is violated when nothing happens any more."""
-        monitor = self._monitors[state].copy()
-        monitor.finish(0, ended=True)
-        return monitor.violated is not None
-
-    @property
-    def size(self) -> int:
-        """Number of states known."""
-        return len(self._monitors)
-
-    def _look_ahead(self) -> None:
-        every = list(product((False, True), repeat=self._claims + self._scope))
-        number = 0
-        while number < len(self._monitors):
-            for truths in every:
-                self.step(number, truths)
-            number += 1
-        dangerous = {
-            state
-            for state in range(number)
-            if self.is_bad(state) or self._monitors[state].state == OPEN
-        }
-        grown = True
-        while grown:
-            more = {s for (s, _), target in self._steps.items() if target in dangerous}
-            grown = not more <= dangerous
-            dangerous |= more
-        self._settled = set(range(number)) - dangerous
+from swarmdsl.execution.verify.terms import Terms, is_act
+from swarmdsl.ir import Count, Fact
 
 
 class Observer:
@@ -295,105 +225,3 @@ class _Sight:
 
 def _momentary(facts: Sequence[Fact | Count]) -> int:
     return sum(1 << n for n, each in enumerate(facts) if isinstance(each, Fact) and is_act(each))
-
-
-def is_act(fact: Fact | Count) -> bool:
-    """Return True for what happens, in contrast to what is."""
-    return isinstance(fact, Fact) and fact.act not in ("in", "has")
-
-
-class Terms:
-    """Facts of a property, each with the groups that it can hold for."""
-
-    def __init__(self, property_: ir.Property, network: Network) -> None:
-        self._property = property_
-        self._network = network
-        self._keys: list[tuple[Fact | Count, str | None, str | None]] = []
-        self._bits: list[list[int]] = []
-        """For each term, the bit of its fact in each group; 0 where it cannot hold."""
-
-    def __len__(self) -> int:
-        return len(self._keys)
-
-    @property
-    def facts(self) -> list[Fact | Count]:
-        """The facts, in the order of their numbers."""
-        return [fact for fact, _, _ in self._keys]
-
-    def holds(self, term: int, group: int, bits: int) -> int:
-        """Return 1 if a fact holds for a robot with these facts, else 0."""
-        return 1 if bits & self._bits[term][group] else 0
-
-    def truth(self, claim: Claim) -> Truth:
-        """Compile a claim."""
-        if isinstance(claim, Junction):
-            parts = [self.truth(each) for each in claim.claims]
-            if claim.operator == "not":
-                (part,) = parts
-                return lambda counts, mine: not part(counts, mine)
-            together = all if claim.operator == "and" else any
-            return lambda counts, mine: together(part(counts, mine) for part in parts)
-        if isinstance(claim, Count):
-            term = self._term(claim, claim.role, None)
-            compare, number = OPERATIONS[claim.comparison], claim.number
-            return lambda counts, mine: bool(compare(counts[term], number))
-        robots = claim.robots
-        if robots is None:
-            each = self._property.each
-            if each is not None and claim.act != "arrives":
-                term = self._term(claim, each, None)
-                return lambda counts, mine: bool(mine[term])
-            term = self._term(claim, None, None)
-            return lambda counts, mine: counts[term] > 0
-        return self._of_robots(claim, robots)
-
-    def _of_robots(self, claim: Fact, robots: ir.Robots) -> Truth:
-        if robots.quantifier == "index":
-            term = self._term(claim, robots.role, f"{robots.role}[{robots.index or 0}]")
-            return lambda counts, mine: counts[term] > 0
-        term = self._term(claim, robots.role, None)
-        if robots.quantifier == "number":
-            assert robots.number is not None
-            least, most = robots.number.lower, robots.number.upper
-            return lambda counts, mine: (
-                least <= counts[term] and (most is None or counts[term] <= most)
-            )
-        other = robots.other
-        if robots.quantifier == "some":
-            return lambda counts, mine: counts[term] - (other and mine[term]) > 0
-        if robots.quantifier == "no":
-            return lambda counts, mine: counts[term] - (other and mine[term]) == 0
-        size = sum(len(g.robots) for g in self._network.groups if g.role == robots.role)
-        mine_too = other and self._property.each == robots.role
-        return lambda counts, mine: (
-            counts[term] - (other and mine[term]) == size - (1 if mine_too else 0)
-        )
-
-    def _term(self, fact: Fact | Count, role: str | None, robot: str | None) -> int:
-        key = (fact, role, robot)
-        if key not in self._keys:
-            self._keys.append(key)
-            bits = []
-            for group in self._network.groups:
-                facts = group.automaton.whole.kind.facts
-                meant = (role in (None, group.role)) and (robot is None or robot in group.robots)
-                same = (n for n, each in enumerate(facts) if same_fact(each, fact))
-                bits.append(1 << next(same, -1) if meant and _has(facts, fact) else 0)
-            self._bits.append(bits)
-        return self._keys.index(key)
-
-
-def _has(facts: Sequence[Fact | Count], fact: Fact | Count) -> bool:
-    return any(same_fact(each, fact) for each in facts)
-
-
-def same_fact(one: Fact | Count, other: Fact | Count) -> bool:
-    """Return True if two facts are about the same, of whichever robots."""
-    return meaning(one) == meaning(other)
-
-
-def meaning(fact: Fact | Count) -> tuple[str, str, ir.Expression | None]:
-    """Return what a fact says, without the robots that it says it of."""
-    if isinstance(fact, Count):
-        return ("in", fact.state, None)
-    return (fact.act, fact.name, fact.guard)

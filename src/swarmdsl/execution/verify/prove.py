@@ -2,48 +2,26 @@
 
 from __future__ import annotations
 
-from array import array
-from collections.abc import Callable, Iterator, Sequence
-from itertools import combinations
-from typing import Literal
+from collections.abc import Iterator, Sequence
 
 from swarmdsl import ir
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
 from swarmdsl.execution.monitor import Sentence
-from swarmdsl.execution.verify.automaton import Move, Quotient
-from swarmdsl.execution.verify.explore import Budget, Graph, explore, observe
+from swarmdsl.execution.verify.explore import Budget, Graph, observe
 from swarmdsl.execution.verify.model import Model, facts_of, roles_of
+from swarmdsl.execution.verify.monitor_table import MOST_CLAIMS, MonitorTable
+from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network
-from swarmdsl.execution.verify.observer import MOST_CLAIMS, MonitorTable, Observer, Terms, is_act
-from swarmdsl.execution.verify.runs import Run, play, steps_between
+from swarmdsl.execution.verify.observer import Observer
+from swarmdsl.execution.verify.possible import prove_possible
+from swarmdsl.execution.verify.quotient import Quotient
+from swarmdsl.execution.verify.runs import play, steps_between
+from swarmdsl.execution.verify.terms import Terms, is_act
+from swarmdsl.execution.verify.verdict import Outcome, Verdict, unfinished, violated
 from swarmdsl.ir.sentences import facts_in
 
-Outcome = Literal["holds", "fails", "up to", "unknown"]
 _SAFE = ("never", "always", "only", "times")
 """Patterns that a finite run violates."""
 _ENDLESS = "no run that ends violates it; runs that go on for ever are not covered"
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """Verdict on a property, for one number of members.
-
-    `robot` and `run` are those of a violation; `reason`, perhaps with a place in the model, is
-    that of a verdict that is open. `states` is the number of states that were looked at.
-    """
-
-    property: ir.Property
-    outcome: Outcome
-    states: int = 0
-    reason: str = ""
-    place: Span | None = None
-    robot: str | None = None
-    run: Run | None = None
-    full: tuple[str, ...] = ()
-    """Events of which messages were lost because there were too many."""
-    alone: bool = False
-    """True if the proof is about one robot, whatever the others do."""
 
 
 def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
@@ -115,7 +93,7 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
                 return Verdict(property_, "holds", states, robot=me, alone=True)
         mine = groups.index(every[mine])
     if property_.kind == "possible":
-        return _possible(property_, model, groups, mine, me, budget)
+        return prove_possible(property_, model, groups, mine, me, budget)
     table = _table(property_)
     network = Network(
         groups,
@@ -128,7 +106,7 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     graph = observe(network, observer, budget)
     if graph.bad is not None:
         steps = steps_between(graph.way(graph.bad), lambda s: list(observer.successors(s)))
-        return _violated(property_, play(network, steps, property_), graph, me)
+        return violated(property_, play(network, steps, property_), graph, me)
     return _not_violated(property_, model, graph, groups, me)
 
 
@@ -146,17 +124,6 @@ def _about(property_: ir.Property, model: Model, groups: Sequence[Group]) -> Ite
                 yield number
 
 
-def _violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> Verdict:
-    states = len(graph.seen)
-    if run.flaw:
-        reason = f"the run that was found cannot be: {run.flaw}"
-        return Verdict(property_, "unknown", states, reason, robot=me)
-    if property_.chance is not None:
-        reason = "some runs violate it: how probable they are is not covered"
-        return Verdict(property_, "unknown", states, reason, robot=me)
-    return Verdict(property_, "fails", states, robot=me, run=run)
-
-
 def _not_violated(
     property_: ir.Property, model: Model, graph: Graph, groups: Sequence[Group], me: str | None
 ) -> Verdict:
@@ -166,21 +133,11 @@ def _not_violated(
     if doubts:
         return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
     if not graph.complete:
-        return Verdict(property_, "up to", states, _unfinished(model, graph), robot=me)
+        return Verdict(property_, "up to", states, unfinished(model), robot=me)
     scope = property_.scope.kind if property_.scope is not None else None
     if property_.kind not in _SAFE and scope not in ("before", "between"):
         return Verdict(property_, "unknown", states, _ENDLESS, robot=me)
     return Verdict(property_, "holds", states, robot=me, full=full)
-
-
-def _unfinished(model: Model, graph: Graph) -> str:
-    """Say what made a search stop, and which variable to bound."""
-    for automaton in model.kinds:
-        if any(steps is None for steps in automaton.steps):
-            wide = automaton.wide()
-            what = f": bound `{wide}`" if wide else ""
-            return f"a `{automaton.kind.role}` has too many states{what}"
-    return "there are more states"
 
 
 def _sentence(property_: ir.Property) -> Sentence:
@@ -254,108 +211,3 @@ def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
         todo += found - seen
         seen |= found
     return len(seen)
-
-
-# ---- always possible
-
-
-def _possible(
-    property_: ir.Property,
-    model: Model,
-    groups: Sequence[Group],
-    mine: int | None,
-    me: str | None,
-    budget: Budget,
-) -> Verdict:
-    """Search backwards from the states in which the claim holds."""
-    network = Network(groups, model.alphabet, model.options.capacity, lossy=model.options.lossy)
-    graph = explore(network, budget)
-    states = len(graph.seen)
-    doubts = model.doubts(groups)
-    if doubts:
-        return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
-    if not graph.complete:
-        return Verdict(property_, "up to", states, _unfinished(model, graph), robot=me)
-    holds = _state_truth(property_, network, mine)
-    numbers = {state: number for number, state in enumerate(graph.seen)}
-    sources = array("I")
-    targets = array("I")
-    for state, number in numbers.items():
-        for following, _ in network.followers(state):
-            if following != state:
-                sources.append(number)
-                targets.append(numbers[following])
-    able = bytearray(states)
-    todo = [number for state, number in numbers.items() if holds(state)]
-    for number in todo:
-        able[number] = 1
-    before: dict[int, list[int]] = {}
-    for source, target in zip(sources, targets, strict=True):
-        before.setdefault(target, []).append(source)
-    while todo:
-        for source in before.get(todo.pop(), ()):
-            if not able[source]:
-                able[source] = 1
-                todo.append(source)
-    lost = able.find(0)
-    if lost < 0:
-        if _has_delays(model, groups):
-            reason = "whether it is possible may depend on the lengths of delays"
-            return Verdict(property_, "unknown", states, reason, robot=me)
-        topic = _reordered(model, network)
-        if topic:
-            reason = f"whether it is possible may depend on the order of events on `{topic}`"
-            return Verdict(property_, "unknown", states, reason, robot=me)
-        return Verdict(property_, "holds", states, robot=me, full=tuple(sorted(network.full)))
-    steps = steps_between(graph.way(lost), lambda s: list(network.followers(s)))
-    run = play(network, steps)
-    return _violated(property_, run, graph, me)
-
-
-def _state_truth(
-    property_: ir.Property, network: Network, mine: int | None
-) -> Callable[[int], bool]:
-    """Return the truth of the claim of a property in a state."""
-    terms = Terms(property_, network)
-    truth = terms.truth(property_.claims[0])
-
-    def holds(state: int) -> bool:
-        counts = [0] * len(terms)
-        me = [0] * len(terms)
-        for place, count in network.present(state):
-            group, local, _ = network.places[place]
-            bits = network.groups[group].automaton.look(local).holding
-            for term in range(len(terms)):
-                held = terms.holds(term, group, bits)
-                counts[term] += held * count
-                if group == mine:
-                    me[term] = held
-        return bool(truth(counts, me))
-
-    return holds
-
-
-def _reordered(model: Model, network: Network) -> str:
-    """Return a topic of which different messages of a sender may be on their way, or ""."""
-    for place in network.places:
-        events = [model.alphabet.messages[number].event for number in set(place.bag)]
-        for one, other in combinations(events, 2):
-            topic = model.system.event(one.name).topic
-            same_sender = one.envelope.sender == other.envelope.sender
-            if topic == model.system.event(other.name).topic and (
-                same_sender or not model.demands.identity
-            ):
-                return topic
-    return ""
-
-
-def _has_delays(model: Model, groups: Sequence[Group]) -> bool:
-    """Return True if a machine of some groups has a delay."""
-    names = {actor.machine.name for g in groups for actor in g.automaton.whole.kind.cast}
-    return any(
-        isinstance(trigger, ir.TimeTrigger)
-        for name in names
-        for state in model.machines[name].walk()
-        for transition in state.transitions
-        for trigger in transition.triggers
-    ) or any(send.delay is not None for send in model.sends(names))

@@ -19,8 +19,9 @@ from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.verify.automaton import Alphabet, Move
+from swarmdsl.execution.verify.alphabet import Alphabet
 from swarmdsl.execution.verify.body import Body
+from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network, Step
 from swarmdsl.ir import Property
 

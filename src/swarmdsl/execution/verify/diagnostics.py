@@ -10,8 +10,8 @@ from swarmdsl.base.source import Span
 from swarmdsl.execution.simulate.trace import Line, as_text
 from swarmdsl.execution.verify.findings import Fault, Finding, transitions_of
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.prove import Verdict
 from swarmdsl.execution.verify.runs import Run
+from swarmdsl.execution.verify.verdict import Verdict
 
 _MOST_LINES = 40
 """Maximum number of lines of a run in a diagnostic."""

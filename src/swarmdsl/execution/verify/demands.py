@@ -1,45 +1,34 @@
-"""Data that decide what a swarm does, and representatives of data that come from outside.
+"""Data that decide what a swarm does.
 
 Demands flow backwards, from guards over copies to where the data come from: a program slice
-(M. Weiser, 1981). Data that nothing demands are left out. A number that is only compared with
-constants has one representative for each outcome of all comparisons.
+(M. Weiser, 1981). Data that nothing demands are left out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import count, pairwise, product
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
 from swarmdsl.codegen.shared.default_values import (
     default_result,
     default_value,
     field_type,
     result_fields,
 )
-from swarmdsl.execution.engine import ExecutionError, bounded
+from swarmdsl.execution.engine import ExecutionError
 from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.verify.doubt import Doubt
+from swarmdsl.execution.verify.representatives import Cut, Part, Path, Values, combinations
 from swarmdsl.ir.integer_ranges import bound_of
-from swarmdsl.ir.operations import OPERATIONS
-from swarmdsl.syntax.types import FLOATS, INTEGERS
 
-Path = tuple[str, ...]
 Node = tuple[str, str, Path]
 """Place of data: `var`, `event`, `sender` or `result`, its name, and fields in it."""
-Cut = tuple[str, Any]
-"""Comparison with a constant: operator and value."""
 
 SELF: Node = ("robot", "self", ())
 SENT: Node = ("time", "sent", ())
 _COMPARISONS = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 """Comparisons, each with the one that has its sides exchanged."""
-_MOST = 64
-"""Maximum number of representatives of one message or result."""
-_OTHER = "another"
-"""Text that stands for all that a model does not compare with."""
 _HEADERS = {
     "node": (ir.Named("swarmros", "EventHeader"),),
     "stamp": (ir.Named("std_msgs", "Header"), ir.Named("swarmros", "EventHeader")),
@@ -47,16 +36,8 @@ _HEADERS = {
 """Fields that a sender fills in, with the types of the headers that have them."""
 
 
-@dataclass(frozen=True)
-class Doubt:
-    """Reason why a proof is not complete, with its place in the model."""
-
-    reason: str
-    place: Span | None = None
-
-
 class Demands:
-    """What decides on the behaviour of some machines.
+    """Data that decide on the behaviour of some machines.
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
     conditions of properties, each with the machine that it is about.
@@ -126,76 +107,34 @@ class Demands:
                 yield Doubt("the model reads the time", getattr(expression, "origin", None))
                 return
 
-    def results(self, function: str) -> tuple[list[dict[str, Any]], list[Doubt], list[str]]:
-        """Return representatives of the results of a function, with doubts and conditions."""
+    def results(self, function: str) -> Values:
+        """Return representatives of the results of a function."""
         call = self._system.function(function).communication
-        fields = result_fields(call, self._system) or ()
-        types = {each.name: each.type for each in fields}
-        return self._representatives(
-            "result", function, lambda: default_result(call, self._system), types
-        )
+        types = {each.name: each.type for each in result_fields(call, self._system) or ()}
 
-    def messages(self, event: str) -> tuple[list[dict[str, Any]], list[Doubt], list[str]]:
-        """Return representatives of the messages of an event from outside, likewise."""
+        def type_of(path: Path) -> ir.Type | None:
+            return field_type(types.get(path[0]), path[1:], self._system) if path else None
+
+        parts = self._parts("result", function, type_of)
+        return combinations(function, parts, lambda: default_result(call, self._system))
+
+    def messages(self, event: str) -> Values:
+        """Return representatives of the messages of an event from outside."""
         type_ = self._system.event(event).type
+        parts = self._parts("event", event, lambda path: field_type(type_, path, self._system))
+        return combinations(event, parts, lambda: default_value(type_, self._system))
 
-        def blank() -> dict[str, Any]:
-            made: dict[str, Any] = default_value(type_, self._system)
-            return made
+    # ---- internal: places of data
 
-        return self._representatives("event", event, blank, type_)
-
-    # ---- internal: representatives
-
-    def _representatives(
-        self, kind: str, name: str, blank: Any, types: Any
-    ) -> tuple[list[dict[str, Any]], list[Doubt], list[str]]:
-        doubts: list[Doubt] = []
-        said: list[str] = []
-        axes: list[tuple[Path, list[Any]]] = []
+    def _parts(
+        self, kind: str, name: str, type_of: Callable[[Path], ir.Type | None]
+    ) -> Iterator[Part]:
+        """Yield the parts of a message or result that decide on anything."""
         for node in sorted(self._demanded):
-            if node[:2] != (kind, name):
-                continue
-            path = node[2]
-            if isinstance(types, dict):
-                type_ = field_type(types.get(path[0]), path[1:], self._system) if path else None
-            else:
-                type_ = field_type(types, path, self._system)
-            values, exact = self._values(node, type_)
-            shown = ".".join((name, *path))
-            if not exact:
-                place = getattr(self._exact.get(node), "origin", None)
-                doubts.append(Doubt(f"only some values of `{shown}` were tried", place))
-            elif any(each is not True for _, each in self._cuts.get(node, ())):
-                said.append(f"`{shown}` {_regions(self._cuts[node])}")
-            if path:
-                axes.append((path, values))
-        made = []
-        for choice in product(*(values for _, values in axes)):
-            message = blank()
-            for (path, _), value in zip(axes, choice, strict=True):
-                _put(message, path, value)
-            made.append(message)
-            if len(made) == _MOST:
-                doubts.append(Doubt(f"only {_MOST} values of `{name}` were tried"))
-                break
-        return made, doubts, said
-
-    def _values(self, node: Node, type_: ir.Type | None) -> tuple[list[Any], bool]:
-        """Return representatives of a value, and True if they stand for all values."""
-        cuts = self._cuts.get(node, set())
-        is_exact = node in self._exact
-        match type_:
-            case ir.Primitive(name="bool"):
-                return [False, True], True
-            case ir.Primitive(name="string" | "wstring"):
-                texts = sorted({c for _, c in cuts if isinstance(c, str)} - {""})
-                ordered = any(symbol not in ("==", "!=") for symbol, _ in cuts)
-                other = next(t for n in count() if (t := f"{_OTHER}{n or ''}") not in texts)
-                return ["", *texts, other], not (is_exact or ordered)
-            case ir.Primitive(name=name) if name in (*FLOATS, *INTEGERS, "duration"):
-                return _numbers(cuts, name), not is_exact
-        return [default_value(type_, self._system) if type_ is not None else 0], False
+            if node[:2] == (kind, name):
+                type_, cuts = type_of(node[2]), frozenset(self._cuts.get(node, ()))
+                default = default_value(type_, self._system) if type_ is not None else 0
+                yield Part(node[2], type_, default, cuts, self._exact.get(node))
 
     def _reads_header(self, field: str, node: Node) -> bool:
         """Return True if a place is a field of a header of an event, or has such a header in it."""
@@ -451,40 +390,3 @@ def _behind(node: Node, target: Node, source: Node) -> Node | None:
 
 def _overlap(node: Node, target: Node) -> bool:
     return _behind(node, target, target) is not None
-
-
-def _numbers(cuts: Iterable[Cut], type_: str) -> list[Any]:
-    """Return one number for each outcome of all comparisons; zero for its own."""
-    compared = sorted(cuts, key=repr)
-    constants = sorted({each for _, each in compared if isinstance(each, (int, float))})
-    candidates: list[Any] = [0]
-    if type_ not in FLOATS:
-        near = (int(c) + step for c in constants for step in (-1, 0, 1))
-        candidates += [n for n in near if type_ not in INTEGERS or _fits(n, type_)]
-    elif constants:
-        candidates += constants
-        candidates += [(a + b) / 2 for a, b in pairwise(constants)]
-        candidates += [constants[0] - 1, constants[-1] + 1]
-    found: dict[tuple[bool, ...], Any] = {}
-    for number in candidates:
-        found.setdefault(tuple(bool(OPERATIONS[s](number, c)) for s, c in compared), number)
-    return list(found.values())
-
-
-def _fits(number: int, type_: str) -> bool:
-    try:
-        bounded(number, type_)
-    except ExecutionError:
-        return False
-    return True
-
-
-def _regions(cuts: Iterable[Cut]) -> str:
-    """Describe comparisons: `>= 0.4`."""
-    return ", ".join(f"{s} {c!r}" for s, c in sorted(cuts, key=repr))
-
-
-def _put(message: Any, path: Path, value: Any) -> None:
-    for field in path[:-1]:
-        message = message.setdefault(field, {})
-    message[path[-1]] = value

@@ -1,0 +1,14 @@
+"""Reasons why a proof does not show everything."""
+
+from __future__ import annotations
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """Reason why a proof is not complete, with its place in the model."""
+
+    reason: str
+    place: Span | None = None

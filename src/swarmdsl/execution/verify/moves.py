@@ -1,0 +1,52 @@
+"""Moves of a robot and its states, as far as findings and properties can see them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from swarmdsl.execution.verify.body import Input
+
+
+class Moment(NamedTuple):
+    """Part of a line of a trace that findings and properties are about.
+
+    `holding` are the facts that hold for the robot then, as a set of bits.
+    """
+
+    actor: int
+    event: str | None
+    taken: tuple[str, ...]
+    holding: int
+    ignored: bool
+    started: tuple[str, ...]
+    sent: tuple[str, ...]
+    failures: tuple[str, ...]
+    loops: bool
+
+
+class Move(NamedTuple):
+    """A step of a robot: its input, what it shows, the messages that it sends, its target."""
+
+    given: Input
+    moments: tuple[Moment, ...]
+    sends: tuple[int, ...]
+    target: int
+
+    @property
+    def idle(self) -> bool:
+        """True if the robot ignores the input."""
+        return all(each.ignored for each in self.moments) and not self.sends
+
+
+class Look(NamedTuple):
+    """State of a robot, as far as findings and properties can see it.
+
+    `holding` are its facts, `held` those of each machine. `innermost` are the active states with
+    the numbers of their machines. In a `quiet` state nothing is running: it waits for events.
+    """
+
+    ended: bool
+    holding: int
+    innermost: tuple[tuple[int, str], ...]
+    quiet: bool
+    held: tuple[int, ...]

@@ -1,0 +1,106 @@
+"""States of an automaton that no run can tell apart, as one.
+
+The coarsest partition is refined until it is stable (P. Kanellakis and S. Smolka, 1983). This
+leaves out variables where they are not read any more.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from swarmdsl.execution.verify.automaton import Automaton
+from swarmdsl.execution.verify.moves import Look, Move
+
+
+class Quotient:
+    """Automaton of which states that no run can tell apart are one.
+
+    Runs tell apart the facts of `mask`, and with `thorough` also what findings are about: active
+    states and transitions. `classes` has the state of the quotient for each of the automaton.
+    """
+
+    def __init__(self, whole: Automaton, mask: int, *, thorough: bool) -> None:
+        self.whole = whole
+        self.mask = mask
+        self._thorough = thorough
+        size = len(whole.steps)
+        looks = [self._look(n) for n in range(size)]
+        blocks = _numbered(looks)
+        count = -1
+        while (found := max(blocks) + 1) != count:
+            count = found
+            blocks = _numbered([(blocks[n], self._signature(n, blocks)) for n in range(size)])
+        self.classes = blocks
+        self.count = count
+        first: dict[int, int] = {}
+        for number, block in enumerate(blocks):
+            first.setdefault(block, number)
+        self._representatives = [first[each] for each in range(count)]
+
+    @property
+    def first(self) -> Move:
+        """Start of the robot."""
+        return self._lifted(self.whole.first)
+
+    def moves(self, state: int) -> list[Move] | None:
+        """Return the moves of a state; None if they are not known."""
+        found = self.whole.steps[self._representatives[state]]
+        if found is None:
+            return None
+        chosen = {self._label(move, self.classes[move.target]): move for move in reversed(found)}
+        return [self._lifted(each) for each in reversed(chosen.values())]
+
+    def move_on(self, state: int, message: int) -> Move | None:
+        """Return the move of a state when a message arrives; None if it is not known."""
+        found = self.whole.heard[self._representatives[state]].get(message)
+        return None if found is None else self._lifted(found)
+
+    def follow(self, number: int, move: Move) -> Move:
+        """Return the move of a state of the automaton that looks like one of the quotient."""
+        if move.given.kind == "hear":
+            return self.whole.heard[number][move.given.choice]
+        wanted = self._label(move, move.target)
+        for each in self.whole.steps[number] or ():
+            if self._label(each, self.classes[each.target]) == wanted:
+                return each
+        raise AssertionError("states that are one have the same moves")
+
+    def look(self, state: int) -> Look:
+        """Return what a state shows."""
+        return self.whole.looks[self._representatives[state]]
+
+    def ended(self, state: int) -> bool:
+        """Return True if the robot has ended."""
+        return self.look(state).ended
+
+    def _lifted(self, move: Move) -> Move:
+        return move._replace(target=self.classes[move.target])
+
+    def _look(self, number: int) -> Any:
+        look = self.whole.looks[number]
+        cut = number if self.whole.steps[number] is None else None
+        if self._thorough:
+            return (cut, look)
+        return (cut, look.ended, look.holding & self.mask)
+
+    def _label(self, move: Move, target: int) -> tuple[Any, ...]:
+        given, moments = move.given, move.moments
+        if self._thorough:
+            return (given.kind, given.actor, given.name, moments, move.sends, target)
+        shown = tuple(each.holding & self.mask for each in moments)
+        return (shown, move.idle, move.sends, target)
+
+    def _signature(self, number: int, blocks: Sequence[int]) -> Any:
+        steps = self.whole.steps[number] or ()
+        own = frozenset(self._label(each, blocks[each.target]) for each in steps)
+        heard = tuple(
+            (message, self._label(each, blocks[each.target]))
+            for message, each in sorted(self.whole.heard[number].items())
+        )
+        return own, heard
+
+
+def _numbered(keys: Sequence[Any]) -> list[int]:
+    numbers: dict[Any, int] = {}
+    return [numbers.setdefault(each, len(numbers)) for each in keys]

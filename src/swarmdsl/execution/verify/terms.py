@@ -1,0 +1,115 @@
+"""Facts of a property in a swarm of groups, and the truth of its claims."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from swarmdsl import ir
+from swarmdsl.execution.verify.network import Network
+from swarmdsl.ir import Claim, Count, Fact, Junction
+from swarmdsl.ir.operations import OPERATIONS
+
+Truth = Callable[[Sequence[int], Sequence[int]], bool]
+"""Truth of a claim, given for each fact how many robots it holds for, and if it does for me."""
+
+
+def is_act(fact: Fact | Count) -> bool:
+    """Return True for what happens, in contrast to what is."""
+    return isinstance(fact, Fact) and fact.act not in ("in", "has")
+
+
+class Terms:
+    """Facts of a property, each with the groups that it can hold for."""
+
+    def __init__(self, property_: ir.Property, network: Network) -> None:
+        self._property = property_
+        self._network = network
+        self._keys: list[tuple[Fact | Count, str | None, str | None]] = []
+        self._bits: list[list[int]] = []
+        """For each term, the bit of its fact in each group; 0 where it cannot hold."""
+
+    def __len__(self) -> int:
+        return len(self._keys)
+
+    @property
+    def facts(self) -> list[Fact | Count]:
+        """The facts, in the order of their numbers."""
+        return [fact for fact, _, _ in self._keys]
+
+    def holds(self, term: int, group: int, bits: int) -> int:
+        """Return 1 if a fact holds for a robot with these facts, else 0."""
+        return 1 if bits & self._bits[term][group] else 0
+
+    def truth(self, claim: Claim) -> Truth:
+        """Compile a claim."""
+        if isinstance(claim, Junction):
+            parts = [self.truth(each) for each in claim.claims]
+            if claim.operator == "not":
+                (part,) = parts
+                return lambda counts, mine: not part(counts, mine)
+            together = all if claim.operator == "and" else any
+            return lambda counts, mine: together(part(counts, mine) for part in parts)
+        if isinstance(claim, Count):
+            term = self._term(claim, claim.role, None)
+            compare, number = OPERATIONS[claim.comparison], claim.number
+            return lambda counts, mine: bool(compare(counts[term], number))
+        robots = claim.robots
+        if robots is None:
+            each = self._property.each
+            if each is not None and claim.act != "arrives":
+                term = self._term(claim, each, None)
+                return lambda counts, mine: bool(mine[term])
+            term = self._term(claim, None, None)
+            return lambda counts, mine: counts[term] > 0
+        return self._of_robots(claim, robots)
+
+    def _of_robots(self, claim: Fact, robots: ir.Robots) -> Truth:
+        if robots.quantifier == "index":
+            term = self._term(claim, robots.role, f"{robots.role}[{robots.index or 0}]")
+            return lambda counts, mine: counts[term] > 0
+        term = self._term(claim, robots.role, None)
+        if robots.quantifier == "number":
+            assert robots.number is not None
+            least, most = robots.number.lower, robots.number.upper
+            return lambda counts, mine: (
+                least <= counts[term] and (most is None or counts[term] <= most)
+            )
+        other = robots.other
+        if robots.quantifier == "some":
+            return lambda counts, mine: counts[term] - (other and mine[term]) > 0
+        if robots.quantifier == "no":
+            return lambda counts, mine: counts[term] - (other and mine[term]) == 0
+        size = sum(len(g.robots) for g in self._network.groups if g.role == robots.role)
+        mine_too = other and self._property.each == robots.role
+        return lambda counts, mine: (
+            counts[term] - (other and mine[term]) == size - (1 if mine_too else 0)
+        )
+
+    def _term(self, fact: Fact | Count, role: str | None, robot: str | None) -> int:
+        key = (fact, role, robot)
+        if key not in self._keys:
+            self._keys.append(key)
+            bits = []
+            for group in self._network.groups:
+                facts = group.automaton.whole.kind.facts
+                meant = (role in (None, group.role)) and (robot is None or robot in group.robots)
+                same = (n for n, each in enumerate(facts) if same_fact(each, fact))
+                bits.append(1 << next(same, -1) if meant and _has(facts, fact) else 0)
+            self._bits.append(bits)
+        return self._keys.index(key)
+
+
+def _has(facts: Sequence[Fact | Count], fact: Fact | Count) -> bool:
+    return any(same_fact(each, fact) for each in facts)
+
+
+def same_fact(one: Fact | Count, other: Fact | Count) -> bool:
+    """Return True if two facts are about the same, of whichever robots."""
+    return meaning(one) == meaning(other)
+
+
+def meaning(fact: Fact | Count) -> tuple[str, str, ir.Expression | None]:
+    """Return what a fact says, without the robots that it says it of."""
+    if isinstance(fact, Count):
+        return ("in", fact.state, None)
+    return (fact.act, fact.name, fact.guard)
