@@ -10,7 +10,7 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Severity
 from swarmdsl.codegen.swarm_printer.expressions import expression
 from swarmdsl.driver import pipeline
-from swarmdsl.ir import FLOAT, Literal, System
+from swarmdsl.ir import FLOAT, Assignment, Binary, Expression, Literal, Send, System
 from swarmdsl.syntax.types import unit_name, with_unit
 from swarmdsl.syntax.units import UNITS, in_unit_of_ros, written_in
 
@@ -130,6 +130,96 @@ def test_a_guard_in_seconds_is_compared_with_a_duration(tmp_path: Path) -> None:
     guard = "seconds(d) < 3 s or value > 120 s and value < 1 min"
     made, found = system(tmp_path, type="float64 in s", initial="0 s", value="d", guard=guard)
     assert made is not None, found
+
+
+FIELDS = """package lab
+
+message Price {{
+  cost  : float64 in s
+  whole : int32 in s
+  plain : float64
+}}
+struct Bid {{ cost : float64 in s }}
+struct Offer {{ bid : Bid }}
+action Act {{ goal {{ rest : float64 in s }} }}
+function act : abstraction {{ action "act" : Act }}
+sensor Cam {{ operation take(in exposure : float64 in s) }}
+event Go   : std_msgs/Empty
+event Told : Price
+statemachine M {{
+  var d    : duration = 3 s
+  var bid  : Bid
+  var best : Offer
+  initial A
+  state A {{
+    do act(rest = {value})
+    on Go / bid = Bid(cost = {value}), best = Offer(bid = Bid(cost = {value})) -> A
+    on succeeded / send Told(cost = {value}, whole = 2 s, plain = {plain}) -> B
+    on aborted -> C
+  }}
+  state B {{ on Go [bid.cost + best.bid.cost + 1 s > seconds(d)] -> C }}
+  final C
+}}
+statemachine Eye {{
+  initial A
+  state A {{
+    do Cam.take(exposure = 20 ms)
+    on succeeded -> B
+    on aborted -> B
+  }}
+  final B
+}}
+member Robot {{
+  behavior M
+  cam : Cam
+}}
+member Watcher {{
+  behavior Eye
+  cam : Cam
+}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("value", "printed"),
+    [("1500 ms", "1.5 s"), ("d + 1 s", "d + 1 s"), ("seconds(d)", "seconds(d)")],
+)
+def test_a_duration_is_a_number_in_a_field(value: str, printed: str, tmp_path: Path) -> None:
+    file = tmp_path / "model.swarm"
+    file.write_text(FIELDS.format(value=value, plain="1.0"), encoding="utf-8")
+    made = pipeline.check([file]).system
+    assert made is not None
+    machine, eye = made.machines
+    (state,) = (each for each in machine.states if each.id == "A")
+    (looking,) = (each for each in eye.states if each.id == "A")
+
+    def text(fields: tuple[tuple[str, Expression], ...]) -> dict[str, str]:
+        return {name: expression(given) for name, given in fields}
+
+    assert state.activity is not None
+    assert looking.activity is not None
+    assert text(state.activity.arguments) == {"rest": printed}
+    assert text(looking.activity.arguments) == {"exposure": "0.02 s"}
+    go, succeeded, _ = state.transitions
+    rest = dict(state.activity.arguments)["rest"]
+    assert unit_name(rest.type) == "s"
+    assert isinstance(rest, Literal) or (isinstance(rest, Binary) and rest.operator == "/")
+    (told,) = succeeded.effects
+    assert isinstance(told, Send)
+    assert text(told.arguments) == {"cost": printed, "whole": "2 s", "plain": "1.0"}
+    shown = [expression(each.value) for each in go.effects if isinstance(each, Assignment)]
+    assert shown == [f"Bid(cost = {printed})", f"Offer(bid = Bid(cost = {printed}))"]
+
+
+def test_a_wrong_value_of_a_field_is_told_its_unit(tmp_path: Path) -> None:
+    file = tmp_path / "model.swarm"
+    file.write_text(FIELDS.format(value="true", plain="1 s"), encoding="utf-8")
+    found = [(each.message, each.help) for each in pipeline.check([file]).report]
+    wrong = ("expected `float64 in s`, found `bool`", None)
+    assert found[:3] == [wrong] * 3
+    assert wrong in found[3:]
+    plain = ("expected `float64`, found `duration`", "`seconds(1 s)` is a number in `s`")
+    assert plain in found
 
 
 def test_a_unit_exists_and_is_that_of_a_number(tmp_path: Path) -> None:

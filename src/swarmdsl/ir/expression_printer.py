@@ -83,7 +83,8 @@ class Dialect:
     with a printer of their parts, `in_state` the test of a state from its id, `elapsed` the time in
     it. `modulo` prints `%`, whose result has the sign of the divisor in the language; `quotient`
     prints `/`, the division of real numbers; `division` prints `div`, the division of integers, if
-    the target has an operator for it.
+    the target has an operator for it. `seconds` prints a call of that function; without it, it is
+    the division that it means.
     """
 
     literal: Callable[[Literal], str]
@@ -102,6 +103,7 @@ class Dialect:
     modulo: Callable[[str, str], str] = "{} % {}".format
     quotient: Callable[[str, str], str] = "{} / {}".format
     division: Callable[[str, str], str] | None = None
+    seconds: Callable[[str], str] | None = None
 
 
 def envelope_name(fact: EnvelopeField) -> str:
@@ -161,6 +163,10 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             return f"{word}{_operand(operand, _PRIMARY, dialect)}", level
         case Unary(operand=operand):
             return f"-{_operand(operand, _PRIMARY, dialect)}", _PRECEDENCE["negative"]
+        case Binary(left=left, conversion="implied") if dialect.seconds is not None:
+            return _print(left, dialect)
+        case Binary(left=left, conversion="seconds") if dialect.seconds is not None:
+            return dialect.seconds(translate(left, dialect)), _PRIMARY
         case Binary(operator=operator, left=left, right=right):
             level = _PRECEDENCE[operator]
             comparison = level == _PRECEDENCE["=="]

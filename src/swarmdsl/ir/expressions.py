@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import typing
 from collections.abc import Callable, Iterator
 
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.records import field as dataclass_field
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.types import BOOL, DURATION, Named, Type
+
+Conversion = typing.Literal["", "implied", "seconds"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,13 +104,18 @@ class Unary:
 
 @dataclass(frozen=True, slots=True)
 class Binary:
-    """`x operator y`, the operator as written in the model."""
+    """`x operator y`, the operator as written in the model.
+
+    `conversion` tells how the model writes a division by `1 s` that makes a duration a number:
+    `implied` where it has the duration alone, `seconds` where it calls that function.
+    """
 
     operator: str
     left: Expression
     right: Expression
     type: Type | None
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+    conversion: Conversion = dataclass_field(default="", compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

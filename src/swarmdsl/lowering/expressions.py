@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from swarmdsl import ir
 from swarmdsl.analysis.types import QUERIES
 from swarmdsl.analysis.types.unit_rules import (
@@ -12,10 +14,12 @@ from swarmdsl.analysis.types.unit_rules import (
 )
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
+from swarmdsl.ir.expressions import Conversion
 from swarmdsl.ir.operations import SECOND
 from swarmdsl.lowering.context import Context
 from swarmdsl.syntax.ast import (
     Append,
+    Argument,
     Assignment,
     Call,
     Constant,
@@ -25,6 +29,7 @@ from swarmdsl.syntax.ast import (
     EnumType,
     Expression,
     ExpressionTree,
+    Field,
     FieldUse,
     FitnessInput,
     IndexUse,
@@ -32,6 +37,8 @@ from swarmdsl.syntax.ast import (
     NameUse,
     OperatorUse,
     Param,
+    Parameter,
+    PartValue,
     Query,
     Remove,
     RoleUse,
@@ -79,12 +86,29 @@ def lower_expression(
     A duration becomes a number in seconds where a value of type `expected` has a unit.
     """
     assert expression.tree is not None
-    found = lower_tree(expression.tree, context)
+    return _lower_as(expression.tree, context, expected)
+
+
+def lower_fields(
+    given: Iterable[Argument | PartValue],
+    fields: Iterable[Field | Parameter | Param] | None,
+    context: Context,
+) -> tuple[tuple[str, ir.Expression], ...]:
+    """Lower the values of fields or params, which have types where they are known."""
+    types = {str(field.name): field.type.type for field in fields or ()}
+    return tuple(
+        (str(each.name), lower_expression(each.value, context, types.get(str(each.name))))
+        for each in given
+    )
+
+
+def _lower_as(tree: ExpressionTree, context: Context, expected: ir.Type | None) -> ir.Expression:
+    found = lower_tree(tree, context)
     if not has_dimension(unit_of(expected)):
         return found
     whole = isinstance(expected, ir.Primitive) and expected.name in INTEGERS
     if whole and found.type == DURATION:
-        value = context.typing.folding.value(expression.tree)
+        value = context.typing.folding.value(tree)
         assert isinstance(value, int)
         type_ = with_unit(INT, unit_of(NUMBER_OF_SECONDS))
         return ir.Literal(value // SECOND, type_, found.origin)
@@ -156,7 +180,12 @@ def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
         case Construction(type=of, values=given):
             made = context.type_of(of)
             assert isinstance(made, ir.Named)
-            fields = tuple((str(each.name), lower_tree(each.value, context)) for each in given)
+            known = context.typing.interfaces.fields(made) or ()
+            types = {str(each.name): each.type.type for each in known}
+            fields = tuple(
+                (str(each.name), _lower_as(each.value, context, types.get(str(each.name))))
+                for each in given
+            )
             return ir.Construction(made, fields, tree.span)
         case OperatorUse(operator=operator, operands=operands):
             values = _operands(str(operator), operands, context)
@@ -229,7 +258,8 @@ def _seconds(value: ir.Expression, at: Span | None = None) -> ir.Expression:
     if isinstance(value, ir.Literal) and isinstance(value.value, int) and not value.name:
         return ir.Literal(value.value / SECOND, NUMBER_OF_SECONDS, origin)
     second = ir.Literal(SECOND, DURATION, origin)
-    return ir.Binary("/", value, second, NUMBER_OF_SECONDS, origin)
+    how: Conversion = "implied" if at is None else "seconds"
+    return ir.Binary("/", value, second, NUMBER_OF_SECONDS, origin, how)
 
 
 def _distance(tree: Call, points: list[ir.Expression], context: Context) -> ir.Call:

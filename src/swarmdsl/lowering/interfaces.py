@@ -11,7 +11,7 @@ from swarmdsl.analysis.resolve.membership import is_member_event
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.types.enum_values import numbers, underlying
 from swarmdsl.lowering.context import Context, operations_of
-from swarmdsl.lowering.expressions import lower_expression, lower_optional
+from swarmdsl.lowering.expressions import lower_expression, lower_fields, lower_optional
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -203,11 +203,7 @@ def lower_values(
 ) -> tuple[tuple[str, ir.Expression], ...]:
     """Return the values that params of an owner get."""
     params = all_items(owner, Param) if owner is not None else []
-    types = {str(param.name): param.type.type for param in params}
-    return tuple(
-        (str(each.name), lower_expression(each.value, context, types.get(str(each.name))))
-        for each in values
-    )
+    return lower_fields(values, params, context)
 
 
 def _fields(fields: list[Field], context: Context) -> tuple[ir.Field, ...]:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from swarmdsl import ir
+from swarmdsl.analysis.called_interface import taken_fields
 from swarmdsl.analysis.event_topics import is_of_swarm, received_topic
 from swarmdsl.analysis.resolve.membership import is_member_event
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.expressions import (
     lower_expression,
+    lower_fields,
     lower_optional,
     lower_path,
     lower_store,
@@ -19,7 +21,6 @@ from swarmdsl.lowering.expressions import (
 from swarmdsl.syntax.ast import (
     Activity,
     Address,
-    Argument,
     Branch,
     Cancel,
     Defer,
@@ -171,11 +172,15 @@ def _trigger(trigger: Trigger, owner: State | Parallel, frame: Frame) -> ir.Trig
 
 
 def _effect(effect: Effect, context: Context) -> ir.Effect:
+    interfaces = context.typing.interfaces
     match effect:
         case Send():
+            event = effect.event.target
+            type_ = event.type.type if event is not None else None
+            fields = interfaces.fields(type_) if isinstance(type_, ir.Named) else None
             return ir.Send(
                 context.name(effect.event),
-                _arguments(effect.arguments, context),
+                lower_fields(effect.arguments, fields, context),
                 _address(effect.to, context) if effect.to is not None else None,
                 lower_optional(effect.delay, context),
                 effect.span,
@@ -199,9 +204,10 @@ def lower_activity(state: State, frame: Frame) -> ir.Activity | None:
     if found is None:
         return None
     context = frame.context
+    fields = taken_fields(found, context.typing.interfaces)
     return ir.Activity(
         function=context.function(found),
-        arguments=_arguments(found.arguments, context),
+        arguments=lower_fields(found.arguments, fields, context),
         goal_callback=str(found.goal_callback) if found.goal_callback else None,
         results=tuple(
             ir.ResultMapping(str(result.field), *lower_path(result.target, context), result.span)
@@ -211,9 +217,3 @@ def lower_activity(state: State, frame: Frame) -> ir.Activity | None:
         doc=found.doc,
         origin=found.span,
     )
-
-
-def _arguments(
-    arguments: list[Argument], context: Context
-) -> tuple[tuple[str, ir.Expression], ...]:
-    return tuple((str(a.name), lower_expression(a.value, context)) for a in arguments)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from swarmdsl.analysis.called_interface import called_interface
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.types import Typing, assignable, of_field, report_unknown_field
@@ -25,7 +26,6 @@ from swarmdsl.syntax.ast import (
     Word,
     nodes_of,
 )
-from swarmdsl.syntax.types import Named
 
 
 def check_activities(machine: StateMachine, context: Context) -> None:
@@ -53,13 +53,7 @@ def _check_activity(activity: Activity, context: Context) -> None:
         if function is not None
         else None
     )
-    known = (
-        context.interfaces.get(
-            call.type.type, ActionType if call.paradigm == "action" else ServiceType
-        )
-        if call and isinstance(call.type.type, Named)
-        else None
-    )
+    known = called_interface(function, context.interfaces)
     sent: list[Field] | None = None
     received: list[Field] | None = None
     words = ("", "")
@@ -114,7 +108,7 @@ def check_arguments(
                 )
             else:
                 expected = of_field(field.type.type)
-        typing.expect(argument.value.tree, expected, converts=False)
+        typing.expect(argument.value.tree, expected)
     return exist
 
 

@@ -70,7 +70,7 @@ class Inference(Protocol):
     def infer(self, tree: ExpressionTree) -> Type | None: ...  # noqa: D102
 
     def expect(  # noqa: D102
-        self, tree: ExpressionTree | None, expected: Type | None, *, converts: bool = True
+        self, tree: ExpressionTree | None, expected: Type | None
     ) -> bool: ...
 
     def field_of(self, owner: Named, name: Word) -> Field | Parameter | None: ...  # noqa: D102
@@ -156,9 +156,7 @@ def type_of_construction(made: Construction, typing: Inference) -> Type | None:
                 related=(Label(earlier.span, "first given here"),),
             )
         field = typing.field_of(type_, given.name) if isinstance(type_, Named) else None
-        typing.expect(
-            given.value, of_field(field.type.type) if field is not None else None, converts=False
-        )
+        typing.expect(given.value, of_field(field.type.type) if field is not None else None)
     return type_
 
 

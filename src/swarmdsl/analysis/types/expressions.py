@@ -61,6 +61,7 @@ from swarmdsl.syntax.types import (
     Type,
     unit_of,
     with_unit,
+    written,
 )
 from swarmdsl.syntax.units import UNITS
 
@@ -170,19 +171,17 @@ class Typing:
         """Return the position in a message; None if there is none."""
         return position_of(type_, self.interfaces)
 
-    def expect(
-        self, tree: ExpressionTree | None, expected: Type | None, *, converts: bool = True
-    ) -> bool:
+    def expect(self, tree: ExpressionTree | None, expected: Type | None) -> bool:
         """Report an expression that does not fit type `expected`; return True for a correct one.
 
-        A duration fits a number in `s` if it `converts`, which lowering does.
+        A duration fits a number in `s`: lowering converts it.
         """
         if tree is None:
             return True
         before = len(self.report)
         found = self.infer(tree)
         is_converted = False
-        if converts and found == DURATION and has_dimension(unit_of(expected)):
+        if found == DURATION and has_dimension(unit_of(expected)):
             found, is_converted = self._number_of_seconds(tree, expected), True
         if fits(found, expected):
             check_value(tree, found, expected, self.report)
@@ -208,7 +207,11 @@ class Typing:
             if isinstance(enum, EnumType) and enum.values and is_number(found):
                 help_ = f"name one of its values: `{enum.name}.{enum.values[0].name}`"
             self.report.report(
-                "type-mismatch", tree.span, expected=f"`{expected}`", found=f"`{found}`", help=help_
+                "type-mismatch",
+                tree.span,
+                expected=f"`{written(expected)}`",
+                found=f"`{written(found)}`",
+                help=help_,
             )
         return len(self.report) == before
 

@@ -27,10 +27,9 @@ T = TypeVar("T")
 def expression(value: Expression, named: Callable[[str], str] = str) -> str:
     """Return an expression with minimal parentheses; `named` prints names."""
     functions = {**MODEL_FUNCTIONS, "distance": _distance}
-    return translate(
-        value,
-        Dialect(_literal, named, named, "event", envelope_name, "self.{}".format, {}, functions),
-    )
+    identity = "self.{}".format
+    dialect = Dialect(_literal, named, named, "event", envelope_name, identity, {}, functions)
+    return translate(value, replace(dialect, seconds="seconds({})".format))
 
 
 def with_names(node: T) -> T:

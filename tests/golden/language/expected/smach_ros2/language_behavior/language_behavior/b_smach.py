@@ -40,9 +40,9 @@ def build():
     """Build state machine B."""
     machine = Machine(CHART, ['Z', 'preempted'])
     with machine:
-        # model.swarm:71
-        StateMachine.add('A', build_a(), transitions={'done': 'D', 'preempted': 'preempted'})
         # model.swarm:72
+        StateMachine.add('A', build_a(), transitions={'done': 'D', 'preempted': 'preempted'})
+        # model.swarm:73
         StateMachine.add(
             'D',
             build_d(),
@@ -59,17 +59,17 @@ def build():
 
 def build_a():
     """Build state A."""
-    # model.swarm:71
+    # model.swarm:72
     machine = StateMachine(['done', 'preempted'])
     with machine:
-        # model.swarm:51
+        # model.swarm:52
         # Calls action go.
         StateMachine.add(
             'A',
             ActionState(CHART, 'A.A', ['succeeded', 'aborted', 'preempted']),
             transitions={'succeeded': 'D', 'aborted': 'D', 'preempted': 'preempted'},
         )
-        # model.swarm:59
+        # model.swarm:60
         StateMachine.add(
             'D',
             State(CHART, 'A.D', ['done', 'preempted']),
@@ -80,7 +80,7 @@ def build_a():
 
 def build_d():
     """Build state D."""
-    # model.swarm:72
+    # model.swarm:73
     machine = StateMachine(['Charge', 'A', 'X', 'MissionAbort', 'preempted'])
     with machine:
         # Leads to the state that is entered first.
@@ -89,7 +89,7 @@ def build_d():
             Junction(CHART, 'D.Entry', ['In', 'Out', 'preempted']),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
-        # model.swarm:85
+        # model.swarm:86
         StateMachine.add(
             'In',
             State(CHART, 'D.In', ['Charge', 'A', 'F', 'X', 'MissionAbort', 'Out', 'preempted']),
@@ -103,7 +103,7 @@ def build_d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:86
+        # model.swarm:87
         # Calls service cam/take.
         StateMachine.add(
             'Out',
@@ -136,7 +136,7 @@ def build_d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:93
+        # model.swarm:94
         StateMachine.add(
             'Last',
             Junction(CHART, 'D.Last', ['In', 'Out', 'preempted']),

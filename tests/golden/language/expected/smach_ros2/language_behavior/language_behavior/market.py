@@ -21,48 +21,48 @@ class Data:
     def __init__(self, parameters):
         # The robot: its id, role, index and count.
         self.self = parameters['self']
-        # model.swarm:157
-        self.offers = []
-        # model.swarm:158
-        self.ids = []
         # model.swarm:159
+        self.offers = []
+        # model.swarm:160
+        self.ids = []
+        # model.swarm:161
         self.best = language.msg.Offer()
 
 
 def guard_open(machine, event):
-    # model.swarm:162
+    # model.swarm:164
     return len(machine.data.offers) < 3
 
 
 def effect_open(machine, event):
-    # model.swarm:163
-    machine.data.offers = appended(machine.data.offers, filled(language.msg.Offer(), price=len(event.data.name), by=machine.data.self.id), 3)  # noqa: E501
+    # model.swarm:165
+    machine.data.offers = appended(machine.data.offers, filled(language.msg.Offer(), price=len(event.data.name), by=machine.data.self.id, valid=0.5), 3)  # noqa: E501
     machine.data.ids = appended(machine.data.ids, event.data.name, 3)
 
 
 def guard_open_2(machine, event):
-    # model.swarm:164
+    # model.swarm:166
     return any(o.by == event.data.name for o in machine.data.offers)
 
 
 def effect_open_2(machine, event):
-    # model.swarm:164
+    # model.swarm:166
     machine.data.offers = removed(machine.data.offers, 0)
     machine.data.ids = replaced(machine.data.ids, 0, event.data.name)
 
 
 def guard_open_3(machine, event):
-    # model.swarm:165
+    # model.swarm:167
     return sum(1 for o in machine.data.offers if o.price < 2 * LIMIT) > 1
 
 
 def effect_open_3(machine, event):
-    # model.swarm:166
+    # model.swarm:168
     machine.data.best = deepcopy(min((o for o in machine.data.offers if o.by != ''), key=lambda o: o.price))  # noqa: E501
 
 
 def guard_shut(machine, event):
-    # model.swarm:169
+    # model.swarm:171
     return (
         all(o.price >= machine.data.best.price for o in machine.data.offers)
         and not (machine.data.best.by in machine.data.ids)
@@ -70,51 +70,51 @@ def guard_shut(machine, event):
 
 
 def guard_shut_2(machine, event):
-    # model.swarm:170
+    # model.swarm:172
     return item(machine.data.offers, 1).price > 2
 
 
 def effect_shut(machine, event):
-    # model.swarm:170
+    # model.swarm:172
     machine.data.offers = []
 
 
 STATES = tree(
-    # model.swarm:161
+    # model.swarm:163
     State(
         'Open',
         transitions=(
-            Transition(('E',), (), guard=guard_open, effect=effect_open, origin='model.swarm:162'),
+            Transition(('E',), (), guard=guard_open, effect=effect_open, origin='model.swarm:164'),
             Transition(
-                ('X',), (), guard=guard_open_2, effect=effect_open_2, origin='model.swarm:164'
+                ('X',), (), guard=guard_open_2, effect=effect_open_2, origin='model.swarm:166'
             ),
             Transition(
                 ('F',),
                 ('Shut',),
                 guard=guard_open_3,
                 effect=effect_open_3,
-                origin='model.swarm:165',
+                origin='model.swarm:167',
             ),
         ),
     ),
-    # model.swarm:168
+    # model.swarm:170
     State(
         'Shut',
         transitions=(
-            Transition((), ('Gone',), guard=guard_shut, origin='model.swarm:169'),
+            Transition((), ('Gone',), guard=guard_shut, origin='model.swarm:171'),
             Transition(
-                ('F',), ('Open',), guard=guard_shut_2, effect=effect_shut, origin='model.swarm:170'
+                ('F',), ('Open',), guard=guard_shut_2, effect=effect_shut, origin='model.swarm:172'
             ),
         ),
     ),
-    # model.swarm:172
+    # model.swarm:174
     State('Gone', Kind.FINAL),
 )
 
 TOPICS = (
-    # model.swarm:41
+    # model.swarm:42
     Topic('E', language.msg.M, 'e', heard=True),
-    # model.swarm:39
+    # model.swarm:40
     Topic(
         'X',
         language.msg.M,
@@ -124,7 +124,7 @@ TOPICS = (
         envelope=language_events.msg.XEnvelope,
         delivery=Delivery(latest=True, keep=3),
     ),
-    # model.swarm:42
+    # model.swarm:43
     Topic('F', std_msgs.msg.Empty, 'f', heard=True),
 )
 

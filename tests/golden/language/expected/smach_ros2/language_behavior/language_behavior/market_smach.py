@@ -21,13 +21,13 @@ def build():
     """Build state machine Market."""
     machine = Machine(CHART, ['Gone', 'preempted'])
     with machine:
-        # model.swarm:161
+        # model.swarm:163
         StateMachine.add(
             'Open',
             State(CHART, 'Open', ['F', 'preempted']),
             transitions={'F': 'Shut', 'preempted': 'preempted'},
         )
-        # model.swarm:168
+        # model.swarm:170
         StateMachine.add(
             'Shut',
             State(CHART, 'Shut', ['Gone', 'F', 'preempted']),

@@ -30,49 +30,49 @@ class Data:
     def __init__(self, parameters):
         # The robot: its id, role, index and count.
         self.self = parameters['self']
-        # model.swarm:63
-        self.n = 0
         # model.swarm:64
-        self.mode = 0
+        self.n = 0
         # model.swarm:65
-        self.ok = False
+        self.mode = 0
         # model.swarm:66
-        self.here = geometry_msgs.msg.Point()
+        self.ok = False
         # model.swarm:67
+        self.here = geometry_msgs.msg.Point()
+        # model.swarm:68
         self.seen = geometry_msgs.msg.PoseStamped()
-        # model.swarm:69
+        # model.swarm:70
         # Number of the robot in its role.
         self.mine = self.self.index
-        # model.swarm:49
+        # model.swarm:50
         self.a_k = 0
-        # model.swarm:53
+        # model.swarm:54
         # How much more.
         self.a_a_more = 1
 
 
 def enter_a(machine, event):
-    # model.swarm:49
+    # model.swarm:50
     machine.data.a_k = 0
 
 
 def effect_a_a(machine, event):
-    # model.swarm:55
+    # model.swarm:56
     machine.data.a_k = bounded(machine.data.a_k + machine.data.a_a_more, 'int32')
     machine.data.a_a_more = 2
 
 
 def enter_a_a(machine, event):
-    # model.swarm:53
+    # model.swarm:54
     machine.data.a_a_more = 1
 
 
 def goal_a_a(machine):
-    # model.swarm:54
+    # model.swarm:55
     return filled(my_acts.action.Go.Goal(), h=3.0)
 
 
 def guard_d(machine, event):
-    # model.swarm:77
+    # model.swarm:78
     return (
         event.data.mode == MODE_MANUAL
         and machine.active('D.Out')
@@ -81,32 +81,32 @@ def guard_d(machine, event):
 
 
 def effect_d(machine, event):
-    # model.swarm:77
+    # model.swarm:78
     machine.data.n = 1
 
 
 def guard_d_2(machine, event):
-    # model.swarm:78
+    # model.swarm:79
     return event.data.level < 3
 
 
 def effect_d_2(machine, event):
-    # model.swarm:78
+    # model.swarm:79
     machine.data.n = 4
 
 
 def guard_d_3(machine, event):
-    # model.swarm:79
+    # model.swarm:80
     return event.data.level > 3 and event.data.header.seq > 2
 
 
 def effect_d_3(machine, event):
-    # model.swarm:79
+    # model.swarm:80
     machine.data.n = 4
 
 
 def guard_d_4(machine, event):
-    # model.swarm:80
+    # model.swarm:81
     return (
         machine.data.n > 3
         and machine.data.mine < machine.data.self.count
@@ -115,12 +115,12 @@ def guard_d_4(machine, event):
 
 
 def guard_d_5(machine, event):
-    # model.swarm:82
+    # model.swarm:83
     return event.envelope.sent > 3_000_000_000
 
 
 def effect_d_4(machine, event):
-    # model.swarm:82
+    # model.swarm:83
     machine.emit(Event('X', language.msg.M(), envelope=Envelope(to=event.envelope.sender)))
     machine.emit_after(
         Event(
@@ -133,106 +133,112 @@ def effect_d_4(machine, event):
 
 
 def guard_d_6(machine, event):
-    # model.swarm:83
+    # model.swarm:84
     return math.hypot(machine.data.here.x - machine.data.seen.pose.position.x, machine.data.here.y - machine.data.seen.pose.position.y, machine.data.here.z - machine.data.seen.pose.position.z) < math.hypot(9, 12)  # noqa: E501
 
 
 def guard_d_7(machine, event):
-    # model.swarm:94
+    # model.swarm:95
     return event.data.event_header.node != machine.data.self.role
 
 
 def enter_d(machine, event):
-    # model.swarm:73
-    machine.emit(Event('X', filled(language.msg.M(), mode=MODE_AUTO), envelope=Envelope(to='big')))
+    # model.swarm:74
+    machine.emit(
+        Event(
+            'X',
+            filled(language.msg.M(), mode=MODE_AUTO, age=machine.elapsed('D') / 1_000_000_000),
+            envelope=Envelope(to='big'),
+        ),
+    )
     machine.data.n = LIMIT
 
 
 def leave_d(machine, event):
-    # model.swarm:74
+    # model.swarm:75
     machine.data.n = bounded(min(max(machine.data.n // 2, 1), round(2.5)), 'int32')
     machine.cancel('send.X')
 
 
 def wait_d_out(machine, event):
-    # model.swarm:90
+    # model.swarm:91
     machine.send_after(Event('after.D.Out.1'), math.ceil(2_000_000_000 * 2), 'after.D.Out.1')
     machine.send_after(Event('after.D.Out.2'), 3_000_000_000, 'after.D.Out.2')
 
 
 def stop_waiting_d_out(machine, event):
-    # model.swarm:90
+    # model.swarm:91
     machine.cancel('after.D.Out.1')
     machine.cancel('after.D.Out.2')
 
 
 def goal_d_out(machine):
-    # model.swarm:87
+    # model.swarm:88
     return filled(language.srv.BaseTake.Request(), mode=machine.data.mode)
 
 
 def result_d_out(machine, event):
-    # model.swarm:87
+    # model.swarm:88
     machine.data.ok = deepcopy(get(event.data, 'ok'))
 
 
 STATES = tree(
-    # model.swarm:71
+    # model.swarm:72
     State(
         'A',
         initial=('A.A',),
-        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:71'),),
+        transitions=(Transition(('done.state.A',), ('D',), origin='model.swarm:72'),),
         entry=(enter_a,),
     ),
-    # model.swarm:51
+    # model.swarm:52
     State(
         'A.A',
         transitions=(
             Transition(
-                ('do.A.A.succeeded',), ('A.D',), effect=effect_a_a, origin='model.swarm:55'
+                ('do.A.A.succeeded',), ('A.D',), effect=effect_a_a, origin='model.swarm:56'
             ),
-            Transition(('do.A.A.aborted',), ('A.D',), origin='model.swarm:56'),
-            Transition(('do.A.A.preempted',), (), origin='model.swarm:57'),
+            Transition(('do.A.A.aborted',), ('A.D',), origin='model.swarm:57'),
+            Transition(('do.A.A.preempted',), (), origin='model.swarm:58'),
         ),
         entry=(enter_a_a,),
         activity=Activity('go', 'go', outcomes('A.A'), goal=goal_a_a),
     ),
-    # model.swarm:59
+    # model.swarm:60
     State('A.D', Kind.FINAL),
-    # model.swarm:72
+    # model.swarm:73
     State(
         'D',
         initial=('D.In',),
         transitions=(
-            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:77'),
+            Transition(('E',), (), guard=guard_d, effect=effect_d, origin='model.swarm:78'),
             Transition(
-                ('Charge',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:78'
+                ('Charge',), ('A',), guard=guard_d_2, effect=effect_d_2, origin='model.swarm:79'
             ),
             Transition(
-                ('Charge',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:79'
+                ('Charge',), ('A',), guard=guard_d_3, effect=effect_d_3, origin='model.swarm:80'
             ),
-            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:80'),
-            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:81'),
-            Transition(('X',), (), guard=guard_d_5, effect=effect_d_4, origin='model.swarm:82'),
-            Transition(('X',), ('D.H',), guard=guard_d_6, origin='model.swarm:83'),
-            Transition(('MissionAbort',), ('Z',), guard=guard_d_7, origin='model.swarm:94'),
+            Transition((), ('A',), guard=guard_d_4, origin='model.swarm:81'),
+            Transition(('F',), ('D.In',), internal=True, origin='model.swarm:82'),
+            Transition(('X',), (), guard=guard_d_5, effect=effect_d_4, origin='model.swarm:83'),
+            Transition(('X',), ('D.H',), guard=guard_d_6, origin='model.swarm:84'),
+            Transition(('MissionAbort',), ('Z',), guard=guard_d_7, origin='model.swarm:95'),
         ),
         entry=(enter_d,),
         exit=(leave_d,),
         deferred=('Later',),
         timed=True,
     ),
-    # model.swarm:85
-    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:85'),)),
     # model.swarm:86
+    State('D.In', transitions=(Transition((), ('D.Out',), origin='model.swarm:86'),)),
+    # model.swarm:87
     State(
         'D.Out',
         transitions=(
-            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:88'),
+            Transition(('do.D.Out.succeeded',), ('D.In',), origin='model.swarm:89'),
             Transition(
-                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:89'
+                ('do.D.Out.aborted', 'do.D.Out.preempted'), ('D.In',), origin='model.swarm:90'
             ),
-            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.Last',), origin='model.swarm:90'),
+            Transition(('after.D.Out.1', 'after.D.Out.2'), ('D.Last',), origin='model.swarm:91'),
         ),
         entry=(wait_d_out,),
         exit=(stop_waiting_d_out,),
@@ -240,24 +246,24 @@ STATES = tree(
             'cam_take', 'cam/take', outcomes('D.Out'), goal=goal_d_out, finalize=result_d_out
         ),
     ),
-    # model.swarm:92
-    State('D.H', Kind.DEEP_HISTORY, transitions=(Transition((), ('D.In',)),)),
     # model.swarm:93
+    State('D.H', Kind.DEEP_HISTORY, transitions=(Transition((), ('D.In',)),)),
+    # model.swarm:94
     State('D.Last', Kind.HISTORY, transitions=(Transition((), ('D.Out',)),)),
-    # model.swarm:96
+    # model.swarm:97
     State('Z', Kind.FINAL),
 )
 
 TOPICS = (
-    # model.swarm:43
+    # model.swarm:44
     Topic('Later', std_msgs.msg.Empty, 'later', heard=True),
-    # model.swarm:41
-    Topic('E', language.msg.M, 'e', heard=True),
-    # model.swarm:78
-    Topic('Charge', my_msgs.msg.Level, 'battery', heard=True),
     # model.swarm:42
+    Topic('E', language.msg.M, 'e', heard=True),
+    # model.swarm:79
+    Topic('Charge', my_msgs.msg.Level, 'battery', heard=True),
+    # model.swarm:43
     Topic('F', std_msgs.msg.Empty, 'f', heard=True),
-    # model.swarm:39
+    # model.swarm:40
     Topic(
         'X',
         language.msg.M,
@@ -274,9 +280,9 @@ TOPICS = (
 )
 
 FUNCTIONS = {
-    # model.swarm:45
+    # model.swarm:46
     'go': Action(my_acts.action.Go, 'go'),
-    # model.swarm:20
+    # model.swarm:21
     'cam_take': Service(language.srv.BaseTake, 'cam/take'),
 }
 

@@ -37,7 +37,7 @@ CHART = Chart(
 
 
 class AA(ActionState):
-    # model.swarm:51
+    # model.swarm:52
     """Calls action go."""
 
     chart = CHART
@@ -46,7 +46,7 @@ class AA(ActionState):
 
 
 class AD(State):
-    # model.swarm:59
+    # model.swarm:60
     """Waits until the complete state around it is left."""
 
     chart = CHART
@@ -63,7 +63,7 @@ class DEntry(Junction):
 
 
 class DIn(State):
-    # model.swarm:85
+    # model.swarm:86
     """Waits for a transition."""
 
     chart = CHART
@@ -72,7 +72,7 @@ class DIn(State):
 
 
 class DOut(ServiceState):
-    # model.swarm:86
+    # model.swarm:87
     """Calls service cam/take."""
 
     chart = CHART
@@ -92,7 +92,7 @@ class DOut(ServiceState):
 
 
 class DLast(Junction):
-    # model.swarm:93
+    # model.swarm:94
     """Leads to the state that was active last."""
 
     chart = CHART
@@ -103,9 +103,9 @@ class DLast(Junction):
 def build():
     """Build state machine B."""
     machine = StateMachine({'Z', 'canceled'})
-    # model.swarm:71
-    machine.add_state('A', build_a(), {'done': 'D', 'canceled': 'canceled'})
     # model.swarm:72
+    machine.add_state('A', build_a(), {'done': 'D', 'canceled': 'canceled'})
+    # model.swarm:73
     machine.add_state(
         'D',
         build_d(),
@@ -118,11 +118,11 @@ def build():
 
 def build_a():
     """Build state A."""
-    # model.swarm:71
+    # model.swarm:72
     machine = StateMachine({'done', 'canceled'})
-    # model.swarm:51
+    # model.swarm:52
     machine.add_state('A', AA(), {'succeeded': 'D', 'aborted': 'D', 'canceled': 'canceled'})
-    # model.swarm:59
+    # model.swarm:60
     machine.add_state('D', AD(), {'done': 'done', 'canceled': 'canceled'})
     machine.set_start_state('A')
     machine.set_name('A')
@@ -131,10 +131,10 @@ def build_a():
 
 def build_d():
     """Build state D."""
-    # model.swarm:72
+    # model.swarm:73
     machine = StateMachine({'Charge', 'A', 'X', 'MissionAbort', 'canceled'})
     machine.add_state('Entry', DEntry(), {'In': 'In', 'Out': 'Out', 'canceled': 'canceled'})
-    # model.swarm:85
+    # model.swarm:86
     machine.add_state(
         'In',
         DIn(),
@@ -148,7 +148,7 @@ def build_d():
             'canceled': 'canceled',
         },
     )
-    # model.swarm:86
+    # model.swarm:87
     machine.add_state(
         'Out',
         DOut(),
@@ -165,7 +165,7 @@ def build_d():
             'canceled': 'canceled',
         },
     )
-    # model.swarm:93
+    # model.swarm:94
     machine.add_state('Last', DLast(), {'In': 'In', 'Out': 'Out', 'canceled': 'canceled'})
     machine.set_start_state('Entry')
     machine.set_name('D')

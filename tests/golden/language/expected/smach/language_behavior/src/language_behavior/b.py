@@ -29,9 +29,9 @@ def build():
     userdata = initial_userdata()
     machine = Machine(['Z'], userdata)
     with machine:
-        # model.swarm:71
-        StateMachine.add('A', _a(), transitions={'done': 'D', 'preempted': 'preempted'})
         # model.swarm:72
+        StateMachine.add('A', _a(), transitions={'done': 'D', 'preempted': 'preempted'})
+        # model.swarm:73
         StateMachine.add(
             'D',
             _d(),
@@ -51,22 +51,22 @@ def initial_userdata():
     userdata = smach.UserData()
     # The robot: its id, role, index and count.
     userdata.self = identity()
-    # model.swarm:63
-    userdata.n = 0
     # model.swarm:64
-    userdata.mode = 0
+    userdata.n = 0
     # model.swarm:65
-    userdata.ok = False
+    userdata.mode = 0
     # model.swarm:66
-    userdata.here = Point()
+    userdata.ok = False
     # model.swarm:67
+    userdata.here = Point()
+    # model.swarm:68
     userdata.seen = PoseStamped()
-    # model.swarm:69
+    # model.swarm:70
     # Number of the robot in its role.
     userdata.mine = userdata.self.index
-    # model.swarm:49
+    # model.swarm:50
     userdata.a_k = 0
-    # model.swarm:53
+    # model.swarm:54
     # How much more.
     userdata.a_a_more = 1
     return userdata
@@ -76,7 +76,7 @@ def _a():
     """Build state A."""
     machine = StateMachine(on=[On('done.state.A', 'done')], on_entry=_a_entry)
     with machine:
-        # model.swarm:51
+        # model.swarm:52
         StateMachine.add(
             'A',
             ActionState(
@@ -92,7 +92,7 @@ def _a():
             ),
             transitions={'succeeded': 'D', 'aborted': 'D', 'preempted': 'preempted'},
         )
-        # model.swarm:59
+        # model.swarm:60
         StateMachine.add('D', Final(), transitions={'preempted': 'preempted'})
     return machine
 
@@ -126,13 +126,13 @@ def _d():
         on_exit=_d_exit,
     )
     with machine:
-        # model.swarm:85
+        # model.swarm:86
         StateMachine.add(
             'In',
             State(on=[On(AT_ONCE, 'Out')], outcomes=['D_F']),
             transitions={'Out': 'Out', 'D_F': 'In', 'preempted': 'preempted'},
         )
-        # model.swarm:86
+        # model.swarm:87
         StateMachine.add(
             'Out',
             ServiceState(
@@ -156,13 +156,13 @@ def _d():
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:92
+        # model.swarm:93
         StateMachine.add(
             'H',
             History('In', ['In', 'Out'], deep=True),
             transitions={'In': 'In', 'Out': 'Out', 'preempted': 'preempted'},
         )
-        # model.swarm:93
+        # model.swarm:94
         StateMachine.add(
             'Last',
             History('Out', ['In', 'Out']),
@@ -172,53 +172,53 @@ def _d():
 
 
 def _a_a_succeeded_effect(userdata, event):
-    # model.swarm:55
+    # model.swarm:56
     userdata.a_k = bounded(userdata.a_k + userdata.a_a_more, 'int32')
     userdata.a_a_more = 2
 
 
 def _a_a_entry(userdata):
-    # model.swarm:53
+    # model.swarm:54
     userdata.a_a_more = 1
 
 
 def _a_entry(userdata):
-    # model.swarm:49
+    # model.swarm:50
     userdata.a_k = 0
 
 
 def _d_e_guard(userdata, event):
-    # model.swarm:77
+    # model.swarm:78
     return event.mode == MODE_MANUAL and is_active('D.Out') and elapsed('D') < rospy.Duration(7200.0)
 
 
 def _d_e_effect(userdata, event):
-    # model.swarm:77
+    # model.swarm:78
     userdata.n = 1
 
 
 def _d_charge_effect(userdata, event):
-    # model.swarm:78
-    userdata.n = 4
-
-
-def _d_charge_effect_2(userdata, event):
     # model.swarm:79
     userdata.n = 4
 
 
-def _d_a_guard(userdata, event):
+def _d_charge_effect_2(userdata, event):
     # model.swarm:80
+    userdata.n = 4
+
+
+def _d_a_guard(userdata, event):
+    # model.swarm:81
     return userdata.n > 3 and userdata.mine < userdata.self.count and userdata.self.role != userdata.self.id
 
 
 def _d_x_guard(userdata, event, envelope):
-    # model.swarm:82
+    # model.swarm:83
     return rospy.Duration(0, envelope.sent) > rospy.Duration(3.0)
 
 
 def _d_x_effect(userdata, event, envelope):
-    # model.swarm:82
+    # model.swarm:83
     events.X.send(M(), envelope.sender)
     events.X.send_after(
         rospy.Duration(2.0) * userdata.n, M(), 'uav[{}]'.format(userdata.self.index + 1)
@@ -226,27 +226,27 @@ def _d_x_effect(userdata, event, envelope):
 
 
 def _d_x_guard_2(userdata, event):
-    # model.swarm:83
+    # model.swarm:84
     return math.hypot(userdata.here.x - userdata.seen.pose.position.x, userdata.here.y - userdata.seen.pose.position.y, userdata.here.z - userdata.seen.pose.position.z) < math.hypot(9, 12)
 
 
 def _d_out_request(userdata, request):
-    # model.swarm:87
+    # model.swarm:88
     return BaseTakeRequest(mode=userdata.mode)
 
 
 def _d_out_response(userdata, response):
-    # model.swarm:87
+    # model.swarm:88
     userdata.ok = response.ok
 
 
 def _d_entry(userdata):
-    # model.swarm:73
-    events.X.send(M(mode=MODE_AUTO), 'big')
+    # model.swarm:74
+    events.X.send(M(mode=MODE_AUTO, age=elapsed('D') / rospy.Duration(1.0)), 'big')
     userdata.n = LIMIT
 
 
 def _d_exit(userdata):
-    # model.swarm:74
+    # model.swarm:75
     userdata.n = bounded(min(max(userdata.n // 2, 1), round(2.5)), 'int32')
     events.X.cancel()

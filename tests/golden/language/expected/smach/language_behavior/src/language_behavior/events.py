@@ -9,19 +9,19 @@ from swarmros.msg import SimpleEvent
 
 from language_behavior.topics import Event
 
-# model.swarm:43
+# model.swarm:44
 LATER = Event('Later', Empty, 'later', 'later')
 
-# model.swarm:39
+# model.swarm:40
 X = Event('X', M, 'bridge/events/x', 'x', envelope=XEnvelope, latch=True, queue_size=3)
 
-# model.swarm:41
+# model.swarm:42
 E = Event('E', M, 'e', 'e')
 
-# model.swarm:78
+# model.swarm:79
 CHARGE = Event('Charge', Level, 'battery', 'battery')
 
-# model.swarm:42
+# model.swarm:43
 F = Event('F', Empty, 'f', 'f')
 
 # events.swarm:16
