@@ -26,8 +26,15 @@ def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | Non
     if len(by_lower) > _COMPARED:
         pairs = _pairs(word)
         compared = nlargest(_COMPARED, by_lower, key=lambda name: len(pairs & _pairs(name)))
-    close = get_close_matches(word, compared, n=1, cutoff=likeness)
-    return by_lower[close[0]] if close else None
+    close = get_close_matches(word, compared, n=3, cutoff=likeness)
+    meant = next((each for each in close if _abbreviates(word, each)), close[0] if close else None)
+    return by_lower[meant] if meant is not None else None
+
+
+def _abbreviates(word: str, name: str) -> bool:
+    """Return True if a word is a longer name without some letters inside: `idx` for `index`."""
+    letters = iter(name)
+    return word[0] == name[0] and word[-1] == name[-1] and all(one in letters for one in word)
 
 
 @lru_cache(maxsize=1 << 14)

@@ -16,6 +16,7 @@ from swarmdsl.analysis.checks.composition import check_environment, check_swarm
 from swarmdsl.analysis.checks.conflicts import check_conflicts
 from swarmdsl.analysis.checks.context import Context, make_context
 from swarmdsl.analysis.checks.dataflow import check_variables
+from swarmdsl.analysis.checks.delays import check_undelayed_sends
 from swarmdsl.analysis.checks.delivery import check_delivery, check_lossy_events
 from swarmdsl.analysis.checks.enums import check_enum
 from swarmdsl.analysis.checks.events import check_events
@@ -105,6 +106,7 @@ STATE_MACHINE_PASSES: Sequence[Callable[[StateMachine, Context], None]] = (
     check_reachability,
     check_activities,
     check_putting_off,
+    check_undelayed_sends,
     check_guards,
     check_variables,
     check_conflicts,

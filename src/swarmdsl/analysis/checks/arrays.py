@@ -40,7 +40,9 @@ def check_array_effect(effect: Append | Remove | Clear, typing: Typing) -> None:
         )
         return
     if array is None or not assignable(array):
-        report_not_assignable(effect.target, typing)
+        is_item = isinstance(effect, Clear) and item_of(target) is not None
+        help_ = f"write `remove {effect.target.span.text}`" if is_item else None
+        report_not_assignable(effect.target, typing, help_)
         return
     type_ = typing.infer(array)
     if isinstance(effect, Remove):
@@ -74,14 +76,14 @@ def check_array_effect(effect: Append | Remove | Clear, typing: Typing) -> None:
         typing.expect(effect.value.tree, type_.element if isinstance(type_, Array) else None)
 
 
-def report_not_assignable(target: Expression, typing: Typing) -> None:
+def report_not_assignable(target: Expression, typing: Typing, help_: str | None = None) -> None:
     """Report the target of a store that is not in a variable."""
     tree = target.tree
-    help_ = "only variables (`var name : Type`) and their fields can be assigned to"
     while isinstance(tree, FieldUse):
         tree = tree.base
-    if isinstance(tree, IndexUse) and item_of(tree) is not None:
+    if help_ is None and isinstance(tree, IndexUse) and item_of(tree) is not None:
         help_ = f"assign the whole item: `{tree.span.text} = ...`"
+    help_ = help_ or "only variables (`var name : Type`) and their fields can be assigned to"
     typing.report.report("not-assignable", target.span, text=target.span.text, help=help_)
 
 

@@ -106,14 +106,20 @@ class Context:
     def check_default(self, owner: Param | Variable, value: Expression | None) -> None:
         """Check an initial or default value: a constant of the type of its owner."""
         if value is not None:
-            self.check_constant(value, owner.type.type)
+            help_ = None
+            if isinstance(owner, Variable):
+                set_ = f"`entry / {owner.name} = {value.span.text}`"
+                help_ = f"set it when the initial state is entered: {set_}"
+            self.check_constant(value, owner.type.type, help_)
 
-    def check_constant(self, value: Expression, expected: Type | None) -> None:
-        """Check a constant of a type."""
+    def check_constant(
+        self, value: Expression, expected: Type | None, help_: str | None = None
+    ) -> None:
+        """Check a constant of a type; `help_` is for a value that is none."""
         if value.tree is None:
             return
         if not constant(value.tree):
-            self.report.report("not-constant", value.span)
+            self.report.report("not-constant", value.span, help=help_)
         self.typing.expect(value.tree, expected)
 
     def check_number(self, value: Expression) -> None:

@@ -1,13 +1,26 @@
-"""Checks of delays that never elapse, because their state is always left before."""
+"""Checks of delays: of those that never elapse, and of those that look like a part of a `send`."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import inf
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.base.diagnostics.collector import Label
-from swarmdsl.syntax.ast import TimeTrigger, Transition, Trigger
+from swarmdsl.base.source import Span
+from swarmdsl.syntax.ast import (
+    Entry,
+    Exit,
+    Parallel,
+    Send,
+    State,
+    StateMachine,
+    TimeTrigger,
+    Transition,
+    Trigger,
+    nodes_of,
+)
 
 Leaving = tuple[float, Transition]
 """A transition that always leaves its state, and the nanoseconds that it waits."""
@@ -72,3 +85,37 @@ def _delay(trigger: Trigger, context: Context) -> float | None:
         value = context.typing.folding.value(trigger.delay.tree)
         return value if isinstance(value, (int, float)) and value > 0 else None
     return None
+
+
+def check_undelayed_sends(machine: StateMachine, context: Context) -> None:
+    """Report `after` on a line below `send` and indented like a part of it, which it is not."""
+    states: list[State | Parallel] = [*nodes_of(machine, State), *nodes_of(machine, Parallel)]
+    for above, below in (pair for state in states for pair in pairwise(state.items)):
+        sent = _sent_last(above)
+        if sent is None or not isinstance(below, Transition):
+            continue
+        delay = below.triggers[0] if below.triggers else None
+        if isinstance(delay, TimeTrigger) and _is_indented_below(above.span, delay.span):
+            context.report.report(
+                "undelayed-send",
+                delay.span,
+                event=sent.event.name,
+                related=(Label(sent.span, "this is sent at once"),),
+                help=f"write `{sent.span.text} {delay.span.text}` on one line to delay it; "
+                "else indent this line like the one above",
+            )
+
+
+def _sent_last(item: object) -> Send | None:
+    """Return the `send` that an item of a state ends in, if it could have a delay."""
+    if not isinstance(item, (Entry, Exit, Transition)) or not item.effects:
+        return None
+    last = item.effects[-1]
+    has_target = isinstance(item, Transition) and item.target is not None
+    return last if isinstance(last, Send) and last.delay is None and not has_target else None
+
+
+def _is_indented_below(above: Span, below: Span) -> bool:
+    line, column = above.source.line_column(above.start)
+    other_line, other_column = below.source.line_column(below.start)
+    return other_line > line and other_column > column

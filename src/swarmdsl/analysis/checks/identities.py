@@ -9,7 +9,7 @@ from swarmdsl.analysis.resolve.addresses import Crew, crews_of
 from swarmdsl.analysis.resolve.identities import Comparison, comparisons, robot_named
 from swarmdsl.analysis.resolve.multiplicity import greatest
 from swarmdsl.base.diagnostics.collector import listed
-from swarmdsl.base.suggest import suggest
+from swarmdsl.base.suggest import closest, suggest
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import EventTrigger, StateMachine, Swarm
 
@@ -25,7 +25,7 @@ def check_identities(project: Project, context: Context) -> None:
         if crews is None:
             crews = crews_of(each for each in used if isinstance(each, Swarm))
         running = [crew for crew in crews if node in crew.machines]
-        if any(crew.swarm in context.incomplete for crew in running):
+        if not context.incomplete.isdisjoint({node, *(crew.swarm for crew in running)}):
             continue
         for each in found if running else ():
             # An event from outside and a machine alone have an empty name.
@@ -67,6 +67,8 @@ def _report(comparison: Comparison, running: Sequence[Crew], context: Context) -
             help_ = f"this is a role; its robots are `{role}[0]` and so on"
         elif role in roles:
             help_ = "robots are counted from 0"
+        elif number is not None and (meant := closest(role, roles)):
+            help_ = f"did you mean `{meant}[{number}]`?"
         else:
             help_ = suggest(role, roles, "roles")
     context.report.report(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.resolve.addresses import Crew, crews_of
-from swarmdsl.analysis.resolve.membership import is_member_event, presence_calls
+from swarmdsl.analysis.resolve.membership import MEMBER_EVENTS, is_member_event, presence_calls
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
@@ -13,6 +13,7 @@ from swarmdsl.syntax.ast import (
     Cancel,
     Declaration,
     DeferredEvent,
+    Event,
     EventTrigger,
     Fitness,
     Heartbeat,
@@ -56,30 +57,50 @@ def check_membership(project: Project, context: Context) -> None:
     used = [node for _, node in context.used]
     complete = (node for node in used if node not in context.incomplete)
     crews: list[Crew] | None = None
+    hidden: dict[Event, Crew] = {}
     for node in used:
         _check_values(node, context)
         if not isinstance(node, StateMachine):
             continue
         _check_sent(node, context)
-        places = _places(node)
-        if not places:
+        places, hiding = _places(node), _hiding_events(node)
+        if not places and not hiding:
             continue
         if crews is None:
             crews = crews_of(each for each in complete if isinstance(each, Swarm))
         running = [crew for crew in crews if node in crew.machines]
+        hidden.update({each: crew for crew in running if _beats(crew.swarm) for each in hiding})
         _check_beating(places, running, context)
         _check_roles(node, running, context)
+    for event, crew in hidden.items():
+        context.report.report(
+            "hidden-heartbeat",
+            event.name.span,
+            name=event.name,
+            swarm=crew.swarm.name,
+            help="give it another name, or delete it if the heartbeat shall raise it",
+        )
+
+
+def _awaited(machine: StateMachine) -> list[EventTrigger | DeferredEvent]:
+    return [*nodes_of(machine, EventTrigger), *nodes_of(machine, DeferredEvent)]
+
+
+def _hiding_events(machine: StateMachine) -> list[Event]:
+    """Return the declared events of a machine that have the names of those of heartbeats."""
+    events = [each.event.target for each in _awaited(machine) if each.event.name in MEMBER_EVENTS]
+    return [each for each in events if each is not None and not is_member_event(each)]
+
+
+def _beats(swarm: Swarm) -> bool:
+    return any(isinstance(item, Heartbeat) for item in swarm.items)
 
 
 def _places(machine: StateMachine) -> list[tuple[str, Span]]:
     """Return the uses of heartbeats in a machine, each with its name."""
-    events: list[EventTrigger | DeferredEvent] = [
-        *nodes_of(machine, EventTrigger),
-        *nodes_of(machine, DeferredEvent),
-    ]
     found = [
         (str(each.event.name), each.event.span)
-        for each in events
+        for each in _awaited(machine)
         if is_member_event(each.event.target)
     ]
     found += [("present", call.function.span) for call in presence_calls(machine)]
@@ -87,11 +108,7 @@ def _places(machine: StateMachine) -> list[tuple[str, Span]]:
 
 
 def _check_beating(places: list[tuple[str, Span]], crews: list[Crew], context: Context) -> None:
-    silent = [
-        crew.swarm
-        for crew in crews
-        if not any(isinstance(item, Heartbeat) for item in crew.swarm.items)
-    ]
+    silent = [crew.swarm for crew in crews if not _beats(crew.swarm)]
     if silent:
         name, span = min(places, key=lambda place: place[1].start)
         context.report.report(
@@ -132,8 +149,7 @@ def _check_sent(machine: StateMachine, context: Context) -> None:
                 effect.event.span,
                 name=effect.event.name,
                 fault="cannot be sent: heartbeats raise it",
-                help=f"declare an event of your own, under another name or as `swarm event "
-                f"{effect.event.name} : ...`",
+                help="declare an event of your own, under another name",
             )
 
 

@@ -148,7 +148,9 @@ def _check_robots(fact: Fact, owner: Sentence, context: Context) -> None:
             who.span,
             which=f"which robot of role `{role.name}` it is about",
             related=(Label(role.span, "it can have several"),),
-            help=f"write `all {role.name}`, `some {role.name}`, `no {role.name}` or "
+            help=f"leave `{role.name}` out here: `each {role.name} :` says it"
+            if owner.each is not None and owner.each.role.target is role
+            else f"write `all {role.name}`, `some {role.name}`, `no {role.name}` or "
             f"`{role.name}[0]`",
         )
 

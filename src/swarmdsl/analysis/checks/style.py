@@ -7,6 +7,7 @@ from collections.abc import Callable
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.names import RESERVED_EVENTS
 from swarmdsl.analysis.node_kinds import kind_name
+from swarmdsl.analysis.resolve.membership import MEMBER_EVENTS
 from swarmdsl.base.naming import camel_case, snake_case
 from swarmdsl.syntax.ast import (
     AliasType,
@@ -83,7 +84,7 @@ def check_style(declaration: Declaration, context: Context) -> None:
         is_so, written, better = _STYLES[kind]
         for node in nodes:
             name = node.name
-            reserved = kind is Event and name in RESERVED_EVENTS
+            reserved = kind is Event and name in (*RESERVED_EVENTS, *MEMBER_EVENTS)
             if not is_so(name) and not reserved:
                 context.report.report(
                     "naming-style",

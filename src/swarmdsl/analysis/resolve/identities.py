@@ -7,45 +7,31 @@ like, makes it one.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from swarmdsl.analysis.resolve.addresses import crews_of, named_roles, swarms_of
-from swarmdsl.analysis.resolve.membership import is_member_event
+from swarmdsl.analysis.resolve.identity_tests import IdentityTest, identity_tests
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     Address,
-    EventTrigger,
     ExpressionTree,
-    FieldUse,
-    NameUse,
-    OperatorUse,
     Role,
     RoleUse,
     StateMachine,
-    Transition,
-    Trigger,
     Value,
     nodes_of,
-    walk,
 )
 
 _ROBOT = re.compile(r"(.*)\[(0|[1-9]\d{0,17})\]", re.DOTALL)
-_FACTS = {"id": False, "role": True}
 
 
 @dataclass(frozen=True)
-class Comparison:
-    """`==` or `!=` between who a robot is, `fact`, and a string: its role if `of_role`, or its id.
+class Comparison(IdentityTest):
+    """Test with a string."""
 
-    `triggers` are those of the transition, for a fact about the event.
-    """
-
-    fact: FieldUse
     value: Value
-    of_role: bool
-    triggers: Sequence[Trigger] = ()
 
 
 def robot_named(name: str) -> tuple[str, int | None]:
@@ -56,25 +42,9 @@ def robot_named(name: str) -> tuple[str, int | None]:
 
 def comparisons(machine: StateMachine) -> Iterator[Comparison]:
     """Yield the comparisons of robots and roles with strings."""
-    compared = [
-        (use, *pair)
-        for use in nodes_of(machine, OperatorUse)
-        if use.operator in ("==", "!=")
-        for pair in (use.operands, use.operands[::-1])
-    ]
-    around: dict[OperatorUse, Transition] | None = None
-    for use, fact, value in compared:
-        match fact, value:
-            case FieldUse(base=NameUse(name="self"), name=name), Value(value=str()):
-                if name in _FACTS:
-                    yield Comparison(fact, value, _FACTS[name])
-            case FieldUse(base=NameUse(name="event"), name=name), Value(value=str()):
-                if around is None:
-                    around = _transitions(machine)
-                triggers = around[use].triggers if use in around else ()
-                of_members = all(map(_is_of_member, triggers))
-                if triggers and ((of_members and name in _FACTS) or name == "sender"):
-                    yield Comparison(fact, value, _FACTS.get(name, False), triggers)
+    for test in identity_tests(machine):
+        if isinstance(test.value, Value) and isinstance(test.value.value, str):
+            yield Comparison(test.fact, test.value, test.of_role, test.triggers)
 
 
 def role_uses(machine: StateMachine, project: Project) -> Iterator[tuple[Span, Role]]:
@@ -106,17 +76,3 @@ def _strings(machine: StateMachine) -> Iterator[Value]:
         if isinstance(tree, Value) and isinstance(tree.value, str):
             yield tree
     yield from (each.value for each in comparisons(machine))
-
-
-def _transitions(machine: StateMachine) -> dict[OperatorUse, Transition]:
-    """Return the transition around each operation in a guard or effect."""
-    return {
-        node: transition
-        for transition in nodes_of(machine, Transition)
-        for node in walk(transition)
-        if isinstance(node, OperatorUse)
-    }
-
-
-def _is_of_member(trigger: Trigger) -> bool:
-    return isinstance(trigger, EventTrigger) and is_member_event(trigger.event.target)

@@ -75,7 +75,7 @@ def suggest_variable(
         expected = BOOL
     elif isinstance(around, OperatorUse) and around.operator in _COMPARISONS:
         (beside,) = (operand for operand in around.operands if operand is not use)
-        expected = _type_of(beside)
+        expected = type_of(beside)
     else:
         expected = None
     written = _written(expected, scope) if expected is not None else None
@@ -137,9 +137,9 @@ def _expected_type(
         return DURATION
     for assignment in nodes_of(machine, Assignment):
         if assignment.target is within:
-            return _type_of(assignment.value.tree)
+            return type_of(assignment.value.tree)
         if assignment.value is within:
-            return _type_of(assignment.target.tree)
+            return type_of(assignment.target.tree)
     for activity in nodes_of(machine, Activity):
         for argument in activity.arguments:
             if argument.value is within:
@@ -150,7 +150,7 @@ def _expected_type(
     return None
 
 
-def _type_of(tree: ExpressionTree | None) -> Type | None:
+def type_of(tree: ExpressionTree | None) -> Type | None:
     """Return the type of a literal or a declared name; None for a number, which fits several."""
     match tree:
         case Value(unit=unit) if unit:

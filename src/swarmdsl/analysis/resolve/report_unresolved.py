@@ -268,13 +268,15 @@ def report_value(
     within: Expression,
     owner: TopLevel,
     values: Iterable[str],
+    machines: Iterable[StateMachine],
     kinds: tuple[type[D], ...],
     scope: FileScope,
     report: Diagnostics,
 ) -> None:
     """Report a name that means no value; for a package, the name that is missing in it.
 
-    `values` are the names of the variables, params and inputs of `owner`.
+    `values` are the names of the variables, params and inputs of `owner`; the expression is about
+    `machines`.
     """
     name, at = base.name, base.span
     for count, field in enumerate(fields):
@@ -284,8 +286,13 @@ def report_value(
     found = scope.resolve(name, kinds)
     assert isinstance(found, Unresolved)
     from swarmdsl.analysis.resolve.hints import value_hint
+    from swarmdsl.analysis.resolve.out_of_place import meaning_elsewhere, robot_as_value
 
-    help_ = value_hint(name, scope, report) if isinstance(found, Missing) else None
+    help_ = None
+    if isinstance(found, Missing):
+        help_ = value_hint(name, scope, report)
+        if help_ is None and report.wants_hint("unresolved-name"):
+            help_ = meaning_elsewhere(base, within, machines, scope)
     if help_ is not None:
         report.report("unresolved-name", at, kind="value", name=name, help=help_)
         return
@@ -296,7 +303,7 @@ def report_value(
             return None
         from swarmdsl.analysis.resolve.missing_variable import suggest_variable
 
-        return suggest_variable(base, within, owner, scope)
+        return robot_as_value(base, owner) or suggest_variable(base, within, owner, scope)
 
     known = [*values, "true", "false"]
     _report_declaration(found, name, at, kinds, scope, report, built_in=known, hint=hint)

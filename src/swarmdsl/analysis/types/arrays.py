@@ -7,20 +7,25 @@ from typing import Protocol
 
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.report_unresolved import report_missing
+from swarmdsl.analysis.types.built_ins import BUILT_INS
 from swarmdsl.analysis.types.constant_folding import Folding
 from swarmdsl.analysis.types.fitting import is_number
 from swarmdsl.analysis.types.unit_rules import of_field
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import (
+    Call,
     Construction,
     EnumType,
     ExpressionTree,
     Field,
+    FieldUse,
     IndexUse,
+    NameUse,
     Parameter,
     Query,
     Word,
+    walk,
 )
 from swarmdsl.syntax.types import BOOL, DURATION, INT, Array, Named, Primitive, Type
 
@@ -68,6 +73,8 @@ class Inference(Protocol):
     def folding(self) -> Folding: ...  # noqa: D102
 
     def infer(self, tree: ExpressionTree) -> Type | None: ...  # noqa: D102
+
+    def quietly(self, tree: ExpressionTree) -> Type | None: ...  # noqa: D102
 
     def expect(  # noqa: D102
         self, tree: ExpressionTree | None, expected: Type | None
@@ -130,6 +137,36 @@ def type_of_query(query: Query, typing: Inference) -> Type | None:
         help_ = f"compare numbers or durations: `by {name}...`"
         _report(query, f"`{compared}`", help_, typing)
     return element
+
+
+def is_unnamed_query(call: Call, typing: Inference) -> bool:
+    """Return True for a query of an array that does not name its items."""
+    if call.function not in QUERIES or len(call.arguments) > 1:
+        return False
+    return call.function not in BUILT_INS or _array_in(call, typing) is not None
+
+
+def type_of_unnamed_query(call: Call, typing: Inference) -> Type | None:
+    """Report a query that does not name the items; return the type of its result."""
+    from swarmdsl.analysis.types.hints import query_hint
+
+    array = _array_in(call, typing)
+    said = call.arguments[0].span.text if call.arguments else ""
+    typing.report.report(
+        "bad-operand",
+        call.span,
+        operator=call.function,
+        operands=f"`{said}`" if said else "nothing",
+        help=query_hint(str(call.function), said, array.span.text if array is not None else None),
+    )
+    return QUERIES[str(call.function)].result
+
+
+def _array_in(call: Call, typing: Inference) -> NameUse | FieldUse | None:
+    """Return the first name of an array in the arguments of a function."""
+    paths = (use for argument in call.arguments for use in walk(argument))
+    uses = (use for use in paths if isinstance(use, (NameUse, FieldUse)))
+    return next((use for use in uses if isinstance(typing.quietly(use), Array)), None)
 
 
 def type_of_construction(made: Construction, typing: Inference) -> Type | None:

@@ -6,12 +6,18 @@ so that one mistake is reported once.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import inf
 
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.report_unresolved import report_missing
-from swarmdsl.analysis.types.arrays import type_of_construction, type_of_item, type_of_query
+from swarmdsl.analysis.types.arrays import (
+    is_unnamed_query,
+    type_of_construction,
+    type_of_item,
+    type_of_query,
+    type_of_unnamed_query,
+)
 from swarmdsl.analysis.types.constant_folding import Folded, Folding
 from swarmdsl.analysis.types.fitting import fits, is_number, is_text, range_of
 from swarmdsl.analysis.types.operators import Application
@@ -53,6 +59,7 @@ from swarmdsl.syntax.types import (
     ENVELOPE_FIELDS,
     FLOAT,
     INT,
+    MEMBER,
     SELF_FIELDS,
     STRING,
     Array,
@@ -109,7 +116,7 @@ class Typing:
             ) and name in ENVELOPE_FIELDS:
                 return self._fact(name)
             case FieldUse(base=base, name=name):
-                return self.field(self.infer(base), name, name.span)
+                return self.field(self.infer(base), name, name.span, base)
             case IndexUse():
                 return type_of_item(tree, self)
             case Query():
@@ -120,6 +127,8 @@ class Typing:
                 return DURATION
             case Construction():
                 return type_of_construction(tree, self)
+            case Call() if is_unnamed_query(tree, self):
+                return type_of_unnamed_query(tree, self)
             case OperatorUse(operands=operands) | Call(arguments=operands):
                 return self._checked_result(tree, [self.infer(operand) for operand in operands])
         raise AssertionError(tree)
@@ -158,9 +167,13 @@ class Typing:
             return self.element_type(target)
         return target.type.type if target is not None else None
 
+    def quietly(self, tree: ExpressionTree) -> Type | None:
+        """Return the type of an expression; report nothing."""
+        return replace(self, report=Diagnostics()).infer(tree)
+
     def element_type(self, element: Element) -> Type | None:
         """Return the type of the items that a query goes through; report nothing."""
-        array = replace(self, report=Diagnostics()).infer(element.array)
+        array = self.quietly(element.array)
         return array.element if isinstance(array, Array) else None
 
     def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
@@ -264,26 +277,37 @@ class Typing:
             "type-mismatch", tree.span, expected=f"`{expected}`", found=found, help=help_
         )
 
-    def field(self, owner: Type | None, name: str, at: Span) -> Type | None:
-        """Return the type of a field of a message; report a missing field."""
+    def field(
+        self, owner: Type | None, name: str, at: Span, base: ExpressionTree | None = None
+    ) -> Type | None:
+        """Return the type of a field of a message, `base`; report a missing field."""
         if isinstance(owner, Named):
-            found = self._field(owner, name, at)
+            facts = self.of_swarm and isinstance(base, NameUse) and base.name == "event"
+            found = self._field(owner, name, at, ENVELOPE_FIELDS if facts else ())
             return of_field(found.type.type) if found is not None else None
         if owner is not None:
-            self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
+            help_ = None
+            if isinstance(owner, Array) and base is not None:
+                from swarmdsl.analysis.types.hints import field_of_array_hint
+
+                help_ = field_of_array_hint(owner, name, base.span.text, self.interfaces)
+            of_type = f"a value of type `{owner}`"
+            self.report.report("unknown-field", at, owner=of_type, name=name, help=help_)
         return None
 
     def field_of(self, owner: Named, name: Word) -> Field | Parameter | None:
         """Return a field of a message; report a missing one."""
         return self._field(owner, name, name.span)
 
-    def _field(self, owner: Named, name: str, at: Span) -> Field | Parameter | None:
+    def _field(
+        self, owner: Named, name: str, at: Span, facts: Iterable[str] = ()
+    ) -> Field | Parameter | None:
         fields = self.interfaces.fields(owner)
         if fields is None:
             return None
         found = next((known for known in fields if known.name == name), None)
         if found is None:
-            report_unknown_field(f"`{owner}`", name, at, fields, self.report)
+            report_unknown_field(f"`{owner}`", name, at, fields, self.report, facts)
         return found
 
     def _own(self, name: Word) -> Type | None:
@@ -328,7 +352,9 @@ class Typing:
                 "no-sender",
                 name.span,
                 name=name,
-                help="declare the event with `swarm event` if other robots send it",
+                help="the robot that joined or was lost is `event.id`"
+                if self.event == MEMBER
+                else "declare the event with `swarm event` if other robots send it",
             )
         return ENVELOPE_FIELDS[name]
 
@@ -357,15 +383,25 @@ def _bool_hint(tree: ExpressionTree, found: Type | None) -> str | None:
 
 
 def report_unknown_field(
-    owner: str, name: str, at: Span, fields: Sequence[Field | Parameter], report: Diagnostics
+    owner: str,
+    name: str,
+    at: Span,
+    fields: Sequence[Field | Parameter],
+    report: Diagnostics,
+    facts: Iterable[str] = (),
 ) -> None:
-    """Report a field that is missing in a message, with the existing fields."""
+    """Report a field that is missing in a message, with the existing fields.
+
+    `facts` are the fields that the event has whatever its message.
+    """
     if not report.wants_hint("unknown-field"):
         report.report("unknown-field", at, owner=owner, name=name)
         return
     names = [str(known.name) for known in fields]
     has = f"it has {listed(names, 'and')}" if names else "it has no fields"
-    help_ = did_you_mean(name, names) or has
+    if facts:
+        has += f"; the event itself has {listed(list(facts), 'and')}"
+    help_ = did_you_mean(name, [*names, *facts]) or has
     report.report("unknown-field", at, owner=owner, name=name, help=help_)
 
 

@@ -96,7 +96,9 @@ class Application:
             self._check_positions()
         elif function == "present":
             if not all(isinstance(each, RoleUse) for each in call.arguments):
-                self._report_operands("name a role: `present(scout)`")
+                from swarmdsl.analysis.types.hints import role_hint
+
+                self._report_operands(role_hint(call.arguments))
         elif function == "elapsed":
             # With the path of a state, the parser makes another node of it.
             self._report_operands("name a state around it, `elapsed(Work)`, or none")
@@ -139,8 +141,10 @@ class Application:
             return BOOL
         if operator in ("==", "!="):
             if not self._comparable(left, right):
+                from swarmdsl.analysis.types.hints import number_of_robot_hint
+
                 hint = "compare their fields" if self._are_messages() else self._unit_hint()
-                self._report_operands(hint)
+                self._report_operands(hint or number_of_robot_hint(self.tree))
             return BOOL
         numbers = is_number(left) and is_number(right)
         if operator in ("<", "<=", ">", ">="):
@@ -224,8 +228,9 @@ class Application:
         return fine
 
     def _report_operands(self, hint: str | None = None) -> None:
+        operands = self.tree.arguments if isinstance(self.tree, Call) else self.tree.operands
         names = [str(known) for known in self.types if known is not None]
-        self._report(listed(names, "and"), hint)
+        self._report(listed(names or [each.span.text for each in operands], "and"), hint)
 
     def _report(self, operands: str, hint: str | None = None) -> None:
         word = self.tree.function if isinstance(self.tree, Call) else self.tree.operator

@@ -157,6 +157,12 @@ CODES: dict[str, Code] = {
     "unknown-identity": Code(
         "SW0544", "warning", "no robot of swarm {swarms} has the {what} `{name}`"
     ),
+    "hidden-heartbeat": Code(
+        "SW0545", "warning", "event `{name}` hides that of the heartbeat of swarm `{swarm}`"
+    ),
+    "undelayed-send": Code(
+        "SW0546", "warning", "this begins a transition: it does not delay `send {event}`"
+    ),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "missing value for {fields} in {owner}"),

@@ -1,0 +1,77 @@
+"""Hints for a name that means no value where it is used, but something else elsewhere.
+
+Only a model with mistakes imports this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.analysis.resolve.identity_tests import identity_tests
+from swarmdsl.analysis.resolve.missing_variable import type_of
+from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.states import variables_of
+from swarmdsl.syntax.ast import (
+    Element,
+    Expression,
+    IndexUse,
+    NameUse,
+    Parallel,
+    Query,
+    Region,
+    State,
+    StateMachine,
+    TopLevel,
+    Value,
+    nodes_of,
+    walk,
+)
+from swarmdsl.syntax.types import Array, Named
+
+
+def meaning_elsewhere(
+    use: NameUse, within: Expression, machines: Iterable[StateMachine], scope: FileScope
+) -> str | None:
+    """Hint for a field of an item without the item, or a variable of a state of the machines."""
+    for query in walk(within) if within.tree is not None else ():
+        if isinstance(query, Query) and _has_field(query.element, use.name, scope):
+            parts = [part for part in (query.condition, query.key) if part is not None]
+            if any(use is node for part in parts for node in walk(part)):
+                return f"write `{query.element.name}.{use.name}`"
+    for machine in machines:
+        for state in _states(machine):
+            if any(each.name == use.name for each in variables_of(state)):
+                return (
+                    f"it is a variable of `{state.name}`: declare it in `{machine.name}` to use it "
+                    "here"
+                )
+    return None
+
+
+def robot_as_value(use: NameUse, owner: TopLevel) -> str | None:
+    """Hint for a robot or role without quotes, compared with the id or role of one."""
+    for test in identity_tests(owner) if isinstance(owner, StateMachine) else ():
+        value = test.value
+        if value is use:
+            name = use.name if test.of_role else f"{use.name}[0]"
+        elif isinstance(value, IndexUse) and value.base is use:
+            number = value.index.span.text if isinstance(value.index, Value) else "0"
+            name = use.name if test.of_role else f"{use.name}[{number}]"
+        else:
+            continue
+        what = "role" if test.of_role else "robot"
+        return f'the name of a {what} is a string: write `"{name}"`'
+    return None
+
+
+def _has_field(element: Element, name: str, scope: FileScope) -> bool:
+    array = type_of(element.array)
+    item = array.element if isinstance(array, Array) else None
+    fields = scope.interfaces.fields(item) if isinstance(item, Named) else None
+    return any(each.name == name for each in fields or ())
+
+
+def _states(machine: StateMachine) -> Iterator[State | Parallel | Region]:
+    yield from nodes_of(machine, State)
+    yield from nodes_of(machine, Parallel)
+    yield from nodes_of(machine, Region)

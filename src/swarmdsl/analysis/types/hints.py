@@ -1,0 +1,55 @@
+"""Hints for expressions with wrong types.
+
+Only a model with mistakes imports this module.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from swarmdsl.analysis.resolve.interfaces import Interfaces
+from swarmdsl.syntax.ast import Call, ExpressionTree, FieldUse, NameUse, OperatorUse
+from swarmdsl.syntax.types import Array, Named
+
+_LENGTHS = ("len", "length", "size", "count")
+_ROLE = re.compile(r'"?([A-Za-z_]\w*)"?(?:\[.*\])?"?')
+
+
+def query_hint(word: str, said: str, array: str | None) -> str:
+    """Hint for a query that does not name the items of an array: `any(offers.price > 3)`."""
+    picks = word in ("min", "max")
+    if array is None:
+        return f"name the items of an array: `{word}(o in array where ...)`"
+    of_item = re.sub(rf"\b{re.escape(array)}\b", "o", said)
+    if of_item == "o":
+        return (
+            f"write `{word}(o in {array})`" if picks else f"write `{word}(o in {array} where ...)`"
+        )
+    return f"write `{word}(o in {array} {'by' if picks else 'where'} {of_item})`"
+
+
+def role_hint(arguments: Sequence[ExpressionTree]) -> str:
+    """Hint for an argument of `present` that is no role."""
+    role = _ROLE.fullmatch(arguments[0].span.text)
+    return f"it counts the robots of a role: `present({role[1] if role else 'scout'})`"
+
+
+def field_of_array_hint(array: Array, name: str, text: str, interfaces: Interfaces) -> str | None:
+    """Hint for a length as a field of an array, or a field of its items; `text` is the array."""
+    if name in _LENGTHS:
+        return f"write `len({text})`"
+    item = array.element
+    fields = interfaces.fields(item) if isinstance(item, Named) else None
+    if any(each.name == name for each in fields or ()):
+        return f"it is a field of each item, such as `{text}[0].{name}`"
+    return None
+
+
+def number_of_robot_hint(tree: Call | OperatorUse) -> str | None:
+    """Hint for a comparison of the id of a robot with a number."""
+    for use in tree.operands if isinstance(tree, OperatorUse) else ():
+        match use:
+            case FieldUse(base=NameUse(name="self"), name="id"):
+                return "the number of a robot is `self.index`; its id is a string"
+    return None

@@ -1,0 +1,151 @@
+"""Advice for mistakes of new users in models of swarms: a model that follows it is correct."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.base.diagnostics.collector import Diagnostic, Severity
+from swarmdsl.driver import pipeline
+
+MODEL = """package p
+
+event Start : std_msgs/Empty
+event Late : std_msgs/Empty
+message Offer { number : int32, cost : float64 }
+struct Plan { speed : float64 in m/s }
+swarm event Bid : Offer
+swarm event Ping : std_msgs/Empty
+
+statemachine M {
+  param speed : float64 in m/s = 2 m/s
+  var n : int32
+  var ys : Offer[<=9]
+  var xs : int32[<=9]
+  VARIABLE
+  initial A
+  state A {
+    STATEMENT
+    on Start -> B
+  }
+  state B {
+    var tries : int32
+    entry / tries = 1, append n to xs, send Bid(number = 1, cost = 2.0), send Ping
+    on Start [tries > 1 and n > 0 and count(o in ys where o.number > 0) > 0] -> C
+  }
+  MACHINE
+  final C
+}
+member Carrier { behavior M }
+swarm S {
+  HEARTBEAT
+  carrier : Carrier[3]
+  box : Carrier[2]
+  SWARM
+}
+TOP
+"""
+HEARTBEAT = "heartbeat 1 s lost after 5 s"
+# Where the mistake is, its line, the part of it that is wrong, and what the help has for it:
+# `{0}` is what it has in the first backquotes.
+MISTAKES = (
+    ("STATEMENT", "on Start [present(carrier[1]) > 0] -> B", "present(carrier[1])", "{0}"),
+    ("STATEMENT", 'on Start [present("carrier") > 0] -> B', 'present("carrier")', "{0}"),
+    ("STATEMENT", "on Start [any(ys.number == 1)] -> B", "any(ys.number == 1)", "{0}"),
+    ("STATEMENT", "on Start [all(ys.number == 1)] -> B", "all(ys.number == 1)", "{0}"),
+    ("STATEMENT", "on Start [count(ys.number == n) > 0] -> B", "count(ys.number == n)", "{0}"),
+    ("STATEMENT", "on Start / append min(ys.number) to ys", "min(ys.number)", "{0}"),
+    ("STATEMENT", "on Start / n = max(xs)", "max(xs)", "{0}"),
+    ("STATEMENT", "on Bid [count(o in ys where number == 1) > 0] -> B", "number", "{0}"),
+    ("STATEMENT", "on Bid [event.sender == carrier[1]] -> B", "carrier[1]", "{0}"),
+    ("STATEMENT", "on Bid [event.sender != carrier] -> B", "carrier", "{0}"),
+    ("STATEMENT", "on member_lost [event.role == carrier] -> B", "carrier", "{0}"),
+    ("STATEMENT", "on member_lost [event.id == carrier[0]] -> B", "carrier[0]", "{0}"),
+    ("STATEMENT", "on Start [carrier == self.role] -> B", "carrier", "{0}"),
+    ("STATEMENT", 'on member_lost [event.sender == "box[0]"] -> B', "event.sender", "{0}"),
+    ("STATEMENT", "on Start / clear ys[0]", "clear ys[0]", "{0}"),
+    ("STATEMENT", "on Start [self.idx == 0] -> B", "idx", "{0}"),
+    ("STATEMENT", "on Start [self.id == 0] -> B", "self.id", "{0}"),
+    ("STATEMENT", 'on Bid [event.from == "box[0]"] -> B', "from", "{2}"),
+    ("STATEMENT", "on Start [ys.len > 0] -> B", "ys.len", "{0}"),
+    ("STATEMENT", "on Start [xs.size > 0] -> B", "xs.size", "{0}"),
+    ("STATEMENT", "on Start / n = ys.number", "ys.number", "{0}"),
+    ("STATEMENT", "on Start / send Ping to all", "to all", ""),
+    ("TOP", "property P : each carrier : carrier in A leads to in B", "carrier in A", "in A"),
+)
+# What the advice leaves to the user to name.
+ELSEWHERE = (
+    ("STATEMENT", "on Start [tries > 3] -> B", "it is a variable of `B`: declare it in `M` "),
+    ("STATEMENT", "on Start / tries = 3", "it is a variable of `B`: declare it in `M` "),
+    (
+        "TOP",
+        "property P : some carrier has [tries > 3] at all times",
+        "it is a variable of `B`: declare it in `M` ",
+    ),
+)
+
+
+def _errors(place: str, text: str, folder: Path) -> list[Diagnostic]:
+    model = MODEL if place == "HEARTBEAT" else MODEL.replace("HEARTBEAT", HEARTBEAT)
+    model = model.replace(place, text)
+    for each in ("VARIABLE", "STATEMENT", "MACHINE", "SWARM", "TOP"):
+        model = model.replace(each, "")
+    file = folder / "model.swarm"
+    file.write_text(model, encoding="utf-8")
+    found = list(pipeline.check([file]).report)
+    strange = ("unknown-identity", "unknown-interface")
+    return [each for each in found if each.severity is Severity.ERROR or each.name in strange]
+
+
+@pytest.mark.parametrize(("place", "mistake", "wrong", "right"), MISTAKES)
+def test_advice_in_a_swarm(
+    place: str, mistake: str, wrong: str, right: str, tmp_path: Path
+) -> None:
+    (error,) = _errors(place, mistake, tmp_path)
+    quoted = re.findall(r"`([^`]+)`", error.help or "")
+    followed = mistake.replace(wrong, right.format(*quoted))
+
+    assert _errors(place, followed, tmp_path) == [], followed
+
+
+@pytest.mark.parametrize(("place", "mistake", "advice"), ELSEWHERE)
+def test_advice_on_a_variable_of_a_state(
+    place: str, mistake: str, advice: str, tmp_path: Path
+) -> None:
+    (error,) = _errors(place, mistake, tmp_path)
+
+    assert (error.help or "").startswith(advice)
+
+
+@pytest.mark.parametrize(
+    ("variable", "followed"),
+    [
+        ("var p : Plan = Plan(speed = 1 m/s)", "var p : Plan"),
+        ("var k : int32 = n", "var k : int32"),
+    ],
+)
+def test_advice_on_an_initial_value(variable: str, followed: str, tmp_path: Path) -> None:
+    (error,) = _errors("VARIABLE", variable, tmp_path)
+    (entry,) = re.findall(r"`([^`]+)`", error.help or "")
+    text = MODEL.replace("VARIABLE", followed).replace("HEARTBEAT", HEARTBEAT)
+    file = tmp_path / "model.swarm"
+    file.write_text(
+        re.sub("MACHINE|SWARM|TOP", "", text.replace("STATEMENT", entry)), encoding="utf-8"
+    )
+
+    assert not pipeline.check([file]).report.has_errors
+
+
+def test_advice_on_a_misspelt_role(tmp_path: Path) -> None:
+    (warning,) = _errors("STATEMENT", 'on member_lost [event.id == "carier[1]"] -> B', tmp_path)
+
+    assert warning.name == "unknown-identity"
+    assert warning.help == "did you mean `carrier[1]`?"
+
+
+def test_a_comparison_in_a_statement_with_a_syntax_error_is_left_out(tmp_path: Path) -> None:
+    (error,) = _errors("STATEMENT", 'on Bid [event.sender == "carier[1]"] n = 1', tmp_path)
+
+    assert error.name == "syntax-error"
