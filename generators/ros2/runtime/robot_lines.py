@@ -62,7 +62,7 @@ class Line(NamedTuple):
 
 
 class _Source:
-    """Where the lines of a machine are: the start of its node, and its last line."""
+    """Progress of the lines of a machine: the start of its node, and its last line."""
 
     def __init__(self, actor):
         self.actor = actor
@@ -98,7 +98,7 @@ class RobotLines:
         self._late = Counter()
         self._returned = set()
         self.zero = None
-        """When the run began, None before the first line."""
+        """Beginning of the run, None before the first line."""
 
     def hear(self, text, now):
         """

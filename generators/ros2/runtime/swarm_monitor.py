@@ -33,7 +33,7 @@ _LOOK = SECOND // 2
 
 
 class Swarm(NamedTuple):
-    """What a node watches: the properties of a swarm, and the machines of roles and parts."""
+    """Swarm to watch: its properties, and the machines of its roles and parts."""
 
     name: str
     machines: Any

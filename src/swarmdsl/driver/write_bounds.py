@@ -1,4 +1,4 @@
-"""Where a command may write: in the project, and where the command line says.
+"""Places where a command may write: in the project, and where the command line says.
 
 A project file, an import or a symbolic link must not lead it elsewhere, because they can come from
 strangers.

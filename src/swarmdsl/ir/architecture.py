@@ -190,7 +190,7 @@ class Environment:
 
 @dataclass(frozen=True, slots=True)
 class Heartbeat:
-    """How often a robot says that it is there, and after how long a silence it is lost.
+    """Period at which a robot says that it is there, and the silence after which it is lost.
 
     Both times are in nanoseconds.
     """

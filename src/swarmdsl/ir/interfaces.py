@@ -77,7 +77,7 @@ Interface = Message | Service | Action
 
 @dataclass(frozen=True, slots=True)
 class Delivery:
-    """How a swarm event is delivered; times are in nanoseconds, None is what was not said.
+    """Delivery of a swarm event; times are in nanoseconds, None stands for what is not given.
 
     `reliable` is False for best effort. `latest` is True if who comes later gets the last event,
     `keep` the number of events that wait for a receiver, `lifespan` the age at which an event is

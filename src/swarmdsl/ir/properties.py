@@ -30,7 +30,7 @@ class Robots:
 
 @dataclass(frozen=True, slots=True)
 class Fact:
-    """What robots are or do: the name is that of a state, an event or a function.
+    """State or act of robots: the name is that of a state, an event or a function.
 
     Without `robots`, the fact is about the robot of `each` or the only machine; an event that
     `arrives` comes from outside.

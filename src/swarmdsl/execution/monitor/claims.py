@@ -1,4 +1,4 @@
-"""Properties and measures as plain data: what robots are or do, in a sentence or a number."""
+"""Properties and measures as plain data: sentences and numbers about states and acts of robots."""
 
 from __future__ import annotations
 

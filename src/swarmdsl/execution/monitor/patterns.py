@@ -1,4 +1,4 @@
-"""Patterns of properties: what must hold in one part of a run.
+"""Patterns of properties: requirements on one part of a run.
 
 Steps are the moments of a run at which something changes; times are nanoseconds. `P leads to Q`
 is fulfilled by a Q at the same step.
@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 
 class Pattern:
-    """What must hold in a part of a run, from its first step on.
+    """Requirement on a part of a run, from its first step on.
 
     `broken` is the time at which it was violated; `owes` is True while something that must
     happen has not happened, at the latest at time `due` if that is not None.

@@ -42,7 +42,7 @@ class PropertyResult(NamedTuple):
 
 
 class Interest(NamedTuple):
-    """What can change a fact in the lines of a machine.
+    """Parts of the lines of a machine that can change a fact.
 
     Events that it hears, states by their paths, and what it does: a field of a line with a name.
     With `values`, every line can.

@@ -1,4 +1,4 @@
-"""What a simulation needs: the subject, the scenario, and the events from outside."""
+"""Load the subject of a simulation, its scenario, and the events from outside."""
 
 from __future__ import annotations
 

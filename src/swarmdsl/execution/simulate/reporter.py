@@ -66,6 +66,7 @@ class Reporter(ReportingObserver):
         self.event: str | None = None
         self.envelope = NO_ENVELOPE
         self.noted: list[tuple[str, object]] = []
+        # Millions of transitions need no call more than that of the statistics.
         self.taken = life.taken  # type: ignore[method-assign]
 
     def receive(self, event: Event) -> None:

@@ -35,7 +35,7 @@ class ExpectedMeasure:
 
     @property
     def text(self) -> str:
-        """What is expected, in words."""
+        """Text of the comparison, with the value in its unit."""
         return f"`{self.name}` {self.comparison} {value_text(self.value, is_time=self.is_time)}"
 
     def differs(self, result: FitnessResult) -> str:

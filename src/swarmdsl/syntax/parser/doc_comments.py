@@ -12,7 +12,7 @@ from swarmdsl.syntax.parser.literals import escape_faults
 # An unclosed string ends with its line, an unclosed comment with the file.
 _TOKEN = r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*(?P<closed>")?|//[^\n]*|/\*(?s:.*?)(?:\*/|\Z)'
 CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
-"""What a file cannot contain: control characters, and what XML cannot contain (XML 1.0, 2.2)."""
+"""Control characters, and others that XML cannot contain (XML 1.0, 2.2): no file has them."""
 _DOC_LINE = re.compile(r"///(?!/)")
 _BLANK = re.compile(r"(?:\s+|//(?!/(?!/))[^\n]*|/\*(?s:.*?)\*/)*")
 
