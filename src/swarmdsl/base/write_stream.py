@@ -12,6 +12,8 @@ from swarmdsl.base.read_files import require_regular
 if TYPE_CHECKING:
     from _typeshed import ReadableBuffer
 
+    from swarmdsl.base.diagnostics.collector import Diagnostics
+
 
 def write_stream(path: Path) -> TextIO:
     """Open a regular file for text that replaces what is in it. Raises OSError.
@@ -34,6 +36,12 @@ def write_stream(path: Path) -> TextIO:
         file.close()
         raise
     return io.TextIOWrapper(io.BufferedWriter(file), encoding="utf-8", newline="\n")
+
+
+def report_unwritten(path: Path, error: OSError, report: Diagnostics) -> None:
+    """Report a file that cannot be written."""
+    reason = error.strerror or str(error)
+    report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
 
 
 class _NamedFile(io.FileIO):

@@ -102,7 +102,7 @@ def many_of(
         raise click.UsageError("`--runs` and `--events -` conflict")
     if histogram is not None:
         options.check_picture(histogram, "--histogram", ".svg", {})
-    from swarmdsl.execution.simulate.estimates import Level
+    from swarmdsl.execution.simulate.chances import Level
     from swarmdsl.execution.simulate.many import Many
 
     level = Level(confidence, indifference, error)

@@ -9,9 +9,9 @@ from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.simulate.machine_data import first_data, first_value, stored
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.simulate.subject import MOST_MEMBERS, Subject
-from swarmdsl.execution.simulate.table import first_data, first_value, stored
 from swarmdsl.ir import Param, StateMachine
 
 

@@ -19,7 +19,7 @@ import click
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.read_files import MOST_RECORDED, lines_of
-from swarmdsl.base.write_stream import write_stream
+from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import PropertyResult, Verdict, ViolatedError
 from swarmdsl.execution.simulate.actors import Actor
@@ -80,11 +80,6 @@ def _prepare(request: Request, report: Diagnostics) -> _Play | None:
     return None if report.has_errors else _Play(request, prepared, cast, inputs)
 
 
-def _report_unwritten(path: Path, error: OSError, report: Diagnostics) -> None:
-    reason = str(error.strerror)
-    report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
-
-
 def _typed_bytes() -> bytes:
     return os.read(_STANDARD_INPUT, _AT_ONCE)
 
@@ -108,11 +103,7 @@ class _Play:
         self._written: list[Path] = []
         self._until = request.until if request.until is not None else scenario.until
         self._seed = request.seed if request.seed is not None else scenario.seed
-        self._watched = [
-            each
-            for each in (watchable(subject) if request.properties else ())
-            if not request.only or each.name in request.only
-        ]
+        self._watched = [each for each in watchable(subject) if request.watches(each.name)]
         self._fitness = fitness_of(subject)
         self._listeners: list[Callable[[Line], None]] = []
         self._world = World(
@@ -200,7 +191,7 @@ class _Play:
         except OSError as error:
             if error.filename is None:
                 raise  # of standard output
-            _report_unwritten(Path(error.filename), error, report)
+            report_unwritten(Path(error.filename), error, report)
         for (machine, reason), count in self._world.failures.items():
             times = "once" if count == 1 else f"{count} times"
             report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
@@ -247,7 +238,7 @@ class _Play:
                 if stream is not None:
                     stream.write(as_document(head, results, fitness))
         except OSError as error:
-            _report_unwritten(path, error, report)
+            report_unwritten(path, error, report)
 
     def _run(self, tell: Tell) -> Ending:
         pace = Pace() if self._request.real_time else None
@@ -332,7 +323,7 @@ class _Play:
         try:
             stream = stack.enter_context(write_stream(path))
         except OSError as error:
-            _report_unwritten(path, error, report)
+            report_unwritten(path, error, report)
             return None
         self._written.append(path)
         return stream

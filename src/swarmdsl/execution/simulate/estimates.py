@@ -11,8 +11,8 @@ from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.estimation.intervals import Interval, clopper_pearson
 from swarmdsl.execution.estimation.sample import Sample, summarize
-from swarmdsl.execution.estimation.sequential import Region, SequentialTest
 from swarmdsl.execution.monitor import FALSE, OPEN, TRUE
+from swarmdsl.execution.simulate.chances import Chance, Level
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.simulate.measures import measures_of, value_text
 from swarmdsl.execution.simulate.one_run import Outcome
@@ -23,51 +23,6 @@ from swarmdsl.syntax.types import DURATION
 _WORST = 3
 """Number of seeds of the worst runs that are shown."""
 Command = Callable[[int], str]
-
-
-@dataclass(frozen=True)
-class Level:
-    """Level of intervals, and of the sequential test: half the region, and the two errors."""
-
-    confidence: float = 0.95
-    indifference: float = 0.02
-    error: float = 0.05
-
-
-class Chance:
-    """Test of a property with a chance, in the order of the runs.
-
-    A run that leaves the property open counts for neither decision: as a success where it could
-    be low, and as a failure where it could be high.
-    """
-
-    def __init__(self, property_: Property, level: Level) -> None:
-        assert property_.chance is not None
-        self.region = Region.around(property_.chance.probability, level.indifference, level.error)
-        self._least = property_.chance.bound == "least"
-        self._pessimist = SequentialTest(self.region)
-        self._optimist = SequentialTest(self.region)
-
-    def add(self, verdict: str) -> None:
-        """Process a run."""
-        self._pessimist.add(success=verdict == TRUE)
-        self._optimist.add(success=verdict != FALSE)
-
-    @property
-    def verdict(self) -> str:
-        """True or false once the test has decided, else open."""
-        if self._pessimist.decision == "high":
-            return TRUE if self._least else FALSE
-        if self._optimist.decision == "low":
-            return FALSE if self._least else TRUE
-        return OPEN
-
-    @property
-    def runs(self) -> int | None:
-        """Number of runs after which the test decided."""
-        if self._pessimist.decision == "high":
-            return self._pessimist.runs
-        return self._optimist.runs if self._optimist.decision == "low" else None
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,10 @@ import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.write_stream import write_stream
+from swarmdsl.base.write_stream import report_unwritten, write_stream
+from swarmdsl.execution.simulate.chances import Level
 from swarmdsl.execution.simulate.durations import written_duration
-from swarmdsl.execution.simulate.estimates import Estimates, Level
+from swarmdsl.execution.simulate.estimates import Estimates
 from swarmdsl.execution.simulate.histogram import histograms
 from swarmdsl.execution.simulate.one_run import Outcome, Runner, begin, run_seed
 from swarmdsl.execution.simulate.prepare import Request, prepare
@@ -139,8 +140,7 @@ def _write(path: Path | None, text: Callable[[], str], report: Diagnostics) -> l
         with write_stream(path) as stream:
             stream.write(text())
     except OSError as error:
-        reason = str(error.strerror)
-        report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
+        report_unwritten(path, error, report)
         return []
     return [str(path)]
 

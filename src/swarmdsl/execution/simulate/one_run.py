@@ -44,11 +44,7 @@ class Runner:
         self._request = request
         self._prepared = prepared
         subject = prepared.subject
-        self.properties = [
-            each
-            for each in (watchable(subject) if request.properties else ())
-            if not request.only or each.name in request.only
-        ]
+        self.properties = [each for each in watchable(subject) if request.watches(each.name)]
         self.fitness = fitness_of(subject)
         self.first_seed = request.seed if request.seed is not None else prepared.scenario.seed
 

@@ -46,6 +46,10 @@ class Request:
     """Names of the properties that are watched; none for all."""
     results: Path | None = None
 
+    def watches(self, name: str) -> bool:
+        """Return True if a property of this name is watched."""
+        return self.properties and (not self.only or name in self.only)
+
 
 @dataclass(frozen=True)
 class Prepared:

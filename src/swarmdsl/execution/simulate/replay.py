@@ -27,10 +27,10 @@ from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.expressions import PRESENT
+from swarmdsl.execution.simulate.machine_data import first_data
 from swarmdsl.execution.simulate.members import Roster, following
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.table import first_data
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.simulate.trace_line import NAMES, is_verdict, numbers, read_line
 from swarmdsl.execution.simulate.world import LATE

@@ -97,7 +97,7 @@ class Summary:
 
     def _functions(self) -> Iterator[Row]:
         for function, called in self._statistics.called.items():
-            ends = [self._world.outcomes[function, outcome] for outcome in _OUTCOMES]
+            ends = [self._world.activities.outcomes[function, outcome] for outcome in _OUTCOMES]
             counts = (*ends, called - sum(ends))
             yield function, str(called), *(str(count or "-") for count in counts)
 

@@ -34,33 +34,24 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.simulate.expressions import (
     ACTIVE,
     ELAPSED,
-    SELF,
     Value,
-    applied,
     function_of,
 )
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.machine_data import first_data, store, stored
 from swarmdsl.ir import (
-    Array,
     Assignment,
-    Call,
     Cancel,
-    Construction,
     Elapsed,
     Expression,
     InState,
-    Primitive,
     Send,
     StateKind,
     System,
-    Type,
     subexpressions,
 )
-from swarmdsl.ir.integer_ranges import bound_of, bound_of_any
-from swarmdsl.syntax.types import DURATION
+from swarmdsl.ir.integer_ranges import bound_of_any
 
 _KINDS = {StateKind.PARALLEL: Kind.PARALLEL, StateKind.FINAL: Kind.FINAL}
-_ALONE = Robot()
 OUTCOMES = ("succeeded", "aborted", "preempted")
 
 
@@ -76,34 +67,6 @@ def table(machine: ir.StateMachine, system: System) -> Machine:
         (machine.initial,),
         data=lambda: first_data(machine, system, {}),
     )
-
-
-def first_data(
-    machine: ir.StateMachine, system: System, params: Mapping[str, Any], robot: Robot = _ALONE
-) -> dict[str, Any]:
-    """Return the initial variables and params on a robot, given the values of some params.
-
-    Raises ValueError for a param without a value.
-    """
-    data: dict[str, Any] = {SELF: robot.identity}
-    for param in machine.params:
-        if param.name in params:
-            data[param.name] = deepcopy(params[param.name])
-        elif (default := first_value(param)) is not None:
-            data[param.name] = stored(default, param.type, system)(data, None)
-        else:
-            raise ValueError(f"param `{param.name}` of `{machine.name}` has no value")
-    for variable in machine.variables:
-        if variable.initial is not None:
-            data[variable.name] = stored(variable.initial, variable.type, system)(data, None)
-        else:
-            data[variable.name] = default_value(variable.type, system)
-    return data
-
-
-def first_value(param: ir.Param) -> Expression | None:
-    """Return the default of a param; that of the machine if its owners disagree."""
-    return param.default if param.default is not None else param.declared
 
 
 class _Maker:
@@ -233,7 +196,7 @@ class _Maker:
                 view = _view([expression])
 
                 def assign(instance: InstanceLike, event: Event) -> None:
-                    _store(instance.data, variable, path, value(view(instance), event))
+                    store(instance.data, variable, path, value(view(instance), event))
 
                 return assign
             case Cancel(event=name):
@@ -303,64 +266,8 @@ def _view(expressions: Iterable[Expression]) -> Callable[[InstanceLike], Mapping
     return attrgetter("data")
 
 
-def stored(expression: Expression, wanted: Type | None, system: System | None) -> Value:
-    """Compile an expression whose value is stored or sent as type `wanted`.
-
-    The value is a copy, as in ROS; durations are whole nanoseconds, integers are in range.
-    """
-    match expression:
-        case Construction():
-            assert system is not None
-            return _new_message(expression, system)
-        case Call(function="append" | "replace" as word, type=Array(element=element)):
-            # The items of the array itself have been copied when they were stored.
-            at = 1 if word == "append" else 2
-            values = [
-                stored(part, element, system) if number == at else function_of(part)
-                for number, part in enumerate(expression.arguments)
-            ]
-            return applied(word, values)
-    value = function_of(expression)
-    bound = bound_of(expression, wanted)
-    if bound is not None:
-        return lambda data, event: bounded(value(data, event), bound)
-    if expression.type == DURATION:
-        return lambda data, event: round(value(data, event))
-    if isinstance(expression.type, Primitive):
-        return value
-    return lambda data, event: deepcopy(value(data, event))
-
-
-def _new_message(made: Construction, system: System) -> Value:
-    """Compile a new message: its fields have their defaults or values."""
-    fields = [
-        (name, stored(value, field_type(made.type, (name,), system), system))
-        for name, value in made.values
-    ]
-
-    def value(data: Mapping[str, Any], event: Any) -> Any:
-        message = default_value(made.type, system)
-        for name, given in fields:
-            message[name] = given(data, event)
-        return message
-
-    return value
-
-
-def _store(data: dict[str, Any], variable: str, path: tuple[str, ...], value: Any) -> None:
-    if not path:
-        data[variable] = value
-        return
-    held = data[variable]
-    for field in path[:-1]:
-        held = held.setdefault(field, {}) if isinstance(held, dict) else None
-    if not isinstance(held, dict):
-        raise ExecutionError(f"`{variable}` has no `{'.'.join(path)}` to assign to")
-    held[path[-1]] = value
-
-
 def _store_results(results: Iterable[tuple[ir.ResultMapping, str | None]]) -> Effect:
-    def store(instance: InstanceLike, event: Event) -> None:
+    def store_all(instance: InstanceLike, event: Event) -> None:
         for result, bound in results:
             try:
                 value = event.data[result.field]
@@ -370,9 +277,9 @@ def _store_results(results: Iterable[tuple[ir.ResultMapping, str | None]]) -> Ef
                 ) from None
             if bound is not None:
                 bounded(value, bound)
-            _store(instance.data, result.variable, result.path, deepcopy(value))
+            store(instance.data, result.variable, result.path, deepcopy(value))
 
-    return store
+    return store_all
 
 
 def _raise(name: str) -> Effect:

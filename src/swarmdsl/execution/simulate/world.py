@@ -1,13 +1,12 @@
-"""Simulated world: servers with response times, a network, and faults."""
+"""Simulated world: all machines in virtual time, their events, and faults."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from copy import deepcopy
 from typing import Any
 
-from swarmdsl.codegen.shared.default_values import default_result
 from swarmdsl.execution.engine import (
     NO_ENVELOPE,
     Envelope,
@@ -18,23 +17,19 @@ from swarmdsl.execution.engine import (
     Servers,
 )
 from swarmdsl.execution.monitor import LOST
+from swarmdsl.execution.simulate.activities import Activities
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
-from swarmdsl.execution.simulate.durations import draw
 from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.members import Members, following
 from swarmdsl.execution.simulate.network import Network
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import (
-    EVERY_FUNCTION,
-    Fault,
-    FunctionBehavior,
-    Message,
     Robot,
     Scenario,
-    is_selected,
 )
+from swarmdsl.execution.simulate.scenario_schedule import schedule
 from swarmdsl.execution.simulate.statistics import Life
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.ir import Heartbeat, System
@@ -63,8 +58,6 @@ class World:
         self.trace = Trace(self.clock, listeners)
         self.failures: Counter[tuple[str, str]] = Counter()
         """Failures of guards and effects, by machine and reason."""
-        self.outcomes: Counter[tuple[str, str]] = Counter()
-        """Outcomes of activities, by function and outcome."""
         self.nobody: Counter[str] = Counter()
         """Numbers of swarm events with an address that no other robot has."""
         self._system = system
@@ -78,16 +71,12 @@ class World:
             lambda event, robot: bool(self.listeners(event, robot)),
             self._miss,
         )
-        self._calls: Counter[tuple[str | None, str]] = Counter()
-        self._ends: dict[Run, Alarm | None] = {}
+        self.activities = Activities(
+            self.clock, scenario, self._chance, system, lambda run: self._actors[run.instance].robot
+        )
         self._listeners: dict[tuple[str, str | None], list[Actor]] = {}
-        self._silent: Counter[tuple[Robot, str]] = Counter()
-        """Number of current silences of a function."""
-        self._behaviors: dict[tuple[str, str | None], FunctionBehavior] = {}
         self._audiences: dict[str, list[tuple[Robot, list[Life]]]] = {}
         """Robots that listen to an event, with the instances that do."""
-        self._blanks: dict[str, Mapping[str, Any]] = {}
-        self._unheard: list[Run] = []
         self._returning = 0
         """Number of lost robots that will come back."""
         self._instances: dict[Actor, Instance] = {}
@@ -132,24 +121,7 @@ class World:
             self.trace.begin(instance, None)
             instance.start()
             self.trace.flush()
-        said: Counter[str] = Counter()
-        for message in self._scenario.messages:
-            said[message.event] += 1
-            for robot in self.robots:
-                if is_selected(robot, message.to) and robot.name != message.sender:
-                    chance = self._chance.stream(
-                        robot.name, "hears", message.event, said[message.event]
-                    )
-                    self.clock.schedule(message.at.draw(chance), self._message(message, robot))
-        for number, fault in enumerate(self._scenario.faults):
-            if fault.apart:
-                chance = self._chance.stream("fault", number)
-                self.clock.schedule(fault.at.draw(chance), self._partition(fault))
-                continue
-            for robot in self.robots:
-                if is_selected(robot, fault.of):
-                    chance = self._chance.stream(robot.name, "fault", number)
-                    self.clock.schedule(fault.at.draw(chance), self._fault(fault, robot))
+        schedule(self._scenario, self, self._chance)
 
     @property
     def over(self) -> bool:
@@ -185,7 +157,7 @@ class World:
             going_on = self.runs(actor) if event.name.startswith(_OF_ACTIVITIES) else ()
             run = next((r for r in going_on if event.name in r.activity.events.values()), None)
             if run is not None:
-                self._end(run, event.name, event.data)
+                self.activities.end(run, event.name, event.data)
                 self.trace.flush()
             else:
                 self._receive(instance, event)
@@ -198,7 +170,7 @@ class World:
 
     def runs(self, actor: Actor) -> list[Run]:
         """Return the running activities of a machine."""
-        return [run for run in self._ends if run.instance is self._instances[actor]]
+        return self.activities.of(self._instances[actor])
 
     def data(self, actor: Actor) -> Any:
         """Return the variables of a machine."""
@@ -229,32 +201,11 @@ class World:
 
     def start(self, run: Run) -> None:
         """Start an activity, with a random end."""
-        robot, function = self._actors[run.instance].robot, run.activity.name
-        self._calls[robot.name, function] += 1
-        call = self._calls[robot.name, function]
-        answer = self._behavior(function, robot).draw(
-            lambda: self._chance.stream(robot.name, function, call)
-        )
-        self._ends[run] = None
-        if answer.outcome is None or self._is_silent(robot, function):
-            return
-        data = None
-        if answer.outcome == "succeeded":
-            data = {**self._blank(function), **answer.result}
-        name = run.activity.events[answer.outcome]
-        self._ends[run] = self.clock.schedule(answer.duration, lambda: self._end(run, name, data))
+        self.activities.start(run)
 
     def cancel(self, run: Run) -> None:
         """Stop an activity, after the time given in the scenario."""
-        robot, function = self._actors[run.instance].robot, run.activity.name
-        self.outcomes[function, "cancelled"] += 1
-        alarm = self._ends.pop(run)
-        if alarm is not None:
-            self.clock.unschedule(alarm)
-        if self._is_silent(robot, function):
-            self._unheard.append(run)
-        else:
-            self._stop(run)
+        self.activities.cancel(run)
 
     def send(self, instance: InstanceLike, event: Event) -> None:
         """Deliver an event to the robot, and a swarm event to the other robots."""
@@ -319,104 +270,13 @@ class World:
 
     # ---- internal
 
-    def _is_silent(self, robot: Robot, function: str) -> bool:
-        return bool(self._silent) and any(
-            self._silent[robot, name] for name in (function, EVERY_FUNCTION)
-        )
-
-    def _stop(self, run: Run) -> None:
-        robot, function = self._actors[run.instance].robot, run.activity.name
-        call = self._calls[robot.name, function]
-        delay = draw(
-            self._behavior(function, robot).stopping,
-            lambda: self._chance.stream(robot.name, function, call, "stops"),
-        )
-        self.clock.schedule(delay, lambda: run.end("preempted"))
-
-    def _behavior(self, function: str, robot: Robot) -> FunctionBehavior:
-        found = self._behaviors.get((function, robot.name))
-        if found is None:
-            found = self._scenario.behavior(function, robot)
-            self._behaviors[function, robot.name] = found
-        return found
-
     def _later(self, delay: int, event: Event, robot: Robot) -> None:
         to = self.listeners(event.name, robot)
         if to:
             self.clock.schedule(delay, lambda: self._deliver(event, to))
 
-    def _end(self, run: Run, event: str, data: Any) -> None:
-        if data is None and event == run.activity.events["succeeded"]:
-            data = self._blank(run.activity.name)
-        outcome = self._outcome(run, event, data)
-        self.outcomes[run.activity.name, outcome] += 1
-        alarm = self._ends.pop(run)
-        if alarm is not None:
-            self.clock.unschedule(alarm)
-        run.end(outcome, data)
-
-    def _blank(self, function: str) -> Mapping[str, Any]:
-        """Return the default result of a function."""
-        if self._system is None:
-            return {}
-        if function not in self._blanks:
-            call = self._system.function(function).communication
-            self._blanks[function] = default_result(call, self._system)
-        return self._blanks[function]
-
-    def _outcome(self, run: Run, event: str, data: Any) -> str:
-        """Return the outcome of an end event: a service response may report failure."""
-        outcome = next(each for each, name in run.activity.events.items() if name == event)
-        if outcome != "succeeded" or self._system is None or not isinstance(data, Mapping):
-            return outcome
-        if data.get("success") is not False:
-            return outcome
-        call = self._system.function(run.activity.name).communication
-        return run.activity.refused if call.paradigm == "service" else outcome
-
-    def _message(self, message: Message, robot: Robot) -> Callable[[], None]:
-        def arrive() -> None:
-            if message.every is not None and robot not in self.network.gone:
-                self.clock.schedule(message.every, arrive)
-            to = self.listeners(message.event, robot)
-            self.deliver(message.event, message.data, to, message.sender)
-
-        return arrive
-
-    def _fault(self, fault: Fault, robot: Robot) -> Callable[[], None]:
-        def strike() -> None:
-            if fault.function is None:
-                self.lose(robot)
-                if fault.lasts is not None:
-                    self._returning += 1
-                    self.clock.schedule(fault.lasts, lambda: self._return(robot))
-                return
-            self._silent[robot, fault.function] += 1
-            for run, alarm in self._ends.items():
-                if self._actors[run.instance].robot is robot and self._is_silent(
-                    robot, run.activity.name
-                ):
-                    if alarm is not None:
-                        self.clock.unschedule(alarm)
-                    self._ends[run] = None
-            if fault.lasts is not None:
-                answers = (robot, fault.function)
-                self.clock.schedule(fault.lasts, lambda: self._answer(answers))
-
-        return strike
-
-    def _answer(self, answers: tuple[Robot, str]) -> None:
-        """End a silence, and stop the runs that were cancelled during it."""
-        self._silent[answers] -= 1
-        unheard, self._unheard = self._unheard, []
-        for run in unheard:
-            if self._is_silent(self._actors[run.instance].robot, run.activity.name):
-                self._unheard.append(run)
-            else:
-                self._stop(run)
-
-    def lose(self, robot: Robot) -> None:
-        """Remove a robot, without executing exit effects."""
+    def lose(self, robot: Robot, lasts: int | None = None) -> None:
+        """Remove a robot, without executing exit effects; it may come back after a time."""
         self.network.leave(robot)
         self.members.forget(robot)
         self.members.follow([robot])
@@ -426,10 +286,10 @@ class World:
                 self.trace.lives[instance].lose()
                 instance.running = False
                 self.trace.flush()
-        for run in [run for run in self._ends if self._actors[run.instance].robot is robot]:
-            alarm = self._ends.pop(run)
-            if alarm is not None:
-                self.clock.unschedule(alarm)
+        self.activities.forget(robot)
+        if lasts is not None:
+            self._returning += 1
+            self.clock.schedule(lasts, lambda: self._return(robot))
 
     def _return(self, robot: Robot) -> None:
         """Start the machines of a lost robot anew."""
@@ -448,17 +308,6 @@ class World:
                 self.trace.flush()
         self.network.join(robot, self.robots)
         self.members.follow([robot])
-
-    def _partition(self, fault: Fault) -> Callable[[], None]:
-        def strike() -> None:
-            self.members.follow(self.network.part(fault.apart, self.robots))
-            if fault.lasts is not None:
-                self.clock.schedule(fault.lasts, heal)
-
-        def heal() -> None:
-            self.members.follow(self.network.heal(fault.apart, self.robots))
-
-        return strike
 
     # ---- members
 
