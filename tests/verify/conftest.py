@@ -12,7 +12,7 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.verify.explore import Budget, Limits
+from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model, Options
 from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.verdict import Verdict
@@ -37,7 +37,8 @@ def model_of(
     system = system_of(path)
     subject = Subject(system.swarms[0].name, system, system.swarms[0])
     report = Diagnostics()
-    made = Model(subject, counts or {}, watchable(subject), options or Options(), report)
+    budget = Budget(Limits())
+    made = Model(subject, counts or {}, watchable(subject), options or Options(), budget, report)
     assert not report.has_errors
     return made
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify import explore
+from swarmdsl.execution.verify import limits
 
 from .conftest import MODELS
 
@@ -79,15 +80,25 @@ def test_a_limit_of_states_is_told(capsys: pytest.CaptureFixture[str]) -> None:
 def test_ctrl_c_tells_what_was_found(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, examples: Path
 ) -> None:
-    def interrupt(budget: explore.Budget, states: int) -> bool:
-        raise KeyboardInterrupt
+    def interrupt(budget: limits.Budget, states: int) -> bool:
+        if states:
+            raise KeyboardInterrupt
+        return True
 
-    monkeypatch.setattr(explore.Budget, "allows", interrupt)
+    monkeypatch.setattr(limits.Budget, "allows", interrupt)
 
     assert run(["verify", str(examples / "emergency_exit")]) == 130
     out = capsys.readouterr().out
     assert "there are more" in out
     assert "the search was interrupted" in out
+
+
+def test_a_limit_of_time_ends_the_search_for_the_states_of_a_robot(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    run(["verify", str(MODELS / "explodes.swarm"), "--limit", "1ms"])
+
+    assert re.search(r"^  1 state, .*: there are more$", capsys.readouterr().out, re.MULTILINE)
 
 
 def test_limits_of_time_and_memory_end_a_search(

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.execution.verify.explore import Budget, Limits, explore
+from swarmdsl.execution.verify.explore import explore
 from swarmdsl.execution.verify.findings import survey
+from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.network import Group, Network
 
 from .conftest import model_of

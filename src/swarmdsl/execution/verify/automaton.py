@@ -18,6 +18,7 @@ from swarmdsl.execution.simulate.properties import claim_of, conditions
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.verify.alphabet import Alphabet, frozen
 from swarmdsl.execution.verify.body import Body, Input
+from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.moves import Look, Moment, Move
 from swarmdsl.ir import Count, Fact
 
@@ -302,11 +303,13 @@ class Automaton:
         return lasting, momentary
 
 
-def close(automata: Sequence[Automaton], alphabet: Alphabet, states: int, moves: int) -> bool:
+def close(
+    automata: Sequence[Automaton], alphabet: Alphabet, states: int, moves: int, budget: Budget
+) -> bool:
     """Find all states of some automata; return False if there are more.
 
     Each robot hears each message at any time: this includes whatever happens in a swarm. The
-    search in an automaton ends at a number of states or moves.
+    search in an automaton ends at a number of states or moves, or with the time or memory.
     """
     changed = True
     complete = True
@@ -315,10 +318,15 @@ def close(automata: Sequence[Automaton], alphabet: Alphabet, states: int, moves:
         for automaton in automata:
             number = 0
             while number < len(automaton.steps):
-                if number >= states or automaton.replays >= moves:
+                is_known = automaton.steps[number] is not None
+                if (
+                    number >= states
+                    or automaton.replays >= moves
+                    or not (is_known or budget.allows(0))
+                ):
                     complete = False
                     break
-                if automaton.steps[number] is None:
+                if not is_known:
                     automaton.expand(number)
                     changed = True
                 for message in range(len(alphabet.messages)):

@@ -10,7 +10,7 @@ from typing import TextIO
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.diagnostics.render import counted, render
+from swarmdsl.base.diagnostics.render import render
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.write_stream import write_stream
@@ -20,8 +20,8 @@ from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject, choose
 from swarmdsl.execution.simulate.trace import as_json
 from swarmdsl.execution.verify import diagnostics
-from swarmdsl.execution.verify.explore import Budget, Limits
 from swarmdsl.execution.verify.findings import Survey, survey
+from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model, Options
 from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.runs import Run
@@ -88,7 +88,8 @@ class _Session:
         model: Model | None = None
         try:
             for counts in every:
-                made = Model(subject, counts, properties, self._options(), self._report)
+                options = Options(self._request.capacity, self._request.lossy)
+                made = Model(subject, counts, properties, options, self._budget, self._report)
                 if self._report.has_errors:
                     return False
                 model = made
@@ -139,9 +140,6 @@ class _Session:
 
     # ---- before
 
-    def _options(self) -> Options:
-        return Options(self._request.capacity, self._request.lossy)
-
     def _subject(self) -> Subject | None:
         models = list(self._request.paths)
         settings = find_settings(models, self._report)
@@ -174,8 +172,8 @@ class _Session:
     ) -> None:
         self._say(f"{subject.name}: {shown(subject, looked)}")
         for found in surveys:
-            states = counted_in_thousands(found.states, "state")
-            steps = counted_in_thousands(found.transitions, "step")
+            states = diagnostics.counted_in_thousands(found.states, "state")
+            steps = diagnostics.counted_in_thousands(found.transitions, "step")
             rest = "all there are" if found.complete else "there are more"
             self._say(f"  {states}, {steps}: {rest}")
         lines = list(diagnostics.rows(verdicts))
@@ -233,8 +231,3 @@ class _Progress:
         if self._stream is not None:
             self._stream.write("\r\033[K")
             self._stream.flush()
-
-
-def counted_in_thousands(number: int, noun: str) -> str:
-    """Return a number of things, with commas: `24,122 states`."""
-    return counted(number, noun).replace(str(number), f"{number:,}", 1)

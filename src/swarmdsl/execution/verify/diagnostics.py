@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.source import Span
 from swarmdsl.execution.simulate.trace import Line, as_text
@@ -103,7 +104,8 @@ def rows(verdicts: Sequence[Verdict]) -> Iterator[tuple[str, str, str]]:
     for each in verdicts:
         reason = each.reason
         open_ = each.outcome == "up to"
-        outcome = f"holds up to {each.states:,} states" if open_ else each.outcome
+        states = counted_in_thousands(each.states, "state")
+        outcome = f"holds up to {states}" if open_ else each.outcome
         if each.place is not None:
             reason += f" ({each.place.source.name}:{each.place.line})"
         if each.outcome == "holds" and each.alone:
@@ -137,3 +139,8 @@ def conditions(model: Model, full: Sequence[str]) -> Iterator[str]:
         place = doubt.place
         where = f" ({place.source.name}:{place.line})" if place is not None else ""
         yield f"not all is shown: {doubt.reason}{where}"
+
+
+def counted_in_thousands(number: int, noun: str) -> str:
+    """Return a number of things, with commas: `24,122 states`."""
+    return counted(number, noun).replace(str(number), f"{number:,}", 1)

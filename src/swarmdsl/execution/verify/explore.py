@@ -2,59 +2,14 @@
 
 from __future__ import annotations
 
-import resource
-import sys
-import time
 from array import array
-from collections.abc import Callable
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.observer import Observer
 
 _OFTEN = 4096
 """Number of states between two looks at the limits."""
-_KILOBYTES = 1 if sys.platform == "darwin" else 1024
-"""Bytes in the unit of `ru_maxrss`."""
-
-
-@dataclass(frozen=True)
-class Limits:
-    """Limits of a search: states, seconds, and bytes of memory; None is no limit."""
-
-    states: int = 1_000_000
-    seconds: float | None = None
-    memory: int | None = None
-
-
-class Budget:
-    """Rest of the limits of a command.
-
-    `tell` is called with the number of states from time to time.
-    """
-
-    def __init__(self, limits: Limits, tell: Callable[[int], None] | None = None) -> None:
-        self._limits = limits
-        self._tell = tell
-        self._began = time.monotonic()
-        self.interrupted = False
-
-    def allows(self, states: int) -> bool:
-        """Return True if a search may go on."""
-        limits = self._limits
-        if self._tell is not None:
-            self._tell(states)
-        if self.interrupted or states >= limits.states:
-            return False
-        if limits.seconds is not None and time.monotonic() - self._began >= limits.seconds:
-            return False
-        used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * _KILOBYTES
-        return limits.memory is None or used < limits.memory
-
-    @property
-    def most(self) -> int:
-        """Number of states that one search may find."""
-        return self._limits.states
 
 
 class Graph:

@@ -9,7 +9,8 @@ from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
-from swarmdsl.execution.verify.explore import Budget, Graph, explore
+from swarmdsl.execution.verify.explore import Graph, explore
+from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network, Step

@@ -18,6 +18,7 @@ from swarmdsl.execution.verify.alphabet import Alphabet
 from swarmdsl.execution.verify.automaton import Automaton, Kind, close
 from swarmdsl.execution.verify.demands import Demands
 from swarmdsl.execution.verify.doubt import Doubt
+from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.representatives import Values
@@ -45,6 +46,7 @@ class Model:
         counts: Mapping[str, int],
         properties: Sequence[ir.Property],
         options: Options,
+        budget: Budget,
         report: Diagnostics,
     ) -> None:
         assert subject.system is not None
@@ -85,7 +87,7 @@ class Model:
         }
         self._robots: list[list[str | None]] = []
         self._gather(facts)
-        self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES)
+        self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
         self._unfinished = [each for each in self.kinds if not each.is_complete]
         self._quotients: dict[tuple[int, int, bool], Quotient] = {}
 

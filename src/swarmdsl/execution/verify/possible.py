@@ -7,7 +7,8 @@ from collections.abc import Callable, Sequence
 from itertools import combinations
 
 from swarmdsl import ir
-from swarmdsl.execution.verify.explore import Budget, explore
+from swarmdsl.execution.verify.explore import explore
+from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.network import Group, Network
 from swarmdsl.execution.verify.runs import play, steps_between

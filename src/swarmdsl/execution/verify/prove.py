@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from swarmdsl import ir
 from swarmdsl.execution.monitor import Sentence
-from swarmdsl.execution.verify.explore import Budget, Graph, observe
+from swarmdsl.execution.verify.explore import Graph, observe
+from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model, facts_of, roles_of
 from swarmdsl.execution.verify.monitor_table import MOST_CLAIMS, MonitorTable
 from swarmdsl.execution.verify.moves import Move
