@@ -87,6 +87,25 @@ REFUTED: dict[str, tuple[str, Sequence[dict[str, Any]], str]] = {
         [{"event": "Tell", "sender": "a[1]", "data": {"word": 1}}],
         "unknown",
     ),
+    # A full array has no room for another word: the effects after it are skipped.
+    "an_effect_without_a_value_ends_its_block": (
+        "endless statemachine M {\n var words : uint8[<=2]\n initial S0\n state S0 {\n"
+        " on Tick / append 1 to words -> S0\n on Go / append 1 to words, send Ask -> S1\n}\n"
+        " state S1 { on Ask -> S1 }\n}\n"
+        + _ONE % 2
+        + "property P of S : each a : in S1 only after sends Ask",
+        [{"event": "Tick"}, {"event": "Tick"}, {"event": "Go"}],
+        "fails",
+    ),
+    "a_sending_without_a_value_does_not_happen": (
+        "endless statemachine M {\n var n : uint8 = 0\n initial S0\n state S0 {\n"
+        " on Tick / n = n + 125 -> S0\n on Go / send Ask(word = n + 10) -> S1\n}\n"
+        " state S1 { on Ask -> S1 }\n}\n"
+        + _ONE % 2
+        + "property P of S : each a : in S1 only after sends Ask",
+        [{"event": "Tick"}, {"event": "Tick"}, {"event": "Go"}],
+        "fails",
+    ),
     # Messages that differ in nothing but their senders are compared as a whole.
     "a_message_that_is_kept_has_its_sender_in_it": (
         "statemachine M {\n var kept : Signed[<=2]\n initial S0\n state S0 {\n"

@@ -15,6 +15,7 @@ from swarmdsl.codegen.shared.default_values import (
     default_value,
     field_type,
     result_fields,
+    sent_types,
 )
 from swarmdsl.execution.engine import ExecutionError
 from swarmdsl.execution.simulate.expressions import function_of
@@ -29,6 +30,12 @@ SELF: Node = ("robot", "self", ())
 SENT: Node = ("time", "sent", ())
 _COMPARISONS = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 """Comparisons, each with the one that has its sides exchanged."""
+_SURE = {
+    *_COMPARISONS,
+    *("and", "or", "+", "-", "*", "min", "max", "abs", "clamp", "hypot", "distance", "atan2"),
+    *("len", "contains", "empty", "float", "seconds"),
+}
+"""Operations that have a value for all operands; of integers, it may be out of range."""
 _HEADERS = {
     "node": (ir.Named("swarmros", "EventHeader"),),
     "stamp": (ir.Named("std_msgs", "Header"), ir.Named("swarmros", "EventHeader")),
@@ -56,8 +63,6 @@ class Demands:
         self._exact: dict[Node, ir.Expression] = {}
         """Places whose very values count, with the expressions that use them."""
         self._computed: list[tuple[Node, ir.Expression, str, tuple[str, ...]]] = []
-        self.assumed: dict[str, None] = {}
-        """Variables whose computation is assumed to have a value."""
         self._identity = False
         self._read: dict[Node, ir.Expression] = {}
         """Places of data with the first expressions that compare or need them."""
@@ -178,9 +183,6 @@ class Demands:
                     before = len(self._exact)
                     self._need(expression, machine, events)
                     changed |= len(self._exact) != before
-        for target, expression, _, _ in self._computed:
-            if not any(_overlap(node, target) for node in self._demanded):
-                self.assumed.update(dict.fromkeys(sorted(ir.reads(expression))))
 
     def _machine(self, machine: ir.StateMachine) -> None:
         name = machine.name
@@ -197,9 +199,11 @@ class Demands:
         for state in machine.walk():
             self._effects((*state.entry, *state.exit), name, handled, types)
             if state.activity is not None:
+                call = self._system.function(state.activity.function).communication
+                asked = sent_types(self._system.known_interface(call.type))
                 for field, value in state.activity.arguments:
                     goal = ("goal", state.activity.function, (field,))
-                    self._flow(goal, value, None, name, ())
+                    self._flow(goal, value, asked.get(field), name, handled, is_needed=True)
                 for result in state.activity.results:
                     source = ("result", state.activity.function, (result.field,))
                     target = ("var", f"{name}.{result.variable}", result.path)
@@ -222,17 +226,20 @@ class Demands:
         events: tuple[str, ...],
         types: Mapping[str, ir.Type],
     ) -> None:
-        for effect in effects:
+        block = list(effects)
+        for effect in block:
             match effect:
                 case ir.Assignment(variable=variable, path=path, value=value):
                     held = field_type(types.get(variable), path, self._system)
                     target = ("var", f"{machine}.{variable}", path)
-                    self._flow(target, value, held, machine, events)
+                    is_needed = effect is not block[-1]
+                    self._flow(target, value, held, machine, events, is_needed=is_needed)
                 case ir.Send(event=event, arguments=arguments, to=to, delay=delay):
                     type_ = self._system.event(event).type
                     for field, value in arguments:
                         held = field_type(type_, (field,), self._system)
-                        self._flow(("event", event, (field,)), value, held, machine, events)
+                        target = ("event", event, (field,))
+                        self._flow(target, value, held, machine, events, is_needed=True)
                     if to is not None:
                         self._address(to, machine, events)
                     if delay is not None:
@@ -245,12 +252,18 @@ class Demands:
         held: ir.Type | None,
         machine: str,
         events: tuple[str, ...],
+        *,
+        is_needed: bool,
     ) -> None:
-        """Note that a value is stored in a place."""
+        """Note that a value is stored in a place.
+
+        If it `is_needed` for what follows, it counts whether the expression has a value.
+        """
         if isinstance(value, ir.Construction):
             for field, part in value.values:
                 inner = field_type(value.type, (field,), self._system)
-                self._flow((*target[:2], (*target[2], field)), part, inner, machine, events)
+                place = (*target[:2], (*target[2], field))
+                self._flow(place, part, inner, machine, events, is_needed=is_needed)
             return
         nodes = self._nodes(value, machine, events)
         if nodes is not None:
@@ -259,6 +272,8 @@ class Demands:
             self._computed.append((target, value, machine, events))
         if nodes is not None and bound_of(value, held) is not None:
             self._computed.append((target, value, machine, events))
+        if is_needed and can_fail(value, held) and not self._is_constant(value):
+            self._need(value, machine, events)
 
     def _address(self, to: ir.Address, machine: str, events: tuple[str, ...]) -> None:
         for value in to.values:
@@ -376,6 +391,22 @@ def _parts(expression: ir.Expression) -> Iterator[ir.Expression]:
 
     ir.mapped(expression, keep)
     yield from found
+
+
+def can_fail(expression: ir.Expression, held: ir.Type | None) -> bool:
+    """Return True if an expression may have no value that can be stored as a type."""
+    return bound_of(expression, held) is not None or any(
+        _is_unsure(part) for part in ir.subexpressions(expression)
+    )
+
+
+def _is_unsure(part: ir.Expression) -> bool:
+    match part:
+        case ir.Binary(operator=name) | ir.Call(function=name):
+            return name not in _SURE
+        case ir.Query(function=name):
+            return name in ("min", "max")
+    return False
 
 
 def _behind(node: Node, target: Node, source: Node) -> Node | None:

@@ -132,9 +132,6 @@ def conditions(model: Model, full: Sequence[str]) -> Iterator[str]:
         yield f"from outside, at any time: {names}"
     if model.said:
         yield f"values from outside: {', '.join(model.said)}"
-    if model.demands.assumed:
-        names = listed(list(model.demands.assumed), "and")
-        yield f"what is computed from {names} has a value"
     for doubt in dict.fromkeys(model.doubts(model.groups())):
         place = doubt.place
         where = f" ({place.source.name}:{place.line})" if place is not None else ""
