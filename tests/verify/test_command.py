@@ -53,9 +53,14 @@ def test_a_range_of_sizes_is_looked_at(capsys: pytest.CaptureFixture[str]) -> No
     assert capsys.readouterr().out.startswith("Seekers: 2 to 3 seeker\n  8 states, ")
 
 
-def test_a_machine_alone_can_be_verified(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_machine_alone_hears_what_other_robots_send(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     assert run(["verify", WAITS, "--machine", "Work"]) == 0
-    assert "do.Trying.succeeded -> Waiting; send Done" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert out.startswith("Work: one machine\n  3 states, 2 steps: all there are\n")
+    assert "from outside, at any time: `Done`" in out
+    assert "SW17" not in out
 
 
 def test_formats_for_programs_have_the_diagnostics_only(

@@ -303,11 +303,16 @@ class Model:
         return Kind(cast[0].robot.role, cast, facts, outside, results, preempted, robots)
 
     def _from_inside(self, cast: Sequence[Actor]) -> set[str]:
-        """Return the events that a robot gets from its own machines, or from other robots."""
+        """Return the events that a robot gets from its own machines, or from other robots.
+
+        Other robots send the swarm events of a machine alone: for it, they come from outside.
+        """
         system = self.system
         own = {send.event for send in self.sends(actor.machine.name for actor in cast)}
-        topics = {system.event(name).topic for name in own}
         others = {s.event for s in self.sends(self.machines) if system.event(s.event).swarm}
+        if self.subject.swarm is None:
+            own, others = own - others, set()
+        topics = {system.event(name).topic for name in own}
         return own | others | {e.name for e in system.events if e.incoming_topic in topics}
 
     def _noted(self, found: Values, doubts: list[Doubt]) -> Sequence[dict[str, Any]]:
