@@ -137,6 +137,29 @@ def test_results_as_json_and_of_a_replayed_trace(
     assert again["measures"][0] == spent
 
 
+def test_values_of_a_trace_that_deviates_say_what_is_left_out(
+    simulate: Simulate, capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulate(
+        with_inputs("x : uint32 = total(robot in Going)"),
+        "--trace-file",
+        "trace.jsonl",
+        events=EVENTS,
+    )
+    path = Path("trace.jsonl")
+    lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
+    first = next(at for at, each in enumerate(lines) if '"Start"' in each)
+    lines[first] = lines[first].replace('"Busy.Going"', '"Idle"')
+    path.write_text("".join(lines), encoding="utf-8")
+    own = sum('"member": "robot[0]"' in each for each in lines[first:])
+    capsys.readouterr()
+    assert run(["simulate", "model.swarm", "--replay", "trace.jsonl", "--results", "r.json"]) == 1
+    assert f"left out of the following: {own} lines" in capsys.readouterr().err
+    found = json.loads(Path("r.json").read_text(encoding="utf-8"))
+    assert (found["lines"], found["left_out"]) == (len(lines) - own, own)
+    assert found["measures"][0]["value"] == 3  # of robot[1] alone
+
+
 def test_results_that_cannot_be_written_are_reported(simulate: Simulate) -> None:
     ran = simulate(with_inputs("x : float64"), "--results", "nowhere/results.json")
     assert ran.code == 1

@@ -17,6 +17,7 @@ from typing import TextIO
 import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.read_files import MOST_RECORDED, lines_of
 from swarmdsl.base.write_stream import report_unwritten, write_stream
@@ -122,12 +123,18 @@ class _Play:
             found = replay(source, self._subject, self._cast, report, recording.see)
             results, fitness = recording.results(found.end)
             report_violations(results, report)
-            self._write_results({"replayed": str(path)}, results, fitness, report)
+            left_out = {"left_out": found.left_out} if found.left_out else {}
+            conditions = {"replayed": str(path), "lines": found.lines, **left_out}
+            self._write_results(conditions, results, fitness, report)
             which = f"{printable(str(path))}: " if several else ""
-            lines = f"{found.lines} line{'s' if found.lines != 1 else ''}"
-            members = f"{found.members} member{'s' if found.members != 1 else ''}"
+            lines, members = counted(found.lines, "line"), counted(found.members, "member")
             click.echo(f"{which}{lines} of {members} as in the model", err=True)
-            for line in (*property_table(results), *measure_table(fitness)):
+            tables = [*property_table(results), *measure_table(fitness)]
+            if tables and found.left_out:
+                click.echo(
+                    f"left out of the following: {counted(found.left_out, 'line')}", err=True
+                )
+            for line in tables:
                 click.echo(line, err=True)
         tell(report)
         return not report.has_errors

@@ -56,11 +56,15 @@ class _Record:
 
 @dataclass(frozen=True)
 class Replayed:
-    """Number of conforming lines and members of a trace, and the time of its last line."""
+    """Number of conforming lines and members of a trace, and the time of its last line.
+
+    `left_out` are the lines that differ, follow a difference, or are of no member.
+    """
 
     lines: int
     members: int
     end: int
+    left_out: int = 0
 
 
 Seen = Callable[[Line, Mapping[str, Any], int], None]
@@ -87,6 +91,7 @@ def replay(
             by_member.setdefault(record.done.get("member"), []).append(record)
     actors = {actor.name: actor for actor in cast}
     followed = 0
+    given = sum(map(len, by_member.values()))
     for member, records in by_member.items():
         actor = actors.get(member)
         if actor is None and len(by_member) == len(actors) == 1:
@@ -99,7 +104,7 @@ def replay(
             continue
         roster = Roster(dict.fromkeys(each.robot for each in cast))
         followed += _Replay(actor, subject, report, seen, roster).replay(records)
-    return Replayed(followed, len(by_member), end)
+    return Replayed(followed, len(by_member), end, given - followed)
 
 
 def _impersonate(actor: Actor, member: str, subject: Subject) -> None:
