@@ -222,13 +222,19 @@ class State:
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """Data of a running machine; `initial` None means the type's default."""
+    """Data of a running machine; `initial` None means the type's default.
+
+    `name` is unique in the machine. A variable of a state, or of a machine that a state reuses, has
+    the id of that state as `owner`, and its name in the model as `local`.
+    """
 
     name: str
     type: Type
     initial: Expression | None
     doc: str = ""
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
+    owner: str = dataclass_field(default="", compare=False, repr=False)
+    local: str = dataclass_field(default="", compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

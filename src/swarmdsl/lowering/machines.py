@@ -75,10 +75,10 @@ class _Builder:
         self._taken = taken
 
     def add_variables(
-        self, machine: StateMachine, prefix: str, context: Context
+        self, machine: StateMachine, state: str, context: Context
     ) -> dict[Variable, str]:
-        """Add a reused machine's variables, named after the state; return the names."""
-        return {item: self._add(item, prefix, context) for item in variables_of(machine)}
+        """Add the variables of a machine that a state reuses; return the names."""
+        return {item: self._add(item, state, context) for item in variables_of(machine)}
 
     def with_states(
         self, machine: StateMachine, ids: Mapping[Vertex | Region, str], context: Context
@@ -91,17 +91,19 @@ class _Builder:
         for state, path in ids.items():
             if isinstance(state, (State, Parallel, Region)):
                 for item in variables_of(state):
-                    names[item] = self._add(item, snake_case(path) + "_", context)
+                    names[item] = self._add(item, path, context)
         return replace(context, variables={**context.variables, **names}, states=ids)
 
-    def _add(self, item: Variable, prefix: str, context: Context) -> str:
-        """Add a variable; return its name."""
+    def _add(self, item: Variable, state: str, context: Context) -> str:
+        """Add a variable, of a state if it has an id, after which it is named; return its name."""
         made = ir.Variable(
-            self._new(prefix + item.name),
+            self._new(f"{snake_case(state)}_{item.name}" if state else str(item.name)),
             context.type_of(item.type),
             lower_optional(item.initial, context, item.type.type),
             item.doc,
             item.name.span,
+            state,
+            str(item.name) if state else "",
         )
         self.variables.append(made)
         return made.name
@@ -209,7 +211,7 @@ class _Builder:
         assert state.machine is not None
         machine = state.machine.target
         assert machine is not None
-        names = self.add_variables(machine, snake_case(frame.ids[state]) + "_", frame.context)
+        names = self.add_variables(machine, frame.ids[state], frame.context)
         bound = {str(binding.name): binding.value for binding in state.bindings}
         values = {}
         for item in machine.items:

@@ -23,6 +23,7 @@ from swarmdsl.ir import (
     Type,
     Variable,
 )
+from swarmdsl.syntax.types import unit_name
 
 
 def transition_label(transition: Transition, owner: State) -> tuple[str, ...]:
@@ -71,11 +72,10 @@ def param_line(param: Param) -> str:
     return f"param {param.name} : {type_name(param.type)}{default(with_names(param.default))}"
 
 
-def variable_line(variable: Variable) -> str:
-    """Return a variable with its type and initial value."""
-    return (
-        f"var {variable.name} : {type_name(variable.type)}{default(with_names(variable.initial))}"
-    )
+def variable_line(variable: Variable, within: str = "") -> str:
+    """Return a variable with its type and initial value; `within` is before its name."""
+    name = f"{within}{variable.local or variable.name}"
+    return f"var {name} : {type_name(variable.type)}{default(with_names(variable.initial))}"
 
 
 def value_lines(values: Iterable[tuple[str, Expression]]) -> tuple[str, ...]:
@@ -85,9 +85,14 @@ def value_lines(values: Iterable[tuple[str, Expression]]) -> tuple[str, ...]:
 
 def type_name(type_: Type) -> str:
     """Return a type without its package, to keep labels short; an enum by its name."""
+    unit = unit_name(type_)
+    return f"{_short(type_)} in {unit}" if unit is not None else _short(type_)
+
+
+def _short(type_: Type) -> str:
     match type_:
         case Array(element=element):
-            return type_name(element) + str(type_).removeprefix(str(element))
+            return _short(element) + str(type_).removeprefix(str(element))
         case Named(name=name) | Primitive(enum=Named(name=name)):
             return name
     return str(type_)

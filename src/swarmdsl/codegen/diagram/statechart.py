@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node, NodeKind
@@ -14,8 +14,9 @@ from swarmdsl.codegen.diagram.labels import (
     value_lines,
     variable_line,
 )
+from swarmdsl.codegen.diagram.local_variables import local_names, renamed, without_first_values
 from swarmdsl.codegen.swarm_printer.reuse import Reuse, Use, find_reuse
-from swarmdsl.ir import State, StateKind, StateMachine
+from swarmdsl.ir import State, StateKind, StateMachine, Variable
 
 _KINDS: dict[StateKind, NodeKind] = {
     StateKind.SIMPLE: "state",
@@ -34,9 +35,15 @@ def statechart(machine: StateMachine, machines: Mapping[str, StateMachine]) -> D
     `machines` are those of the system by name.
     """
     reuse = find_reuse(machine, machines) or Reuse(machine.variables, {})
-    nodes = tuple(_node(state, reuse.uses) for state in machine.states)
+    local = [each for each in reuse.variables if each.owner]
+    names = local_names(machine.variables)
+    if names:
+        machine, reuse = renamed(machine, names), renamed(reuse, names)
+    nodes = tuple(_node(state, reuse.uses, local) for state in machine.states)
     shown = {node.id for top in nodes for node in top.walk()}
-    data = (*map(param_line, machine.params), *map(variable_line, reuse.variables))
+    places = {each.origin for each in local}
+    own = (each for each in reuse.variables if each.origin is None or each.origin not in places)
+    data = (*map(param_line, machine.params), *map(variable_line, own))
     frame = Node(
         "",
         "frame",
@@ -54,9 +61,10 @@ def statechart(machine: StateMachine, machines: Mapping[str, StateMachine]) -> D
     return Diagram("statechart", machine.name, frame, edges)
 
 
-def _node(state: State, uses: Mapping[str, Use]) -> Node:
+def _node(state: State, uses: Mapping[str, Use], local: Sequence[Variable]) -> Node:
     use = uses.get(state.id)
-    lines = behaviour_lines(state, state.entry if use is None else use.entry)
+    entry = without_first_values(state.entry if use is None else use.entry, local)
+    lines = (*_declared(state, local), *behaviour_lines(state, entry))
     compartments: tuple[tuple[str, ...], ...] = (lines,) if lines else ()
     kind, name, nodes = _KINDS[state.kind], state.name, state.states
     if use is not None:
@@ -67,7 +75,7 @@ def _node(state: State, uses: Mapping[str, Use]) -> Node:
         name = f"{state.name} : {state.submachine}"
     elif kind == "history" and state.deep:
         kind = "deep history"
-    inside = tuple(_node(child, uses) for child in nodes)
+    inside = tuple(_node(child, uses, local) for child in nodes)
     if inside and state.initial is not None:
         inside = (_initial(state.id, state.origin), *inside)
     return Node(
@@ -80,6 +88,16 @@ def _node(state: State, uses: Mapping[str, Use]) -> Node:
         doc=state.doc,
         origin=state.origin,
     )
+
+
+def _declared(state: State, local: Iterable[Variable]) -> Iterator[str]:
+    """Yield the variables that a state declares; a parallel state shows those of its regions."""
+    inside = {each.id: f"{each.name}." for each in state.states if each.kind is StateKind.REGION}
+    for each in local:
+        if each.owner == state.id and state.kind is not StateKind.REGION:
+            yield variable_line(each)
+        elif each.owner in inside:
+            yield variable_line(each, inside[each.owner])
 
 
 def _initial(owner: str, origin: Span | None) -> Node:
