@@ -33,6 +33,7 @@ def test_the_exit_code_tells_violations(capsys: pytest.CaptureFixture[str]) -> N
         (["--size", "worker"], 2, "`worker` is not a size like `robot=8`"),
         (["--size", "worker=3..2"], 2, "`worker=3..2` is not a size"),
         (["--size", "worker=3"], 1, "SW1709"),
+        (["--size", "worker=2", "--size", "worker=2"], 2, "size of `worker` is given twice"),
         (["--size", "wroker=2"], 1, "did you mean `worker`?"),
         (["--property", "OneWait"], 1, "did you mean `OneWaits`?"),
         (["--channel", "0"], 2, "--channel"),
@@ -51,6 +52,24 @@ def test_wrong_arguments_are_told(
 def test_a_range_of_sizes_is_looked_at(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["verify", ABSENT, "--size", "seeker=2..3"]) == 0
     assert capsys.readouterr().out.startswith("Seekers: 2 to 3 seeker\n  8 states, ")
+
+
+def test_sizes_beyond_the_limit_are_told(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["verify", ABSENT, "--size", "seeker=2..4", "--limit", "1ms"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("Seekers: 2 seeker\n")
+    assert "\n  2 larger sizes not looked at: the search came to its limit\n" in out
+
+
+def test_a_swarm_of_nobody_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    model = tmp_path / "nobody.swarm"
+    text = Path(ABSENT).read_text(encoding="utf-8").replace("Seeker[2..4]", "Seeker[*]")
+    model.write_text(text, encoding="utf-8")
+
+    assert run(["verify", str(model), "--size", "seeker=0"]) == 1
+    assert "choose a member: `--size seeker=1`" in capsys.readouterr().out
+    assert run(["verify", str(model), "--size", "seeker=0..1"]) == 0
+    assert capsys.readouterr().out.startswith("Seekers: 1 seeker\n")
 
 
 def test_a_machine_alone_hears_what_other_robots_send(

@@ -26,11 +26,13 @@ def _sizes(
     """Parse numbers of members: `robot=2..5`."""
     from swarmdsl.execution.verify.sizes import read_size
 
-    found = []
+    found: list[tuple[str, range]] = []
     for text in texts:
         size = read_size(text)
         if size is None:
             raise click.BadParameter(f"`{text}` is not a size like `robot=8` or `robot=2..5`")
+        if any(name == size[0] for name, _ in found):
+            raise click.BadParameter(f"the size of `{size[0]}` is given twice")
         found.append(size)
     return tuple(found)
 

@@ -95,7 +95,7 @@ class _Session:
                 model = made
                 looked.append(counts)
                 self._size(model, counts, properties, verdicts, surveys)
-                if self._budget.interrupted:
+                if not self._budget.allows(0):
                     break
         except KeyboardInterrupt:
             self._budget.interrupted = True
@@ -106,7 +106,8 @@ class _Session:
             full.update(verdict.full)
         for found in surveys:
             full.update(found.full)
-        self._print(subject, model, looked, surveys, list(verdicts.values()), sorted(full))
+        left = len(every) - len(looked)
+        self._print(subject, model, looked, left, surveys, list(verdicts.values()), sorted(full))
         return None if self._budget.interrupted else True
 
     def _size(
@@ -166,6 +167,7 @@ class _Session:
         subject: Subject,
         model: Model,
         looked: Sequence[dict[str, int]],
+        left: int,
         surveys: Sequence[Survey],
         verdicts: Sequence[Verdict],
         full: Sequence[str],
@@ -176,6 +178,9 @@ class _Session:
             steps = diagnostics.counted_in_thousands(found.transitions, "step")
             rest = "all there are" if found.complete else "there are more"
             self._say(f"  {states}, {steps}: {rest}")
+        if left:
+            sizes_left = diagnostics.counted_in_thousands(left, "larger size")
+            self._say(f"  {sizes_left} not looked at: the search came to its limit")
         lines = list(diagnostics.rows(verdicts))
         if lines:
             self._say("")
