@@ -107,6 +107,17 @@ def test_the_summary(simulate: Simulate) -> None:
     assert "Found     1      1     -" in lines
 
 
+def test_events_of_a_robot_itself_are_not_counted_as_unheard(simulate: Simulate) -> None:
+    local = "event Late : std_msgs/Empty\n" + SWARM.replace(
+        "entry / send Found", "entry / send Found, send Late\n on Late -> Rest"
+    )
+    ran = simulate(local, "--trace", "none", scenario=SCENARIO)
+
+    lines = [line.rstrip() for line in ran.err.splitlines()]
+    assert "Found     1      1     -" in lines
+    assert not [line for line in lines if line.startswith("Late")]
+
+
 def test_coverage_names_what_was_never_seen(simulate: Simulate) -> None:
     ran = simulate(SWARM, scenario=SCENARIO)
 

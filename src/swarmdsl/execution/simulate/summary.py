@@ -102,7 +102,10 @@ class Summary:
             yield function, str(called), *(str(count or "-") for count in counts)
 
     def _events(self) -> Iterator[Row]:
+        system = self._subject.system
         for event, sent in self._statistics.sent.items():
+            if system is not None and not system.event(event).swarm:
+                continue  # the robot alone hears it
             counts = (sent, *(found[event] for found in _counts(self._world).values()))
             yield event, *(str(count or "-") for count in counts)
 
