@@ -26,11 +26,11 @@ SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 .PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement w3c check fmt docs bench fuzz properties bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
-	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o out
-	find out -type f | LC_ALL=C sort
+	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o build/demo
+	find build/demo -type f | LC_ALL=C sort
 	$(BIN)/swarmc simulate examples/search_and_rescue \
-		--scenario examples/search_and_rescue/mission.toml --trace none --timeline out/mission.svg
-	@echo "out/mission.svg shows the mission. Next: . $(BIN)/activate, and docs/tutorial.md; make help lists the rest."
+		--scenario examples/search_and_rescue/mission.toml --trace none --timeline build/demo/mission.svg
+	@echo "build/demo/mission.svg shows the mission. Next: . $(BIN)/activate, and docs/tutorial.md; make help lists the rest."
 
 help: ## List what can be made.
 	@sed -n 's/^\([a-z0-9-]*\):.*## /\1: /p' Makefile

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from pathlib import Path
 
@@ -27,6 +28,24 @@ def test_commands(page: Page, tmp_path: Path) -> None:
     assert blocks
     for block in blocks:
         walk.follow(block)
+
+
+def test_the_readme_after_the_demo(tmp_path: Path) -> None:
+    """What `make demo` writes is not in the way of the commands of the README."""
+    shutil.copytree(ROOT / "examples", tmp_path / "examples")
+    walk = Walk(tmp_path)
+    made = (ROOT / "Makefile").read_text(encoding="utf-8").replace("\\\n", " ")
+    (recipe,) = re.findall(r"^demo:.*\n((?:\t.*\n)+)", made, re.MULTILINE)
+    demo = [line.strip() for line in recipe.splitlines() if not line.strip().startswith("@")]
+    assert any("swarmc build" in line for line in demo)
+    for line in demo:
+        printed, code = walk.run(line.replace("$(BIN)/", ""))
+        assert code == 0, printed
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+
+    for block in Page(ROOT / "README.md").blocks:
+        walk.follow(block)
+    assert {path: path.read_bytes() for path in before if path.is_file()} == before
 
 
 def test_there_are_commands() -> None:

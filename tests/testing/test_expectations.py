@@ -28,6 +28,11 @@ def steps(*each: str) -> str:
         (_START, '{ all = "Lamp", in = "On" }', '{ no = "Lamp", in = "On" }'),
         ('{ send = "Start", to = "lamp[1]" }', '{ who = "lamp[1]", in = "On" }', '{ in = "On" }'),
         (
+            '{ send = "Start", to = ["lamp[1]", "lamp[0]", "lamp[1]"] }',
+            '{ count = 2, of = "lamp", in = "On" }',
+            '{ count = 3, of = "lamp", in = "On" }',
+        ),
+        (
             '{ send = "Start", to = "lamp[1]" }',
             '{ any = "lamp", in = "On" }',
             '{ all = "lamp", in = "On" }',
@@ -184,6 +189,7 @@ def steps(*each: str) -> str:
             '{ no = "lamp", in = "On" }',
             '{ all = "lamp", in = "On" }',
         ),
+        (_START, '{ who = "lamp", in = "On" }', '{ who = "lamp", in = "Off" }'),
     ],
 )
 def test_claims(ran: Callable[..., Ran], before: str, so: str, not_so: str) -> None:

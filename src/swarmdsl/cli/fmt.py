@@ -21,7 +21,7 @@ from swarmdsl.cli.exit_code import ERRORS, OK, exit_code
 @click.option(
     "--migrate",
     is_flag=True,
-    help="Accept statements that share a line without a separator, as in models before 0.3.",
+    help="Accept statements that share a line without a separator, as releases up to 0.2.0 did.",
 )
 @options.diagnostics_format
 @options.debug

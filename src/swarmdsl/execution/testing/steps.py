@@ -106,7 +106,7 @@ class StepReader:
     def _send(self, table: Table) -> Send | None:
         place = table.value_place(("send",))
         event = table.text("send", "the name of an event")
-        who = self._members(table, "to") if "to" in table else self._names.all_machines()
+        who = self._receivers(table) if "to" in table else self._names.all_machines()
         if event is None or not who or not self._names.is_known("event", event, place):
             return None
         sender = self._sender(table) if "sender" in table else ""
@@ -296,12 +296,21 @@ class StepReader:
         return Quantity(least, None if found[2] == "*" else int(found[2] or least))
 
     def _states(self, table: Table) -> list[tuple[str, Span]]:
-        given = table.values["in"]
+        return self._listed(table, "in", "the name of a state, or a list of them")
+
+    def _receivers(self, table: Table) -> list[int]:
+        what = "the name of a member, of a role or of a type of member, or a list of them"
+        each = [self._names.members(*given) for given in self._listed(table, "to", what)]
+        return sorted({n for found in each for n in found}) if all(each) else []
+
+    def _listed(self, table: Table, key: str, what: str) -> list[tuple[str, Span]]:
+        """Read a name or a list of names, each with its place."""
+        given = table.values[key]
         each = given if isinstance(given, list) else [given]
         ways: list[tuple[str | int, ...]]
-        ways = [("in", i) for i in range(len(each))] if isinstance(given, list) else [("in",)]
+        ways = [(key, i) for i in range(len(each))] if isinstance(given, list) else [(key,)]
         if not each or not all(isinstance(name, str) for name in each):
-            table.wrong(("in",), "the name of a state, or a list of them", given)
+            table.wrong((key,), what, given)
             return []
         return [(name, table.value_place(way)) for name, way in zip(each, ways, strict=True)]
 
