@@ -310,3 +310,49 @@ def test_sarif_is_one_document(simulate: Simulate) -> None:
     assert verdicts(ran)["Calm"] == ("false", "at 1 s")
     refused = simulate(model, "--format", "sarif")
     assert "write the trace to a `--trace-file`" in refused.err
+
+
+PUT_OFF = """
+endless statemachine Work {
+  initial Busy
+  state Busy {
+    defer Start
+    after 10 s -> Free
+  }
+  state Free { on Start -> Gone }
+  state Gone
+}
+member Robot { behavior Work }
+swarm Crew { robot : Robot; fitness Counted }
+fitness Counted of Crew {
+  in heard   : uint32   = total(robot hears Start)
+  in arrived : uint32   = total(Start)
+  in first   : duration = time until robot hears Start
+  in alarm   : duration = time until Start
+  maximize heard + arrived
+}
+property Once of Crew : robot hears Start at most 1 times
+property Arrived of Crew : Start at most 1 times
+property Late of Crew : robot hears Start only after robot in Free
+"""
+
+
+@pytest.mark.parametrize("trace", ["json", "none"])
+def test_a_deferred_event_arrives_once_and_is_heard_when_it_is_recalled(
+    simulate: Simulate, trace: str
+) -> None:
+    events = [{"event": "Start", "after": 1000}]
+    ran = simulate(PUT_OFF, "--trace", trace, "--results", "results.json", events=events)
+    assert ran.code == 0, ran.err
+    results = json.loads(Path("results.json").read_text(encoding="utf-8"))
+    assert {each["name"]: each["verdict"] for each in results["properties"]} == {
+        "Once": "true",
+        "Arrived": "true",
+        "Late": "true",
+    }
+    assert {each["name"]: each["value"] for each in results["measures"]} == {
+        "heard": 1,
+        "arrived": 1,
+        "first": 10.0,
+        "alarm": 1.0,
+    }

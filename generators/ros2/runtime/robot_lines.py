@@ -53,6 +53,8 @@ class Line(NamedTuple):
     actor: Actor
     event: Any
     envelope: Envelope
+    deferred: bool
+    recalled: bool
     configuration: Any
     started: Any
     cancelled: Any
@@ -227,6 +229,8 @@ class RobotLines:
             actor=actor,
             event=record['event'],
             envelope=Envelope(record.get('envelope', {}).get('sender', '')),
+            deferred=record.get('deferred', False),
+            recalled=record.get('recalled', False),
             configuration=record['configuration'],
             started=record['started'],
             cancelled=record['cancelled'],

@@ -62,6 +62,14 @@ class LineLike(Protocol):
         """Envelope of the event, with the name of the `sender`."""
 
     @property
+    def deferred(self) -> bool:
+        """Return True if the event is kept for later."""
+
+    @property
+    def recalled(self) -> bool:
+        """Return True if the event has been kept before."""
+
+    @property
     def configuration(self) -> Sequence[str]:
         """Innermost active states after it."""
 
@@ -196,8 +204,11 @@ _ACTS: dict[str, Callable[[str], Test]] = {
     "sends": lambda name: lambda line: name in line.sent,
     "starts": lambda name: lambda line: name in line.started,
     "cancels": lambda name: lambda line: name in line.cancelled,
-    "hears": lambda name: lambda line: line.event == name,
-    "arrives": lambda name: lambda line: line.event == name and not line.envelope.sender,
+    # A deferred event arrives once, and is heard once.
+    "hears": lambda name: lambda line: line.event == name and not line.deferred,
+    "arrives": lambda name: (
+        lambda line: line.event == name and not line.recalled and not line.envelope.sender
+    ),
 }
 
 
