@@ -19,6 +19,7 @@ from swarmdsl.syntax.ast import (
     NODES,
     Call,
     Construction,
+    DeliverySetting,
     Documented,
     Elapsed,
     Element,
@@ -109,7 +110,7 @@ def _missing_separators(model: Model, source: Source) -> Iterator[Word]:
         if isinstance(node, Documented) and not isinstance(node, Parameter):
             before, gap, end = gaps[start]
             if before not in ("", "{", "}", ",", ";") and "\n" not in gap:
-                is_entry = isinstance(node, (EnumValue, Field, PartValue))
+                is_entry = isinstance(node, (DeliverySetting, EnumValue, Field, PartValue))
                 yield Word("," if is_entry else ";", Span(source, start, end))
 
 

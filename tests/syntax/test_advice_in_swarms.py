@@ -21,6 +21,7 @@ swarm event Ping : std_msgs/Empty
 
 statemachine M {
   param speed : float64 in m/s = 2 m/s
+  param patience : duration = 9 s
   var n : int32
   var ys : Offer[<=9]
   var xs : int32[<=9]
@@ -47,6 +48,7 @@ swarm S {
 }
 TOP
 """
+BID = "send Bid(number = 1, cost = 2.0)"
 HEARTBEAT = "heartbeat 1 s lost after 5 s"
 # Where the mistake is, its line, the part of it that is wrong, and what the help has for it:
 # `{0}` is what it has in the first backquotes.
@@ -72,8 +74,91 @@ MISTAKES = (
     ("STATEMENT", "on Start [ys.len > 0] -> B", "ys.len", "{0}"),
     ("STATEMENT", "on Start [xs.size > 0] -> B", "xs.size", "{0}"),
     ("STATEMENT", "on Start / n = ys.number", "ys.number", "{0}"),
+    (
+        "STATEMENT",
+        "on Start / send Ping to box(number = 1)",
+        "send Ping to box(number = 1)",
+        "send Ping to box",
+    ),
     ("STATEMENT", "on Start / send Ping to all", "to all", ""),
     ("TOP", "property P : each carrier : carrier in A leads to in B", "carrier in A", "in A"),
+    # transitions
+    ("STATEMENT", "on member_lost(carrier) -> B", "on member_lost(carrier)", "{0}"),
+    ("STATEMENT", "on Bid(number) -> B", "on Bid(number)", "{0}"),
+    ("STATEMENT", "on Bid(number = 1) -> B", "on Bid(number = 1)", "{0}"),
+    ("STATEMENT", "on Start [n > 1] n = n + 1", "n = n + 1", "{0} n = n + 1"),
+    ("STATEMENT", "on Start n = n + 1 -> B", "n = n + 1", "{0} n = n + 1"),
+    ("STATEMENT", "after patience / n -> B", "after patience / n", "{1}"),
+    ("STATEMENT", "on Start / wait 5 s", "on Start / wait 5 s", "{0}"),
+    ("STATEMENT", "on Start [n in xs] -> B", "n in xs", "{0}"),
+    ("STATEMENT", "on Start [xs [0] > 1] -> B", "xs [0]", "{0}"),
+    ("STATEMENT", "on Bid / if n < 3 { n = 1 } -> B", "/ if n < 3 { n = 1 }", "[n < 3] / n = 1"),
+    ("MACHINE", "choice K { [n > 1] -> A; -> B }", "-> B", "{0}"),
+    ("MACHINE", "choice K {\n[n > 1] -> A\n-> B\n}", "-> B", "{0}"),
+    ("MACHINE", "choice K { [n > 1] -> A; [else] -> B }", "[else] -> B", "{0}"),
+    ("MACHINE", "on Start -> B", "on Start -> B", "state Z {{ on Start -> B }}"),
+    ("MACHINE", "state Z {\nStart / n = 1 -> B\n}", "Start", "{0} Start"),
+    ("MACHINE", "state Z { shallow history H; initial Y; state Y }", "shallow history H", "{0}"),
+    # effects
+    ("STATEMENT", f"on Start / {BID} to carrier [1]", "carrier [1]", "{0}"),
+    ("STATEMENT", f"on Start / {BID} to carrier.0", "carrier.0", "{0}"),
+    ("STATEMENT", f"on Start / {BID} to carrier, box", f"{BID} to carrier, box", "{0}"),
+    (
+        "STATEMENT",
+        "on Start / Bid.send(number = 1, cost = 2.0)",
+        "Bid.send(number = 1, cost = 2.0)",
+        "{0}",
+    ),
+    ("STATEMENT", "on Start / Ping.send()", "Ping.send()", "{0}"),
+    (
+        "STATEMENT",
+        "on Start / send(Bid, number = 1, cost = 2.0)",
+        "send(Bid, number = 1, cost = 2.0)",
+        "{0}",
+    ),
+    ("STATEMENT", "on Start / send(Ping)", "send(Ping)", "{0}"),
+    ("STATEMENT", "on Start / send to box Ping", "send to box Ping", "{0}"),
+    ("STATEMENT", "on Start / send Late in 5 s", "send Late in 5 s", "{0}"),
+    ("STATEMENT", "on Bid / append xs, event.number", "append xs, event.number", "{0}"),
+    ("STATEMENT", "on Bid / append xs event.number", "append xs event.number", "{0}"),
+    ("STATEMENT", "on Bid / append event.number, xs", "append event.number, xs", "{0}"),
+    ("STATEMENT", "on Bid / xs.append(event.number)", "xs.append(event.number)", "{0}"),
+    ("STATEMENT", "on Bid / ys.append(event)", "ys.append(event)", "{0}"),
+    ("STATEMENT", "on Bid / ys = []", "ys = []", "{0}"),
+    ("VARIABLE", "var zs : int32[<=4] = []", "int32[<=4] = []", "{0}"),
+    ("VARIABLE", "var far : float64 [m]", "float64 [m]", "{0}"),
+    ("VARIABLE", "var far : float64 (m/s)", "float64 (m/s)", "{0}"),
+    ("VARIABLE", "var far : float64 km", "float64 km", "{0}"),
+    # swarms
+    ("SWARM", "3 rover : Carrier", "3 rover : Carrier", "{0}"),
+    ("HEARTBEAT", "heartbeat 1 s", "heartbeat 1 s", "{0}"),
+    (
+        "HEARTBEAT",
+        "heartbeat every 1 s, lost after 5 s",
+        "heartbeat every 1 s, lost after 5 s",
+        "{0}",
+    ),
+    ("HEARTBEAT", "heartbeat 1 s, lost after 5 s", "heartbeat 1 s, lost after 5 s", "{0}"),
+    ("HEARTBEAT", "heartbeat 1 s lost 5 s", "lost 5 s", "{0}"),
+    ("TOP", "swarm event L : std_msgs/Empty { reliable latest }", " latest", ", latest"),
+    ("TOP", "swarm event L : std_msgs/Empty [reliable]", "[reliable]", "{0}"),
+    ("TOP", "swarm event L : std_msgs/Empty reliable", "reliable", "{0}"),
+    ("TOP", "swarm event L : std_msgs/Empty best effort", "best effort", "{0}"),
+    ("TOP", "swarm event L : std_msgs/Empty { reliable, keep = 5 }", "keep = 5", "{0}"),
+    # properties
+    ("TOP", "property P : count(carrier in B) <= 1", "<= 1", "<= 1 {0}"),
+    ("TOP", "property P : some carrier in B", "some", "{2} some"),
+    ("TOP", "property P : some carrier has n > 3 leads to box[0] in B", "has n > 3", "{0}"),
+    ("TOP", "property P : box[0] receives Bid leads to box[0] in B", "receives", "{0}"),
+    (
+        "TOP",
+        "property P : after Start some box in B leads to some box in A",
+        "after Start",
+        "after Start,",
+    ),
+    ("TOP", "property P : each box, in A leads to in B", "each box,", "{0}"),
+    ("TOP", "property P : each box : if in A then in B", "if in A then in B", "in A leads to in B"),
+    ("TOP", "property P : box[0] in A then eventually box[1] in B", "then eventually", "leads to"),
 )
 # What the advice leaves to the user to name.
 ELSEWHERE = (
@@ -105,7 +190,7 @@ def test_advice_in_a_swarm(
 ) -> None:
     (error,) = _errors(place, mistake, tmp_path)
     quoted = re.findall(r"`([^`]+)`", error.help or "")
-    followed = mistake.replace(wrong, right.format(*quoted))
+    followed = mistake.replace(wrong, right.format(*quoted)).replace("Target", "B")
 
     assert _errors(place, followed, tmp_path) == [], followed
 

@@ -9,6 +9,7 @@ rest. All of that is imported with the first syntax error.
 from __future__ import annotations
 
 import gc
+import re
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -158,11 +159,19 @@ def _report_missing_separators(
             span,
             separator=separator,
             what="entry" if separator == "," else "statement",
-            help="write a guard before `/`: `on event [guard] / effect -> Target`"
+            help=_bracket_hint(span)
             if span.text == "["
             else f"begin it on a line of its own, or write `{separator}` before it; "
             "`swarmc fmt --migrate` does so in whole files",
         )
+
+
+def _bracket_hint(bracket: Span) -> str:
+    """Hint for a guard in the wrong place, or the number of a robot after a space."""
+    before = bracket.source.text[: bracket.start].rstrip()
+    if re.search(r"\bto\s+\w+\Z", before):
+        return "write no space before the number of a robot, as in `to uav[1]`"
+    return "write a guard before `/`: `on event [guard] / effect -> Target`"
 
 
 def _line_in_source(span: Span) -> int:

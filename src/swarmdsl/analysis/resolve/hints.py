@@ -6,13 +6,14 @@ Only a model with mistakes imports this module.
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import states_by_name
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Declaration, EnumType, ImportLibrary, Node, Vertex
+from swarmdsl.syntax.ast import Declaration, EnumType, ImportLibrary, Node, TypeRef, Vertex
 from swarmdsl.syntax.types import PRIMITIVES
 
 # Names of the outcomes of an activity in SMACH, YASMIN and behaviour trees.
@@ -32,6 +33,7 @@ _OTHER_TYPES = {
     "boolean": "bool",
     "str": "string",
 }
+_SENT = re.compile(r"\bsend\s+([\w.]+)\s+to\s+\Z")
 # Functions that need no value in their parentheses.
 _CALLED = ("elapsed", "present")
 # Names of an absent value in other languages.
@@ -77,15 +79,20 @@ def _import_path(other: File, name: str, scope: FileScope) -> str:
     return f'"{Path(path).as_posix()}"'
 
 
-def type_hint(name: str, scope: FileScope, report: Diagnostics) -> str | None:
-    """Hint for a type of another language or of ROS."""
+def type_hint(ref: TypeRef, scope: FileScope, report: Diagnostics) -> str | None:
+    """Hint for a type of another language or of ROS, or an address with fields after it."""
+    name = ref.name
     if name in _OTHER_TYPES:
         return f"write `{_OTHER_TYPES[name]}`"
     package, _, last = name.rpartition(".")
+    if last in scope.skipped_names:
+        return None
+    if sent := _SENT.search(ref.span.source.text[: ref.span.start]):
+        return f"write the fields before the address: `send {sent[1]}(...) to {name}`"
     unknown = package and "." not in package and package not in scope.packages
     if unknown and scope.imports_resolved:
         return f"write `{package}/{last}` for an interface of ROS"
-    if name.lower() in PRIMITIVES or name in scope.skipped_names:
+    if name.lower() in PRIMITIVES:
         return None
     if not report.wants_hint("unresolved-name"):
         return None

@@ -7,6 +7,7 @@ state `Search`, in a reused machine too.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TypeVar
 
 from swarmdsl.analysis.resolve.inheritance import all_items
@@ -154,7 +155,8 @@ def _link_facts(
             ref.target = roles.get(ref.name)
             if ref.target is None:
                 kind = f"role in swarm `{sentence.about.name}`"
-                report_missing_inside(kind, ref.name, ref.span, roles, scope, report)
+                hint = partial(_hint_for_role, ref.name)
+                report_missing_inside(kind, ref.name, ref.span, roles, scope, report, hint)
     guards = set()
     for fact in facts:
         machines = machines_of_fact(fact, sentence)
@@ -164,6 +166,12 @@ def _link_facts(
             guards.add(fact.guard)
             values.link_only([fact.guard], owner, values_of_fact(fact, sentence), machines)
     return guards
+
+
+def _hint_for_role(name: str) -> str | None:
+    from swarmdsl.syntax.errors.property_hints import word_hint
+
+    return word_hint(name)
 
 
 def _subject(owner: Property, scope: FileScope, report: Diagnostics) -> PropertySubject | None:

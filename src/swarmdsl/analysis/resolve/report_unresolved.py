@@ -95,11 +95,17 @@ def report_missing(
 
 
 def report_missing_inside(
-    kind: str, name: str, at: Span, candidates: Iterable[str], scope: FileScope, report: Diagnostics
+    kind: str,
+    name: str,
+    at: Span,
+    candidates: Iterable[str],
+    scope: FileScope,
+    report: Diagnostics,
+    hint: Hint | None = None,
 ) -> None:
     """Report a missing name inside a declaration, unless skipped text may declare it."""
     if name not in scope.skipped_names:
-        report_missing(kind, name, at, candidates, report)
+        report_missing(kind, name, at, candidates, report, hint=hint)
 
 
 # ---- declarations
@@ -252,7 +258,7 @@ def report_type(
     """Report the name of a type that is not declared."""
     from swarmdsl.analysis.resolve.hints import type_hint
 
-    help_ = type_hint(ref.name, scope, report) if isinstance(found, Missing) else None
+    help_ = type_hint(ref, scope, report) if isinstance(found, Missing) else None
     if help_ is not None:
         report.report("unresolved-name", ref.span, kind="type", name=ref.name, help=help_)
         return

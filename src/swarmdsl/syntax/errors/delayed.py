@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from swarmdsl.syntax.units import UNITS
+
 
 class DelayedError(NamedTuple):
     """Error at its own place: offsets of the token, message and hint."""
@@ -50,7 +52,8 @@ _MIXED = (
 )
 _TAIL = re.compile(r"(?P<guard>\[[^]\n]*\][ \t]*)?(?:/(?:[^\n;}/]|/(?!/))*)?")
 _TWO_WORDS = re.compile(
-    r"^[ \t]*[A-Za-z_]\w*[ \t]*:[ \t]*(?P<first>[a-z]+)[ \t]+(?P<token>[a-z]\w*)[ \t]*$",
+    r"^[ \t]*(?:(?:var|param)[ \t]+)?[A-Za-z_]\w*[ \t]*:[ \t]*(?P<first>[a-z]\w*)[ \t]+"
+    r"(?P<token>[a-z]\w*(?:/\w+)?)[ \t]*$",
     re.MULTILINE,
 )
 
@@ -76,7 +79,8 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
                 return _delayed(found, message, f"write two: `{one}` and `{other}`")
     if (found := _TWO_WORDS.match(text, line)) and found.end("token") > before:
         message = f"expected the end of the line, found `{found['token']}`"
-        return _delayed(found, message, "the name of a type is one word, such as `uint32`")
+        unit = f"write `{found['first']} in {found['token']}`" if found["token"] in UNITS else None
+        return _delayed(found, message, unit or "the name of a type is one word, such as `uint32`")
     above = text.rfind("\n", 0, len(text[:line].rstrip())) + 1
     for found in _OPEN_END.finditer(text, above, at + 2):
         if found.end() == at:

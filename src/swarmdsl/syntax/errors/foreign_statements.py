@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from functools import cache
 
-from swarmdsl.syntax.errors.foreign_transitions import START, TRANSITIONS
+from swarmdsl.syntax.errors.foreign_transitions import TRANSITIONS
+from swarmdsl.syntax.errors.patterns import DELIVERY, START, UNIT
 
 # Characters of the line on either side of the error.
 _WIDTH = 200
@@ -36,10 +37,23 @@ _HINTS = (
         _FIELD,
     ),
     # expressions
+    (
+        r"\[(?:[^]]*\W)?([\w.]+) @in +([A-Za-z_][\w.]*) *(?:\]|and\b|or\b)",
+        "",
+        r"write `contains(\2, \1)`",
+    ),
+    (r"\[[^]]*\b([\w.]+) +@\[ *([^]]*?) *\]", "`]`", r"write `\1[\2]` without a space"),
     (r"\[[^]]*\b([\w.]+) @in\b", "", r"compare with both bounds: `\1 >= 1 and \1 <= 3`"),
     (r"\*@\*|@\^", "", _POWER),
+    (
+        r"\b(?:min|max)\(.*\) *@\.(\w+)",
+        "",
+        r"assign the item to a variable first, such as `item`, and write `item.\1`",
+    ),
     # states
     (r"\bhistory@ *$", "", "write `history Name`"),
+    (r"@shallow +history +(\w+)", "", r"write `history \1`"),
+    (r"\bdefer +@\*", "", "name the events: `defer Start, Stop`"),
     (r"^ *@\[\*\] *-+> *(\w+)", "", r"write `initial \1`"),
     (
         r"^ *@(\w+) *-+> *\[\*\]",
@@ -71,7 +85,7 @@ _HINTS = (
         ),
     ),
     (
-        r"^ *@(?:state|initial|final|choice|parallel)\b",
+        rf"{START}@(?:state|initial|final|choice|parallel)\b",
         "`region`",
         "put the states of a parallel state in regions: `region Name { ... }`",
     ),
@@ -82,6 +96,11 @@ _HINTS = (
         r"^ *@(?:on|do|entry|exit|after)\b",
         "`{`",
         "write the items of a state in braces after its name",
+    ),
+    (
+        r"^ *@(?:on|do|entry|exit|after|defer)\b",
+        "`param`",
+        "write it in a state: `state Name { ... }`",
     ),
     # declarations
     (
@@ -106,7 +125,9 @@ _HINTS = (
     ),
     (r"\} *@default +\w+", "", "give the variable an initial value: `var x : Mode = Mode.IDLE`"),
     (r"^ *@(?:swarm|member) *:|^ *(?:swarm|member) *@:", "", "enclose a block in `{` and `}`"),
+    (r"\b(keep|lifespan|deadline) *@[=:] *(\w[\w. ]*\w|\w)", "", r"write `\1 \2`"),
     # types
+    (rf": *(\w+(?:\[[^]]*\])?) *@[\[(] *({UNIT}) *[\])]", "`in`", r"write `\1 in \2`"),
     (
         r"^ *(\w+) *@\[(\w*)\] *: *([\w./]+)",
         "`:`",
@@ -180,6 +201,11 @@ _HINTS = (
     (r"\bevent +(\w+) *@[{(]", "", r"add the type of its message: `event \1 : package/Name`"),
     (r"\bevent +@swarm\b", "", "write `swarm event`"),
     (
+        rf"\bevent +\w+ *: *[\w./]+ *@(?:\[ *)?({DELIVERY})",
+        "`{`",
+        r"write `{ \1 }` after the type",
+    ),
+    (
         r"\b(?:event|in|out|inout) +\w+ *: *[\w./]+ +@(?:\w+ *|= *)?(\"[^\"]*\")",
         "`on`",
         r"write `on` before the topic: `on \1`",
@@ -220,6 +246,33 @@ _HINTS = (
     ),
     (r"^ *\w+@\.\w+ *->", "", "begin a connector with `connect`"),
     # swarms
+    (
+        r"(?:^|[{;]) *@(\d+) *[x*]? *([a-z_]\w*) *: *([\w.]+)",
+        "`heartbeat`",
+        r"write the number after the member: `\2 : \3[\1]`",
+    ),
+    (
+        r"\bheartbeat +every +@(\d[\d.]* *\w+) *,? *(lost +after +\d[\d.]* *\w+)",
+        "",
+        r"write `heartbeat \1 \2`",
+    ),
+    (
+        r"\bheartbeat +(\d[\d.]* *\w+) *@, *(lost +after +\d[\d.]* *\w+)",
+        "",
+        r"write `heartbeat \1 \2`",
+    ),
+    (
+        r"\bheartbeat +(?:every +@)?(?:\d[\d.]*) *\w+ *@? *(?:$|\})",
+        "",
+        "add how long a robot is silent when it is lost: `heartbeat 1 s lost after 5 s`",
+    ),
+    (r"\blost +@(\d[\d.]* *\w+)", "`after`", r"write `lost after \1`"),
+    # fitness
+    (
+        r"\bin +\w+ *: *[\w./]+ *= *[^=]*\) *@[-+*/%]",
+        "`in`",
+        "a measure is no part of a calculation: calculate in `maximize` or `minimize`",
+    ),
     (
         r"^ *([A-Z]\w*) *@\[ *([^\]\n]*)\]",
         "`:`",

@@ -36,7 +36,7 @@ _WORDS = {
     "$": "a name has ASCII letters, digits and `_`, and starts with no digit",
 }
 # A transition without its keyword.
-_TRANSITION = re.compile(r"[A-Za-z_]\w*[ \t]*(?:-+>|/[ \t]*-+>|\[[^]\n]*\][ \t]*(?:/|-+>))")
+_TRANSITION = re.compile(r"[A-Za-z_]\w*[ \t]*(?:-+>|/[^/{}\n]*-+>|\[[^]\n]*\][ \t]*(?:/|-+>))")
 _EFFECT = re.compile(r"send\b|[A-Za-z_]\w*(?:\.\w+)*[ \t]*=[^=>]")
 # These also within a statement.
 _ANYWHERE = ("if", "goto", "then", "?", "$")

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+from swarmdsl.syntax.errors.foreign_effects import EFFECTS
+from swarmdsl.syntax.errors.patterns import DELAY, START
+
 _GUARD = "write a guard in square brackets: `on event [x < 3] -> Target`"
 _ACTIVITY = "write `do` on a line of its own: the activity starts on entry"
 _COMPARED = r"(?:[=!<>]=|<|(?<!-)>)"
-START = r"(?:^|[{;]) *"
-_DELAY = r"\d+(?:\.\d+)? *(?:us|ms|s|min|h)"
 _KEEP = r"write `defer \1` on a line of its own: it is no effect"
 _RAISED = "succeeded|aborted|preempted|done|after|monitor"
 _BEFORE_EFFECTS = r"(?:\b(?:entry|exit) *|\b(?:on|after) [^/]*)"
 
 # As in foreign_statements.
 TRANSITIONS = (
+    *EFFECTS,
+    (r"(?:^|[{;]) *@-> *([\w.]+)", "`else`", r"write `else -> \1`"),
+    (r"\[ *@else *\] *-> *([\w.]+)", "", r"write `else -> \1`"),
+    (r"\[ *@else *\]", "", "write `else` without brackets"),
+    (
+        rf"{START}@else\b",
+        "`on`",
+        "`else` belongs to a `choice`: in a state, write the trigger again without a guard",
+    ),
     (r"\bon [^/[\]]*@(?:if|when|where)\b", "", _GUARD),
     (
         rf"\bon +([\w., ]*\w) *@(?:\|\||or\b) *([^/\[]*{_COMPARED}[^/\[]*?) *(?=/(?!/)|->|$)",
@@ -59,13 +69,13 @@ TRANSITIONS = (
         _ACTIVITY,
     ),
     (
-        rf"(?:{START}|\bon +)@timeout *\(? *({_DELAY})\b",
+        rf"(?:{START}|\bon +)@timeout *\(? *({DELAY})\b",
         "",
         r"write `after \1` instead of `timeout`",
     ),
-    (rf"\bon timeout *@\(? *({_DELAY})\b", "", r"write `after \1` instead of `on timeout`"),
+    (rf"\bon timeout *@\(? *({DELAY})\b", "", r"write `after \1` instead of `on timeout`"),
     (
-        rf"\bdo [^{{}};]*@timeout *\(? *({_DELAY})\b",
+        rf"\bdo [^{{}};]*@timeout *\(? *({DELAY})\b",
         "",
         r"limit the time with a transition on a line of its own: `after \1 -> Target`",
     ),

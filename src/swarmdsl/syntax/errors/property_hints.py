@@ -40,10 +40,15 @@ _FOUND = {
     "twice": _TIMES,
     "until": "write `after P until Q,` before the rest of the sentence",
     "not": "write `not` before the whole fact, as in `not all robot in State`",
+    **dict.fromkeys(("receives", "gets", "handles"), "write `hears`"),
+    **dict.fromkeys(("emits", "publishes", "raises"), "write `sends`"),
+    **dict.fromkeys(("calls", "runs", "performs"), "write `starts`"),
 }
+_SCOPE = re.compile(r"\bafter\s+(?:in\s+)?[\w.]+")
 _TOKEN = re.compile(r"[A-Za-z_]\w*|[=\-]+>|\S")
 _SOON = re.compile(r"(?:in|for|by)\s+(\d[\d.]*\s*[A-Za-z]+)")
 _CHANCE = re.compile(r"with\s+(?:a\s+)?(?:probability|chance)(?:\s+of)?\s+([\d.]+)")
+_COMPARED = re.compile(r"[\w.]+\s*(?:[=!<>]=|[<>])\s*[\w.]+")
 _WHO = re.compile(r"\w+(?:\[\d+\])?\Z")
 
 
@@ -63,8 +68,18 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
         more = re.compile(r"\s*(\w+)").match(text, token.end())
         role = more[1] if robots[1] in ("all", "each", "every") and more else robots[1]
         return f"write `each {role} :`"
+    if re.search(r"\beventually\s+always\Z", said):
+        return "name what it follows: `after P, Q at all times`"
     if last is not None and last[0] in _BEFORE and last.start() > said.index(":"):
         return _BEFORE[last[0]]
+    if re.search(r"\bthen\s+eventually\Z", said):
+        return _LEADS
+    if "`[`" in expected and re.search(r"\bhas\Z", said) and (test := _COMPARED.match(text, at)):
+        return f"write `has [{test[0]}]`"
+    if found == "," and (each := re.search(r"\beach\s+\w+\Z", said)):
+        return f"write `{each[0]} :`"
+    if "`until`" in expected and (begun := _SCOPE.search(said)):
+        return f"end it with a comma: `{begun[0]}, ...`"
     if soon := _SOON.match(text, at):
         return f"write `within {soon[1]}`"
     if chance := _CHANCE.match(text, at):
@@ -82,3 +97,15 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
     if found == "or" and re.search(r"\bbetween\b[^,]*\Z", said):
         return "put what is joined in parentheses"
     return _FOUND.get(found)
+
+
+def fact_hint(expected: set[str], text: str, at: int) -> str | None:
+    """Return a hint for a property that ends after a fact; None elsewhere."""
+    if "`leads`" not in expected or _PROPERTY.search(text, 0, at) is None:
+        return None
+    return "add `at all times`, or begin with `never` or `eventually`"
+
+
+def word_hint(word: str) -> str | None:
+    """Return a hint for a word that was taken for the name of a role; None if there is none."""
+    return _BEFORE.get(word)

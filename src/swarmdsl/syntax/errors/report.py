@@ -12,7 +12,7 @@ from swarmdsl.syntax.errors.delayed import find_delayed_error
 from swarmdsl.syntax.errors.foreign_statements import foreign_statement_hint
 from swarmdsl.syntax.errors.foreign_tokens import foreign_token_hint
 from swarmdsl.syntax.errors.hints import strange_character, token_hint
-from swarmdsl.syntax.errors.property_hints import property_hint
+from swarmdsl.syntax.errors.property_hints import fact_hint, property_hint
 from swarmdsl.syntax.parser.keywords import FIRST, RESERVED
 from swarmdsl.syntax.parser.patched_text import PatchedText
 
@@ -159,7 +159,8 @@ def report_syntax_error(
     elif before and (found is None or (new_line and not _may_begin_anew(words))):
         # The error is where something is missing, not on the next line.
         message = f"expected {_either(expected)} after `{before[0]}`"
-        help_ = foreign_statement_hint(words, text, before.end())
+        end = before.end()
+        help_ = foreign_statement_hint(words, text, end) or fact_hint(words, text, end)
         report.report("syntax-error", place(before), message=message, help=help_)
         return before.start()
     else:

@@ -6,6 +6,7 @@ import re
 
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.errors.hints import strange_character
+from swarmdsl.syntax.errors.patterns import DELIVERY, UNIT
 
 # Similarity from which a word is taken for a keyword.
 _MIN_SIMILARITY = 0.82
@@ -30,9 +31,11 @@ _SUBSTITUTIONS: tuple[tuple[str, frozenset[str], str], ...] = (
     ("!", _VALUE, "not "),
 )
 
-
 # The same as regular expressions, which match around the error.
 _PATTERNS: tuple[tuple[str, frozenset[str], str], ...] = (
+    (rf"(?<=[\w\]] )({DELIVERY})(?=[ \t]*(?:$|//))", frozenset({"`{`"}), r"{ \1 }"),
+    (rf"\[[ \t]*({DELIVERY})[ \t]*\]", frozenset({"`{`"}), r"{ \1 }"),
+    (rf"\[[ \t]*({UNIT})[ \t]*\]", frozenset({"`in`"}), r" in \1"),
     (r"(?<=\w)::(?=\w)", frozenset(), "/"),
     (r"\bstate[ \t]+machine\b", frozenset({"`statemachine`"}), "statemachine"),
     (r"(?<![^\n])([ \t]*)(\w+\.\w+)(?=[ \t]*->)", frozenset({"`:`"}), r"\1connect \2"),

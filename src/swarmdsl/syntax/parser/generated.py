@@ -3237,7 +3237,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
     def r_DeliverySetting():
         nonlocal at, token
         start = ends[at + 1] - len(token)
-        if find('\n', ends[at], start) < 0: inline[at] = ';'
+        if find('\n', ends[at], start) < 0: inline[at] = ','
         kind_ = None
         value_ = None
         if token in SET16:

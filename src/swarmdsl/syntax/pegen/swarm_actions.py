@@ -7,6 +7,7 @@ from dataclasses import fields
 from swarmdsl.base.resources import grammar_checksum
 from swarmdsl.syntax.ast import (
     NODES,
+    DeliverySetting,
     Documented,
     EnumValue,
     Field,
@@ -39,7 +40,7 @@ TARGET = Target(
     },
     written={"Expression": "expression", "Operand": "operand", "Delay": "delay"},
     items={
-        name: "," if node in (PartValue, EnumValue, Field) else ";"
+        name: "," if node in (PartValue, EnumValue, Field, DeliverySetting) else ";"
         for name, node in NODES.items()
         if issubclass(node, Documented) and node is not Parameter
     },

@@ -101,7 +101,7 @@ class _Recovery:
             if span[0] not in failed and short and self._read < _MAX_PARSED_LENGTH:
                 repaired = repair_statement(patched, statement, self._failure)
             failed.add(span[0])
-            if not any(span[0] <= place <= span[1] for place in known):
+            if not (_has_any(known, span) or self._follows(known, span[0])):
                 hint = repaired.help if repaired else None
                 self._report.include(replace(one, help=one.help or hint) for one in silent)
             known.add(patched.origins[at])
@@ -118,6 +118,14 @@ class _Recovery:
         self._skip_names(patched.text)
         return parsed
 
+    def _follows(self, known: set[int], at: int) -> bool:
+        """Return True for the rest of a line after the block of a statement with an error."""
+        before = self._source.text[:at].rstrip(" \t")
+        if not before.endswith("}"):
+            return False
+        block = statement_at(self._source.text, len(before) - 1)
+        return _has_any(known, (block.start, block.header))
+
     def _failure(self, text: str) -> Failure | None:
         self._read += len(text)
         result = self._parser(Source(self._source.name, text))
@@ -132,6 +140,10 @@ class _Recovery:
 
     def _skip_names(self, text: str) -> None:
         self._parsed.skipped_names |= {*_IDENTIFIER.findall(text)}
+
+
+def _has_any(places: set[int], span: tuple[int, int]) -> bool:
+    return any(span[0] <= place <= span[1] for place in places)
 
 
 def _statement_at_fault(text: str, at: int, expected: frozenset[str]) -> Statement:

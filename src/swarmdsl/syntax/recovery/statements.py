@@ -30,8 +30,8 @@ def _words(text: str) -> frozenset[str]:
 
 
 # A keyword does not begin a statement after its modifier. `on after 5 s`, a common error, is one
-# statement, and `P only after Q` a part of one.
-_NOT_AFTER: dict[str, set[str]] = {"after": {"on", "only"}}
+# statement, and `P only after Q` and `lost after 5 s` are parts of one.
+_NOT_AFTER: dict[str, set[str]] = {"after": {"on", "only", "lost"}}
 for _modifier, _targets in MODIFIERS.items():
     for _target in _targets:
         _NOT_AFTER.setdefault(_target, set()).add(_modifier)
