@@ -18,6 +18,8 @@ _PRELUDE = """package test
 message Word { word : uint8 }
 message Text { text : string }
 message Signed { header : swarmros/EventHeader }
+message Length { metres : float64 }
+event Measure : Length
 event Go : std_msgs/Empty
 event Tick : std_msgs/Empty
 event Say : Text
@@ -61,6 +63,14 @@ REFUTED: dict[str, tuple[str, Sequence[dict[str, Any]], str]] = {
         " on Say -> Bad\n}\n"
         " state Bad { on Tick -> S0 }\n}\n" + _ONE % 1 + "property P of S : each a : never in Bad",
         [{"event": "Say", "data": {"text": "x"}}],
+        "fails",
+    ),
+    # Adding one to so large a number does not change it.
+    "a_model_compares_with_a_large_number": (
+        "endless statemachine M {\n initial S0\n"
+        " state S0 { on Measure [event.metres > 20000000000000000000.0] -> Bad }\n"
+        " state Bad { on Tick -> S0 }\n}\n" + _ONE % 1 + "property P of S : each a : never in Bad",
+        [{"event": "Measure", "data": {"metres": 1e20}}],
         "fails",
     ),
     # What `a` sends after its 20th state is not known; `b` hears it.

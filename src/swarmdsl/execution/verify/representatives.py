@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from copy import deepcopy
 from itertools import count, pairwise, product
+from math import inf, nextafter
 from typing import Any
 
 from swarmdsl import ir
@@ -103,9 +104,11 @@ def _numbers(cuts: Iterable[Cut], type_: str) -> list[Any]:
         near = (int(c) + step for c in constants for step in (-1, 0, 1))
         candidates += [n for n in near if type_ not in INTEGERS or _fits(n, type_)]
     elif constants:
+        least, most = float(constants[0]), float(constants[-1])
         candidates += constants
-        candidates += [(a + b) / 2 for a, b in pairwise(constants)]
-        candidates += [constants[0] - 1, constants[-1] + 1]
+        candidates += [a / 2 + b / 2 for a, b in pairwise(constants)]
+        # One more is the same number where numbers are large.
+        candidates += [least - 1, most + 1, nextafter(least, -inf), nextafter(most, inf)]
     found: dict[tuple[bool, ...], Any] = {}
     for number in candidates:
         found.setdefault(tuple(bool(OPERATIONS[s](number, c)) for s, c in compared), number)
