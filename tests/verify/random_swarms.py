@@ -9,6 +9,7 @@ action Try { result { ok : bool } }
 message Word { word : uint8 }
 function attempt : abstraction { action "attempt" : Try }
 event Go : std_msgs/Empty
+event Tick : std_msgs/Empty
 swarm event Ask : Word
 swarm event Tell : Word
 """
@@ -27,6 +28,8 @@ _SCOPES = (
 )
 _PATTERNS = (
     *("never {a}", "{a} at all times", "{a} only after {b}", "{a} at most 1 times"),
+    # What happens at one step is over at the next.
+    *("({a} or in S1) at all times", "never (in S0 and not {b})"),
     *("{a} at most 0 times", "eventually {a}", "{a} leads to {b}", "{a} then {b}"),
 )
 
@@ -63,6 +66,9 @@ def _machine(chance: Random, name: str) -> str:
             guard = chance.choice(("", "", " [event.word > 0]")) if event != "Go" else ""
             guard = guard or _guard(chance)
             lines.append(f"on {event}{guard}{_effects(chance)} -> {_target(chance)}")
+        if chance.random() < 0.3:
+            # No property is about it: it may change no fact.
+            lines.append(f"on Tick -> {_target(chance)}")
         if chance.random() < 0.2:
             lines.append(f"after 2 s{_effects(chance)} -> {_target(chance)}")
         if chance.random() < 0.2:
@@ -103,6 +109,8 @@ def _sentence(chance: Random) -> str:
             word = chance.choice(("and", "or"))
             words[letter] = f"({words[letter]} {word} {_fact(chance, each=each)})"
     pattern = chance.choice(_PATTERNS)
+    if not each:
+        pattern = pattern.replace("in S", "some a in S")
     return head + chance.choice(_SCOPES).format(**words) + pattern.format(**words)
 
 

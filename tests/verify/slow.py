@@ -112,7 +112,7 @@ class _Swarm:
             if instance.running:
                 for name in outside:
                     if self.cast[number].listens(name):
-                        for data in ({},) if name == "Go" else ({"word": 0}, {"word": 1}):
+                        for data in ({},) if name in ("Go", "Tick") else ({"word": 0}, {"word": 1}):
                             yield ("outside", number, name, data)
                 for message in range(len(self.bags[number])):
                     yield ("hear", number, message)

@@ -49,6 +49,14 @@ REFUTED: dict[str, tuple[str, Sequence[dict[str, Any]], str]] = {
         [{"event": "Go"}, {"event": "Tick"}],
         "fails",
     ),
+    "a_moment_ends_with_the_next_line_of_another_robot": (
+        "endless statemachine M {\n initial S0\n state S0 { on Go -> S1 }\n"
+        " state S1 { on Go -> S1 }\n}\n"
+        + _ONE % 2
+        + "property P of S : each a : after hears Go, hears Go at all times",
+        [{"event": "Go"}],
+        "fails",
+    ),
     "a_moment_of_all_starts_ends_with_the_next_line": (
         "endless statemachine M {\n initial S0\n state S0 {\n entry / send Ask\n on Go -> S1\n}\n"
         " state S1 { on Ask -> S1 }\n}\n"
