@@ -15,13 +15,23 @@ from swarmdsl.ir import Count, Fact
 
 
 class Observer:
-    """Follow a property in a network; `me` is the group of the robot of `each`."""
+    """Follow a property in a network; `me` is the group of the robot of `each`.
+
+    With `others`, robots that are not in the network may act at any time, which ends what held
+    for a moment.
+    """
 
     def __init__(
-        self, property_: ir.Property, table: MonitorTable, network: Network, me: int | None
+        self,
+        property_: ir.Property,
+        table: MonitorTable,
+        network: Network,
+        me: int | None,
+        *,
+        others: bool = False,
     ) -> None:
         self.table = table
-        self._network = network
+        self.network = network
         self._me = me
         self._mine = (1 << network.base) - 1
         self.terms = Terms(property_, network)
@@ -29,13 +39,14 @@ class Observer:
         self._claims = [self.terms.truth(each) for each in (*property_.claims, *scope)]
         self._forgets = any(map(is_act, self.terms.facts))
         """True if a fact holds for a moment: the next line, whatever it shows, ends it."""
+        self.others = others and self._forgets
         self._rows: dict[int, _Row] = {}
 
     def start(self, state: int) -> int:
         """Return the first state: all robots have started, which is one moment."""
         counts = [0] * len(self.terms)
         mine = [0] * len(self.terms)
-        for number, group in enumerate(self._network.groups):
+        for number, group in enumerate(self.network.groups):
             bits = 0
             for moment in group.automaton.first.moments:
                 bits |= moment.holding & _momentary(group.automaton.whole.kind.facts)
@@ -63,7 +74,7 @@ class Observer:
 
     def successors(self, state: int) -> Iterator[tuple[int, Step]]:
         """Yield the states after one step, each with the step."""
-        network = self._network
+        network = self.network
         memory = state & self._mine
         present = network.present(state)
         seen = _Sight(self, present)
@@ -80,11 +91,13 @@ class Observer:
 
     def following(self, state: int) -> Iterator[int]:
         """Yield the same states, each at least once."""
-        network = self._network
+        network = self.network
         memory = state & self._mine
         present = network.present(state)
         seen = _Sight(self, present)
         silent = self._silence(memory, seen) - memory
+        if self.others and silent:
+            yield state + silent
         known: Mapping[int, int] | None = None
         total = 0
         for place, _ in present:
@@ -116,18 +129,18 @@ class Observer:
         """Return True if something happens in a state, even if it leads back to it."""
         return any(
             step.move is not None and not step.move.idle
-            for place, _ in self._network.present(state)
-            for step in self._network.row(place)
+            for place, _ in self.network.present(state)
+            for step in self.network.row(place)
         )
 
     def _row(self, place: int) -> _Row:
         """Return the steps of a place, equal ones once; those that change a fact are loud."""
-        network = self._network
+        network = self.network
         losses: dict[int, None] = {}
         plain: dict[int, None] = {}
         loud: dict[tuple[int, tuple[int, ...]], Move] = {}
         casts: dict[tuple[int, tuple[int, ...]], dict[tuple[int, ...] | None, Move | None]] = {}
-        group = self._network.places[place].group
+        group = self.network.places[place].group
         for step in network.row(place):
             change = network.ones[step.target] - network.ones[place]
             heard = network.heard(step)
@@ -158,7 +171,7 @@ class Observer:
         counts = [0] * len(self.terms)
         mine = [0] * len(self.terms)
         for place, count in present:
-            group = self._network.places[place].group
+            group = self.network.places[place].group
             for term in range(len(self.terms)):
                 holds = self.terms.holds(term, group, self._lasting(place))
                 counts[term] += holds * count
@@ -167,13 +180,13 @@ class Observer:
         return counts, mine
 
     def _lasting(self, place: int) -> int:
-        group, state, _ = self._network.places[place]
-        return self._network.groups[group].automaton.look(state).holding
+        group, state, _ = self.network.places[place]
+        return self.network.groups[group].automaton.look(state).holding
 
     def _moments(self, memory: int, place: int, move: Move, seen: _Sight) -> int:
         """Return the memory of the monitor after the moments of a move."""
         counts, mine = seen.counts
-        group = self._network.places[place].group
+        group = self.network.places[place].group
         before = self._lasting(place)
         terms = range(len(self.terms))
         others = [counts[t] - self.terms.holds(t, group, before) for t in terms]
@@ -196,7 +209,7 @@ class Observer:
 
     def _is_silent(self, place: int, move: Move) -> bool:
         """Return True if a move changes no fact."""
-        automaton = self._network.groups[self._network.places[place].group].automaton
+        automaton = self.network.groups[self.network.places[place].group].automaton
         lasting = self._lasting(place) & automaton.mask
         return all(each.holding & automaton.mask == lasting for each in move.moments)
 

@@ -86,15 +86,31 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     if mine is not None:
         about.add(mine)
     groups = model.cone(every, about) or every
-    doubts = model.doubts(groups)
-    if mine is not None:
-        if not doubts and model.complete and _is_alone(property_):
-            states = _alone(property_, every[mine].automaton)
-            if states is not None:
-                return Verdict(property_, "holds", states, robot=me, alone=True)
-        mine = groups.index(every[mine])
+    is_sure = model.complete and not model.doubts(groups)
+    if mine is not None and is_sure and _is_alone(property_):
+        states = _alone(property_, every[mine].automaton)
+        if states is not None:
+            return Verdict(property_, "holds", states, robot=me, alone=True)
     if property_.kind == "possible":
-        return prove_possible(property_, model, groups, mine, me, budget)
+        place = groups.index(every[mine]) if mine is not None else None
+        return prove_possible(property_, model, groups, place, me, budget)
+    observer = _observer(property_, model, groups, me, others=len(groups) < len(every))
+    graph = observe(observer.network, observer, budget)
+    if graph.bad is not None and observer.others:
+        # Whether others act at that moment is known only with all of them.
+        groups = every
+        observer = _observer(property_, model, groups, me, others=False)
+        graph = observe(observer.network, observer, budget)
+    if graph.bad is not None:
+        steps = steps_between(graph.way(graph.bad), lambda s: list(observer.successors(s)))
+        return violated(property_, play(observer.network, steps, property_), graph, me)
+    return _not_violated(property_, model, graph, groups, me)
+
+
+def _observer(
+    property_: ir.Property, model: Model, groups: Sequence[Group], me: str | None, *, others: bool
+) -> Observer:
+    """Return the observer of a property in some groups, of one robot if it is about each."""
     table = _table(property_)
     network = Network(
         groups,
@@ -103,12 +119,8 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
         lossy=model.options.lossy,
         base=max(table.size, 2).bit_length(),
     )
-    observer = Observer(property_, table, network, mine)
-    graph = observe(network, observer, budget)
-    if graph.bad is not None:
-        steps = steps_between(graph.way(graph.bad), lambda s: list(observer.successors(s)))
-        return violated(property_, play(network, steps, property_), graph, me)
-    return _not_violated(property_, model, graph, groups, me)
+    mine = next((n for n, g in enumerate(groups) if me is not None and g.robots == (me,)), None)
+    return Observer(property_, table, network, mine, others=others)
 
 
 def _about(property_: ir.Property, model: Model, groups: Sequence[Group]) -> Iterator[int]:
