@@ -164,11 +164,6 @@ MISTAKES = (
 ELSEWHERE = (
     ("STATEMENT", "on Start [tries > 3] -> B", "it is a variable of `B`: declare it in `M` "),
     ("STATEMENT", "on Start / tries = 3", "it is a variable of `B`: declare it in `M` "),
-    (
-        "TOP",
-        "property P : some carrier has [tries > 3] at all times",
-        "it is a variable of `B`: declare it in `M` ",
-    ),
 )
 
 

@@ -35,14 +35,18 @@ statemachine Blinking {
     region Lamp {
       initial Bright
       state Bright {
+        var shown : int32 = 1
+        exit / shown = shown + 1
         do blink gives (count => count)
         on succeeded [count > 2] -> Dark
         on succeeded -> Bright
         on aborted   -> Broken
       }
       state Dark {
-        entry / send Ping(), send Told(times = count)
-        after 5 s -> Bright
+        var shown : int32 = 4
+        var off   : bool = true
+        entry / shown = shown + 1, send Ping(), send Told(times = count)
+        after 5 s [off] -> Bright
       }
       state Broken {
         on Button [event.times == 3] -> Bright

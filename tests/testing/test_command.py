@@ -152,7 +152,7 @@ Blinking  8 of 10  3 of 10
   never taken: On: on Start -> Gone
   never taken: On.Lamp.Bright: on succeeded -> Bright
   never taken: On.Lamp.Bright: on aborted -> Broken
-  never taken: On.Lamp.Dark: after 5 s -> Bright
+  never taken: On.Lamp.Dark: after 5 s [off] -> Bright
   never taken: On.Lamp.Broken: on Button [event.times == 3] -> Bright
   never taken: On.Sound.Loud: on succeeded -> Quiet
   never taken: On.Sound.Loud: on aborted -> Quiet

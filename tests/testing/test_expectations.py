@@ -55,6 +55,7 @@ def steps(*each: str) -> str:
         # States: paths, several at once, those around, of parts, after the end.
         (_START, '{ in = ["Bright", "Quiet"] }', '{ in = ["Bright", "Loud"] }'),
         (_START, '{ in = "Lamp.Bright" }', '{ in = "Lamp.Dark" }'),
+        (_START, '{ in = "On.Bright" }', '{ in = "On.Dark" }'),
         (_START, '{ in = "On.Lamp" }', '{ in = "On.Lamp.Dark" }'),
         (f"{_START}, {_START}", '{ in = "Gone" }', '{ in = "On" }'),
         (_DARK, '{ who = "lamp[1]", in = "Awake" }', '{ who = "lamp[0]", in = "Awake" }'),
@@ -94,6 +95,17 @@ def steps(*each: str) -> str:
             '{ all = "lamp", has = { count = 3 } }',
         ),
         (_DARK, '{ count = 2, of = "lamp", has = { count = 0 } }', "{ has = { count = 0 } }"),
+        # Variables of states.
+        (
+            _DARK,
+            '{ who = "lamp[0]", has = { off = true } }',
+            '{ who = "lamp[0]", has = { off = false } }',
+        ),
+        (
+            _DARK,
+            '{ who = "lamp[0]", has = { "Dark.shown" = 5, "On.Bright.shown" = 2 } }',
+            '{ who = "lamp[0]", has = { "Dark.shown" = 4 } }',
+        ),
         (
             f'{_DARK}, {{ lose = "lamp[0]" }}',
             '{ no = "lamp", has = { count = 3 } }',

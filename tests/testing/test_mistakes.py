@@ -56,6 +56,13 @@ def reported(ran: Callable[..., Ran], text: str) -> tuple[str, str, str]:
         ('{ pass = "\u0665 s" }', "SW0013", '"\u0665 s"', ""),
         ('{ count = "\u0661", of = "lamp", in = "Off" }', "SW0013", '"\u0661"', ""),
         ('{ lose = "spare[0]", at = 3 }', "SW0012", "at", "the keys are `lose`"),
+        (
+            "{ has = { shown = 1 } }",
+            "SW0203",
+            "shown",
+            "write `On.Lamp.Bright.shown` or `On.Lamp.Dark.shown`",
+        ),
+        ("{ has = { of = true } }", "SW0202", "of", "did you mean `off`?"),
         ('{ in = "Brigth" }', "SW0202", '"Brigth"', "did you mean `Bright`?"),
         ('{ in = ["Bright", "Loudd"] }', "SW0202", '"Loudd"', "did you mean `Loud`?"),
         ("{ in = 3 }", "SW0013", "3", ""),

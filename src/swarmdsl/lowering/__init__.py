@@ -26,7 +26,7 @@ from swarmdsl.lowering.interfaces import (
     lower_operations,
     lower_services,
 )
-from swarmdsl.lowering.machines import lower_machine
+from swarmdsl.lowering.machines import lower_machine, names_of_variables
 from swarmdsl.lowering.optimization import lower_fitness, lower_optimization
 from swarmdsl.lowering.properties import lower_property
 from swarmdsl.lowering.standard_interfaces import with_standard_interfaces
@@ -48,6 +48,7 @@ from swarmdsl.syntax.ast import (
     StateMachine,
     StructType,
     Swarm,
+    Variable,
 )
 
 
@@ -72,8 +73,7 @@ def lower(
     machines: list[ir.StateMachine] = []
     environments: list[ir.Environment] = []
     swarms: list[ir.Swarm] = []
-    fitness: list[ir.Fitness] = []
-    properties: list[ir.Property] = []
+    variables: dict[Variable, str] = {}
     for file, declaration in used:
         match declaration:
             case StructType() | EnumType() | MessageType() | ServiceType() | ActionType():
@@ -90,14 +90,14 @@ def lower(
                 members.append(lower_member(declaration, context))
             case StateMachine():
                 machines.append(lower_machine(declaration, context))
+                variables |= names_of_variables(declaration, machines[-1])
             case Environment():
                 environments.append(lower_environment(declaration, context))
-            case Fitness():
-                fitness.append(lower_fitness(declaration, context))
-            case Property():
-                properties.append(lower_property(declaration, context))
             case Swarm():
                 swarms.append(lower_swarm(declaration, context))
+    judging = context.reusing(variables, {})
+    fitness = [lower_fitness(node, judging) for _, node in used if isinstance(node, Fitness)]
+    properties = [lower_property(node, judging) for _, node in used if isinstance(node, Property)]
     parts = (owner for owner in operation_owners(used) if isinstance(owner, Part))
     functions += (function for part in parts for function in lower_operations(part, context))
     first = project.files[0]

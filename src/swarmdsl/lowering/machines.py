@@ -67,6 +67,13 @@ def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
     )
 
 
+def names_of_variables(machine: StateMachine, lowered: ir.StateMachine) -> dict[Variable, str]:
+    """Return the names that the variables of a machine and of its states have when lowered."""
+    # Those of machines that it reuses, and blank values, come after its own.
+    names = {each.origin: each.name for each in reversed(lowered.variables)}
+    return {each: names[each.name.span] for each in nodes_of(machine, Variable)}
+
+
 class _Builder:
     """Builder of one machine's states, which collects variables of reused machines."""
 

@@ -16,6 +16,7 @@ from swarmdsl.analysis.resolve.report_unresolved import (
     report_ambiguous_state,
     report_missing_inside,
     report_missing_state,
+    report_region_in_path,
     report_state_not_around,
     report_state_outside,
 )
@@ -183,7 +184,8 @@ class _MachineLinker:
         """Resolve a path to a state, its first name in the nearest level that has it."""
         outer: Vertex | None = None
         start = ref.span.start
-        for name in ref.name.split("."):
+        path = ref.name.split(".")
+        for index, name in enumerate(path):
             if outer is not None:
                 levels = (self._level_of(outer),)
             found = next((level[name] for level in levels if name in level), ())
@@ -191,6 +193,8 @@ class _MachineLinker:
                 at = Span(ref.span.source, start, start + len(name))
                 if found:
                     report_ambiguous_state(name, at, found, self._report)
+                elif outer is not None and name in self._regions_of(outer):
+                    report_region_in_path(index, at, path, outer, self._report)
                 else:
                     report_missing_state(name, at, outer, levels, self._scope, self._report)
                 return

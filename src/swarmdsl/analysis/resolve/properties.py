@@ -1,11 +1,12 @@
 """Resolve names in properties and measures: subject, roles, states, and values of robots.
 
 A state has its name or a path, as in tests: `Search.Sweep` is a state `Sweep` anywhere inside a
-state `Search`, in a reused machine too.
+state or region `Search`, in a reused machine too.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeVar
@@ -13,7 +14,7 @@ from typing import TypeVar
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.report_unresolved import report_missing_inside, resolve_or_report
 from swarmdsl.analysis.resolve.scopes import FileScope
-from swarmdsl.analysis.resolve.states import content, states_by_name
+from swarmdsl.analysis.resolve.states import content, regions, states_by_name
 from swarmdsl.analysis.resolve.values import ValueLinker
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.project.loader import Project
@@ -213,7 +214,10 @@ def machines_of_fact(fact: Fact, owner: Sentence) -> list[StateMachine]:
 
 
 def values_of_fact(fact: Fact, owner: Sentence) -> dict[str, Variable | Param]:
-    """Return the variables and params of the robots of a fact, without those of parts."""
+    """Return the variables and params of the robots of a fact, without those of parts.
+
+    A variable of a state is among them if no other value of the robots has its name.
+    """
     role = role_of_fact(fact, owner)
     member = role.member.target if role is not None else None
     machines = [owner.about] if isinstance(owner.about, StateMachine) else []
@@ -229,14 +233,19 @@ def values_of_fact(fact: Fact, owner: Sentence) -> dict[str, Variable | Param]:
         for item in machine.items:
             if isinstance(item, (Variable, Param)):
                 found.setdefault(str(item.name), item)
-    return found
+    inner = [each for machine in machines for each in nodes_of(machine, Variable)]
+    count = Counter(str(each.name) for each in inner)
+    return {**{str(each.name): each for each in inner if count[str(each.name)] == 1}, **found}
 
 
 # ---- states
 
 
 def state_paths(machine: StateMachine) -> Iterator[tuple[Path, Vertex]]:
-    """Yield the states in which a machine can be, with their paths, outer ones first."""
+    """Yield the states in which a machine can be, with their paths, outer ones first.
+
+    Paths have the regions, as in traces.
+    """
     work: list[tuple[Path, Vertex | Container, frozenset[StateMachine]]] = [
         ((), machine, frozenset((machine,)))
     ]
@@ -247,12 +256,16 @@ def state_paths(machine: StateMachine) -> Iterator[tuple[Path, Vertex]]:
             if inner in around:
                 continue  # a check reports machines that contain themselves
             around |= {inner}
-        for each in states_by_name(inner if inner is not None else outer).values():
-            for state in each:
-                if not isinstance(state, (Choice, History)):
-                    found = (*path, str(state.name))
-                    yield found, state
-                    work.append((found, state, around))
+        within = inner if inner is not None else outer
+        holders: list[tuple[Path, Vertex | Container]]
+        holders = [((*path, str(each.name)), each) for each in regions(within)]
+        for place, holder in holders or [(path, within)]:
+            for each in states_by_name(holder).values():
+                for state in each:
+                    if not isinstance(state, (Choice, History)):
+                        found = (*place, str(state.name))
+                        yield found, state
+                        work.append((found, state, around))
 
 
 def matches(path: Path, written: Sequence[str]) -> bool:

@@ -374,6 +374,20 @@ def report_missing_state(
     report_missing(kind, name, at, [str(state.name) for state in states], report)
 
 
+def report_region_in_path(
+    index: int, at: Span, path: Sequence[str], outer: Vertex, report: Diagnostics
+) -> None:
+    """Report a region of `outer` as a name of a path to a state."""
+    without = ".".join((*path[:index], *path[index + 1 :]))
+    report.report(
+        "unresolved-name",
+        at,
+        kind=f"state in `{outer.name}`",
+        name=path[index],
+        help=f"paths leave out regions: write `{without}`",
+    )
+
+
 def report_state_outside(
     arrow: Initial | History,
     target: Ref[Vertex],

@@ -48,7 +48,8 @@ NONE = Quantity(most=0)
 class Claim:
     """Claim that a number of the machines `who` have states, values or did an action.
 
-    `states` maps each selected machine to its expected states, `values` to its expected variables;
+    `states` maps each selected machine to its expected states, `values` to its expected variables,
+    of which `written` gives the names in the test;
     `action` and `name` are the expected action, `data` and `to` are the expected data and address
     of a sent event.
     Unnamed fields may have any value. `text` describes the claim.
@@ -60,6 +61,7 @@ class Claim:
     who: tuple[int, ...]
     states: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
     values: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
+    written: Mapping[str, str] = field(default_factory=dict)
     action: ActionKind | None = None
     name: str = ""
     data: Any = None

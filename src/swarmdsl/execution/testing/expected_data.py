@@ -28,30 +28,34 @@ def event_data(table: Table, names: Names, event: str) -> Mapping[str, Any] | No
 
 def variables(
     table: Table, names: Names, who: list[int], word: str
-) -> dict[int, Mapping[str, Any]]:
-    """Read the expected variables of each selected machine."""
+) -> tuple[dict[int, Mapping[str, Any]], dict[str, str]]:
+    """Read the expected variables of each selected machine, and their names in the test."""
     given, system = table.values["has"], names.subject.system
     if not isinstance(given, dict) or not given:
         table.wrong(("has",), "a table of variables", given)
-        return {}
+        return {}, {}
     places = table.document.places
     named = [(name, places[(*table.keys, "has", name)].key) for name in given]
     found: dict[int, Mapping[str, Any]] = {}
     read: dict[str, Mapping[str, Any]] = {}
+    written: dict[str, str] = {}
     for number in names.machines_with(who, word, named):
         machine = names.cast[number].machine
         if machine.name not in read:
-            types = names.variables(machine)
-            values = dict(given)
-            for name, type_ in types.items() if types is not None else ():
-                if name in given and system is not None:
-                    held = table.fitted(partial(_fit, type_, system), "has", name)
-                    if held is None:
-                        return {}
-                    values[name] = given_part(held, given[name])
+            values: dict[str, Any] = {}
+            for name, value in given.items():
+                meant = names.variables(machine, name)
+                if system is None or meant is None:
+                    values[name] = value
+                    continue
+                held = table.fitted(partial(_fit, meant[0].type, system), "has", name)
+                if held is None:
+                    return {}, {}
+                written[meant[0].name] = name
+                values[meant[0].name] = given_part(held, value)
             read[machine.name] = values
         found[number] = read[machine.name]
-    return found
+    return found, written
 
 
 def _fit(type_: Type, system: System, value: Any, way: Way) -> Any:

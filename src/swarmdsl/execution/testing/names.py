@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
+from swarmdsl.analysis.resolve.properties import matches
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import did_you_mean, suggest
@@ -14,7 +15,7 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.testing.case import ActionKind
 from swarmdsl.ir import Send as SendEffect
 from swarmdsl.ir import State as ModelState
-from swarmdsl.ir import StateKind, StateMachine, Type
+from swarmdsl.ir import StateKind, StateMachine, Variable
 
 _PASSED_THROUGH = (StateKind.CHOICE, StateKind.HISTORY)
 
@@ -90,25 +91,49 @@ class Names:
     ) -> list[int]:
         """Return the machines with all the variables; report a variable that none has."""
         for name, place in named:
-            known = {n: self.variables(self.cast[n].machine) for n in who}
-            found = [n for n, types in known.items() if types is None or name in types]
+            meant = {n: self.variables(self.cast[n].machine, name) for n in who}
+            found = [n for n, each in meant.items() if each is None or each]
             if not found:
-                names = dict.fromkeys(each for types in known.values() for each in types or ())
+                known = [each for n in who for each in self._values(self.cast[n].machine)]
+                names = dict.fromkeys(each.local or each.name for each in known)
                 help_ = suggest(name, names, "variables")
                 self._report.report(
                     "unresolved-name", place, kind="variable", name=name, help=help_
                 )
                 return []
+            unclear = next(
+                (each for each in meant.values() if each is not None and len(each) > 1), ()
+            )
+            if unclear:
+                help_ = f"write {listed([f'{each.owner}.{each.local}' for each in unclear], 'or')}"
+                self._report.report("ambiguous-name", place, name=name, help=help_)
+                return []
             who = found
         return [n for n in who if word in ("", *_own_words(self.cast[n]))] or who
 
-    def variables(self, machine: Machine) -> Mapping[str, Type] | None:
-        """Return the variables and params of a machine; None for a document."""
+    def variables(self, machine: Machine, name: str) -> Sequence[Variable] | None:
+        """Return the variables and params that a name means; None for a document.
+
+        A variable of a state has its name, or a path: `tries`, `Search.tries`.
+        """
         if self.subject.system is None:
             return None
+        values = self._values(machine)
+        exact = [each for each in values if each.name == name]
+        written = tuple(name.split("."))
+        return exact or [
+            each
+            for each in values
+            if each.owner and matches((*each.owner.split("."), each.local), written)
+        ]
+
+    def _values(self, machine: Machine) -> Sequence[Variable]:
+        """Return the variables of a machine, and its params as variables."""
+        if self.subject.system is None:
+            return ()
         model = self.subject.system.machines_by_name[machine.name]
-        params = {each.name: each.type for each in model.params}
-        return {**params, **{each.name: each.type for each in model.variables}}
+        params = (Variable(each.name, each.type, each.default) for each in model.params)
+        return (*params, *model.variables)
 
     def is_known(self, kind: str, name: str, place: Span) -> bool:
         """Return True if an event or function exists, or may exist in a document."""
@@ -148,8 +173,12 @@ class Names:
         return frozenset(_sent(model))
 
     def _state(self, machine: Machine, name: str) -> list[str]:
-        ids = _states(machine)
-        return [name] if name in ids else [each for each in ids if each.endswith(f".{name}")]
+        """Return the states that a name or a path means; it can leave out names in between."""
+        ids, written = _states(machine), tuple(name.split("."))
+        if name in ids:
+            return [name]
+        ends = [each for each in ids if each.endswith(f".{name}")]
+        return ends or [each for each in ids if matches(tuple(each.split(".")), written)]
 
 
 def _own_words(actor: Actor) -> tuple[str, ...]:

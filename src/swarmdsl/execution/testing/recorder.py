@@ -132,7 +132,10 @@ class Recorder:
         if number in self._lost and claim.action is None:
             return "is lost"
         if claim.values:
-            return f"has `{describe_fields(self._data(self._cast[number]), claim.values[number])}`"
+            held = self._data(self._cast[number])
+            names = {claim.written.get(name, name): name for name in claim.values[number]}
+            shown = {word: held.get(name) for word, name in names.items()}
+            return f"has `{describe_fields(shown, shown)}`"
         if claim.data is not None or claim.to is not None:
             each = [
                 _described(name, data, address, claim) if name == claim.name else name

@@ -230,14 +230,14 @@ class StepReader:
                 states=meant,
             )
         elif verb == "has":
-            values = variables(table, self._names, who, word)
+            values, written = variables(table, self._names, who, word)
             text = (
                 f"{words}to have `{describe_fields(table.values['has'], table.values['has'])}`"
                 if values
                 else ""
             )
             place = table.value_place(("has",))
-            claim = Claim(place, text, quantity, tuple(values), values=values)
+            claim = Claim(place, text, quantity, tuple(values), values=values, written=written)
         else:
             what = "the name of an event" if verb == "sends" else "the name of a function"
             name = table.text(verb, what)

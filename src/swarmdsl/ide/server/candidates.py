@@ -8,6 +8,7 @@ from swarmdsl.analysis.resolve.addresses import machines_in, roles_of, swarms_of
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.membership import member_events, presence_calls
 from swarmdsl.analysis.resolve.properties import (
+    Path,
     Sentence,
     facts_in,
     machines_of_fact,
@@ -177,10 +178,12 @@ class Candidates:
                     role.target = roles.get(role.name)
                 machines = machines_of_fact(holder, sentence)
                 paths = [found for machine in machines for found in state_paths(machine)]
+                states = {names for names, _ in paths}
                 return [
                     v
                     for names, v in paths
-                    if path == [""] or (names[:-1] and matches(names[:-1], path))
+                    if path == [""]
+                    or any(matches(around, path) for around in _around(names, states))
                 ]
         return ()
 
@@ -257,3 +260,10 @@ def _substates(state: Node) -> list[Node]:
     if isinstance(state, Parallel):
         return [each for region in regions(state) for each in vertices(region)]
     return list(vertices(state)) if isinstance(state, (State, Region, StateMachine)) else []
+
+
+def _around(path: Path, states: set[Path]) -> list[Path]:
+    """Return the paths that can be before the name of a state: its region and its state."""
+    outer = path[:-1]
+    found = [outer] if outer in states else [outer, outer[:-1]]
+    return [each for each in found if each]
