@@ -268,6 +268,8 @@ class Demands:
         nodes = self._nodes(value, machine, events)
         if nodes is not None:
             self._flows += [(target, node) for node in nodes]
+            for node in nodes:
+                self._read.setdefault(node, value)
         elif not self._is_constant(value):
             self._computed.append((target, value, machine, events))
         if nodes is not None and bound_of(value, held) is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from swarmdsl import ir
+from swarmdsl.base.records import replace
 from swarmdsl.execution.monitor import Sentence
 from swarmdsl.execution.verify.explore import Graph, observe
 from swarmdsl.execution.verify.limits import Budget
@@ -39,7 +40,7 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     worst = min(found, key=lambda each: rank[each.outcome], default=None)
     if worst is None:
         return Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
-    return worst
+    return replace(worst, full=tuple(sorted({name for each in found for name in each.full})))
 
 
 def _not_covered(property_: ir.Property) -> str:
