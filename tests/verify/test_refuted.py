@@ -124,6 +124,19 @@ REFUTED: dict[str, tuple[str, Sequence[dict[str, Any]], str]] = {
         [{"event": "Tick"}, {"event": "Tick"}, {"event": "Go"}],
         "fails",
     ),
+    # The last of three is lost, not the one whose kind was found last.
+    "what_is_sent_first_arrives": (
+        "endless statemachine M {\n initial S0\n state S0 {\n"
+        " on Measure / send Tell(word = 0) -> S1\n"
+        " on Go / send Tell(word = 1), send Tell(word = 0), send Tell(word = 0) -> S1\n}\n"
+        " state S1 { on Go -> S1 }\n}\n"
+        "endless statemachine N {\n initial S0\n state S0 {\n on Tell [event.word == 1] -> Bad\n"
+        " on Tell -> S0\n}\n state Bad { on Tick -> S0 }\n}\n"
+        + _TWO
+        + "property P of S : each b : never in Bad",
+        [{"event": "Go"}],
+        "fails",
+    ),
     # Messages that differ in nothing but their senders are compared as a whole.
     "a_message_that_is_kept_has_its_sender_in_it": (
         "statemachine M {\n var kept : Signed[<=2]\n initial S0\n state S0 {\n"

@@ -222,7 +222,7 @@ class Automaton:
             )
             for number, (line, (actor, holding)) in enumerate(zip(body.lines, shown, strict=True))
         )
-        sends = tuple(sorted(map(self.alphabet.number, body.sent)))
+        sends = tuple(map(self.alphabet.number, body.sent))
         origin = None if source is None else (source, given)
         return Move(given, moments, sends, self._add(body, tuple(held), origin))
 

@@ -27,6 +27,7 @@ from swarmdsl.ir import Property
 
 _GAPS = (SECOND, MILLISECOND, 0)
 """Times between two steps, the preferred one first."""
+_ELSEWHERE = "the real messages lead elsewhere"
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,8 @@ def play(network: Network, steps: Sequence[Step], property_: Property | None = N
     """
     timeless = _Play(network, [0] * (len(steps) + 1), None)
     timeless.run(steps)
+    if timeless.departs:
+        return Run((), flaw=_ELSEWHERE)
     if timeless.overtakes:
         return Run((), flaw=f"an event overtakes an earlier one on `{timeless.overtakes}`")
     times = _times(len(steps), timeless.constraints())
@@ -88,7 +91,7 @@ def play(network: Network, steps: Sequence[Step], property_: Property | None = N
     timed = _Play(network, times, watch)
     timed.run(steps)
     if timed.departs:
-        return Run((), flaw="the real values of messages lead elsewhere")
+        return Run((), flaw=_ELSEWHERE)
     if watch is not None:
         (result,) = watch.results(times[-1], ended=True)
         if result.verdict != FALSE:
@@ -137,6 +140,8 @@ class _Play:
         for number, step in enumerate(steps, start=1):
             self._now = number
             self._take(step)
+            if self.departs:
+                return
 
     def data(self, actor: Actor) -> Any:
         """Return the variables of a machine."""
@@ -161,6 +166,9 @@ class _Play:
         group_number, state, bag = self._network.places[step.place]
         group = self._network.groups[group_number]
         robots = [r for r in self.robots if r.group is group and r.is_at(state, bag)]
+        if not robots:
+            self.departs = True
+            return
         if step.move is None:
             robot = robots[0]
             lost = next(c for c in robot.bag if c.number == step.lost)
