@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl.codegen import Diagnostics, Span, code_cell, dataclass, fresh
 from swarmdsl.codegen.python import Call, Source, comments, layout, source_place
@@ -77,7 +77,7 @@ def watched_swarms(
             taken = (*modules.values(), *(each.module for each in found))
             module = fresh(f"{launch.name}_monitor", taken)
             machines = tuple(_machines(launch, modules, system))
-            found.append(_watched(about, launch, module, machines))
+            found.append(_watched(about, launch, module, machines, _local_names(system)))
             _check_senders(about, system, report)
     for each in system.properties:
         if each.subject not in launched:
@@ -108,7 +108,11 @@ def conditions(machine: StateMachine, system: System) -> dict[str, Expression]:
 
 
 def _watched(
-    properties: Sequence[Property], launch: Launch, module: str, machines: tuple[Entry, ...]
+    properties: Sequence[Property],
+    launch: Launch,
+    module: str,
+    machines: tuple[Entry, ...],
+    named: Callable[[str], str],
 ) -> WatchedSwarm:
     imports = Imports({})
     imports.own("node", "run_node")
@@ -116,7 +120,7 @@ def _watched(
     imports.name("functools", "partial")
     for name in ("MonitorNode", "Swarm"):
         imports.own("swarm_monitor", name)
-    written = _Writer(imports)
+    written = _Writer(imports, named)
     return WatchedSwarm(
         swarm=launch.swarm,
         launch=launch.name,
@@ -124,13 +128,23 @@ def _watched(
         machines=machines,
         properties=tuple(map(written.entry, properties)),
         imports=tuple(imports.lines()),
-        about=_about(launch, module, properties),
+        about=_about(launch, module, properties, named),
         origin=launch.origin,
     )
 
 
-def _about(launch: Launch, module: str, properties: Iterable[Property]) -> str:
-    rows = "\n".join(f"| {each.name} | {code_cell(sentence_text(each))} |" for each in properties)
+def _local_names(system: System) -> Callable[[str], str]:
+    """Return a function that gives variables of states their names in the model."""
+    variables = (each for machine in system.machines for each in machine.variables)
+    local = {each.name: each.local for each in variables if each.local}
+    return lambda name: local.get(name, name)
+
+
+def _about(
+    launch: Launch, module: str, properties: Iterable[Property], named: Callable[[str], str]
+) -> str:
+    texts = {each.name: code_cell(sentence_text(each, named)) for each in properties}
+    rows = "\n".join(f"| {name} | {text} |" for name, text in texts.items())
     return f"""## Monitor of {launch.swarm}
 
 Node `{module}` watches the properties of the swarm in its namespace. The launch file starts it.
@@ -213,12 +227,13 @@ def _check_senders(properties: Iterable[Property], system: System, report: Diagn
 class _Writer:
     """Writes properties as plain data, and imports its classes."""
 
-    def __init__(self, imports: Imports) -> None:
+    def __init__(self, imports: Imports, named: Callable[[str], str]) -> None:
         self._imports = imports
+        self._named = named
 
     def entry(self, property_: Property) -> Entry:
         """Return the entry of a property, which says where it is in the model."""
-        text = sentence_text(property_)
+        text = sentence_text(property_, self._named)
         where = f" ({source_place(property_.origin)})" if property_.origin is not None else ""
         scope = property_.scope
         keywords: list[tuple[str, object]] = []

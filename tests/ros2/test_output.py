@@ -296,7 +296,11 @@ statemachine Carrying {
   var load : int32 = 0
   initial Empty
   state Empty { on Take / load = event.data, send Home -> Loaded }
-  state Loaded { on Home -> Empty; on Seen -> Away }
+  state Loaded {
+    var homes : int32 = 0
+    on Home / homes = homes + 1 -> Empty
+    on Seen -> Away
+  }
   final Away
 }
 member Carrier { behavior Carrying }
@@ -304,6 +308,7 @@ member Spare {}
 swarm Depot { carrier : Carrier[2] }
 swarm Empty { spare : Spare }
 property Light of Depot : each carrier : never has [load > most]
+property Rare of Depot : each carrier : never has [homes > 9]
 property Few of Depot : 1..2 carrier in Loaded leads to no carrier in Loaded within 1500 ms
 property Home1 of Depot : between Seen and carrier[1] in Away, carrier[1] hears Home at most 2 times
 """
@@ -315,6 +320,8 @@ def test_monitors_have_the_properties_of_a_swarm(generate: Generate, tmp_path: P
     text = files["lab_behavior/lab_behavior/depot_monitor.py"].text
     for written in (
         "Fact('has', condition='load > most')",
+        "Fact('has', condition='loaded_homes > 9')",
+        "origin='each carrier : never has [homes > 9] (",
         "Sentence('leads', within=1_500_000_000)",
         "Fact('in', 'Loaded', robots=Robots('carrier', 'number', least=1, most=2))",
         "Sentence('times', scope='between', times=2)",

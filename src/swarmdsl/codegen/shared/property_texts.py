@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from swarmdsl.codegen.swarm_printer.expressions import expression
 from swarmdsl.ir import Count, Expression, Fact, Property
@@ -14,19 +14,22 @@ def condition_text(condition: Expression) -> str:
     return expression(condition)
 
 
-def sentence_text(property_: Property) -> str:
-    """Return a property without its name: `each robot : in Work only after Start`."""
-    return parts_text(sentence(property_))
+def sentence_text(property_: Property, named: Callable[[str], str] = str) -> str:
+    """Return a property without its name: `each robot : in Work only after Start`.
+
+    `named` prints the names of variables.
+    """
+    return parts_text(sentence(property_), named)
 
 
-def parts_text(parts: Iterable[Part]) -> str:
+def parts_text(parts: Iterable[Part], named: Callable[[str], str] = str) -> str:
     """Return parts of a sentence as text."""
     return "".join(
         each
         if isinstance(each, str)
         else each.name
         if isinstance(each, Named)
-        else expression(each.expression if isinstance(each, Condition) else each)
+        else expression(each.expression if isinstance(each, Condition) else each, named)
         for each in parts
     )
 
