@@ -1,7 +1,6 @@
-"""Data that decide what a swarm does.
+"""Data that decide what a swarm does, and values of those that come from outside.
 
-Demands flow backwards, from guards over copies to where the data come from: a program slice
-(M. Weiser, 1981). Data that nothing demands are left out.
+Data that nothing demands are left out.
 """
 
 from __future__ import annotations
@@ -10,32 +9,17 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl import ir
+from swarmdsl.base.source import Span
 from swarmdsl.codegen.shared.default_values import (
     default_result,
     default_value,
     field_type,
     result_fields,
-    sent_types,
 )
-from swarmdsl.execution.engine import ExecutionError
-from swarmdsl.execution.simulate.expressions import function_of
 from swarmdsl.execution.verify.doubt import Doubt
-from swarmdsl.execution.verify.representatives import Cut, Part, Path, Values, combinations
-from swarmdsl.ir.integer_ranges import bound_of
+from swarmdsl.execution.verify.representatives import Part, Path, Values, combinations
+from swarmdsl.execution.verify.slice import Node, Slice
 
-Node = tuple[str, str, Path]
-"""Place of data: `var`, `event`, `sender` or `result`, its name, and fields in it."""
-
-SELF: Node = ("robot", "self", ())
-SENT: Node = ("time", "sent", ())
-_COMPARISONS = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
-"""Comparisons, each with the one that has its sides exchanged."""
-_SURE = {
-    *_COMPARISONS,
-    *("and", "or", "+", "-", "*", "min", "max", "abs", "clamp", "hypot", "distance", "atan2"),
-    *("len", "contains", "empty", "float", "seconds"),
-}
-"""Operations that have a value for all operands; of integers, it may be out of range."""
 _HEADERS = {
     "node": (ir.Named("swarmros", "EventHeader"),),
     "stamp": (ir.Named("std_msgs", "Header"), ir.Named("swarmros", "EventHeader")),
@@ -57,26 +41,8 @@ class Demands:
         extra: Iterable[tuple[str, ir.Expression]] = (),
     ) -> None:
         self._system = system
-        self._data = data
-        self._flows: list[tuple[Node, Node]] = []
-        self._cuts: dict[Node, set[Cut]] = {}
-        self._exact: dict[Node, ir.Expression] = {}
-        """Places whose very values count, with the expressions that use them."""
-        self._computed: list[tuple[Node, ir.Expression, str, tuple[str, ...]]] = []
-        self._identity = False
-        self._read: dict[Node, ir.Expression] = {}
-        """Places of data with the first expressions that compare or need them."""
-        for name in data:
-            self._machine(system.machines_by_name[name])
-        for name, expression in extra:
-            self._decide(expression, name, ())
-        for event in system.events:
-            for here in system.events:
-                if here.incoming_topic == event.topic and here is not event:
-                    self._flows.append((("event", here.name, ()), ("event", event.name, ())))
-        self._spread()
-
-    # ---- what was found
+        self._slice = Slice(system, data, extra)
+        self._demanded = frozenset(self._slice.demanded)
 
     def keeps(self, machine: str, variable: str) -> bool:
         """Return True if a variable decides on anything."""
@@ -91,13 +57,13 @@ class Demands:
             kind in ("robot", "sender") or self._reads_header("node", (kind, name, path))
             for kind, name, path in self._demanded
         )
-        return named or self._identity
+        return named or self._slice.is_addressed
 
     def sender_of(self, event: str) -> Iterator[Doubt]:
         """Yield a doubt if it counts who has sent an event from outside."""
         if ("sender", event, ()) in self._demanded:
             reason = f"the sender of `{event}` from outside is not covered"
-            yield Doubt(reason, getattr(self._read.get(("sender", event, ())), "origin", None))
+            yield Doubt(reason, self._place(("sender", event, ())))
 
     def fields(self, event: str) -> list[Path]:
         """Return the fields of an event that decide on anything."""
@@ -105,11 +71,10 @@ class Demands:
         return sorted(found)
 
     def timed(self) -> Iterator[Doubt]:
-        """Yield a doubt for each reading of the time."""
-        for kind, name, path in self._demanded:
+        """Yield a doubt if the time decides on anything."""
+        for kind, name, path in sorted(self._demanded):
             if kind == "time" or self._reads_header("stamp", (kind, name, path)):
-                expression = self._read.get((kind, name, path))
-                yield Doubt("the model reads the time", getattr(expression, "origin", None))
+                yield Doubt("the model reads the time", self._place((kind, name, path)))
                 return
 
     def results(self, function: str) -> Values:
@@ -129,7 +94,11 @@ class Demands:
         parts = self._parts("event", event, lambda path: field_type(type_, path, self._system))
         return combinations(event, parts, lambda: default_value(type_, self._system))
 
-    # ---- internal: places of data
+    # ---- internal
+
+    def _place(self, node: Node) -> Span | None:
+        """Return the place of the first expression that reads some data."""
+        return getattr(self._slice.read.get(node), "origin", None)
 
     def _parts(
         self, kind: str, name: str, type_of: Callable[[Path], ir.Type | None]
@@ -137,9 +106,9 @@ class Demands:
         """Yield the parts of a message or result that decide on anything."""
         for node in sorted(self._demanded):
             if node[:2] == (kind, name):
-                type_, cuts = type_of(node[2]), frozenset(self._cuts.get(node, ()))
+                type_, cuts = type_of(node[2]), frozenset(self._slice.cuts.get(node, ()))
                 default = default_value(type_, self._system) if type_ is not None else 0
-                yield Part(node[2], type_, default, cuts, self._exact.get(node))
+                yield Part(node[2], type_, default, cuts, self._slice.exact.get(node))
 
     def _reads_header(self, field: str, node: Node) -> bool:
         """Return True if a place is a field of a header of an event, or has such a header in it."""
@@ -154,272 +123,3 @@ class Demands:
         inner = self._system.known_interface(held) if isinstance(held, ir.Named) else None
         parts = inner.fields if isinstance(inner, ir.Message) else ()
         return held in headers or any(part.type in headers for part in parts)
-
-    # ---- internal: demands
-
-    @property
-    def _demanded(self) -> set[Node]:
-        return {*self._cuts, *self._exact}
-
-    def _spread(self) -> None:
-        """Carry demands from where data are used to where they come from."""
-        changed = True
-        while changed:
-            changed = False
-            for target, source in self._flows:
-                for node in list(self._demanded):
-                    origin = _behind(node, target, source)
-                    if origin is None:
-                        continue
-                    if node in self._cuts:
-                        cuts = self._cuts.setdefault(origin, set())
-                        changed |= not self._cuts[node] <= cuts
-                        cuts |= self._cuts[node]
-                    if node in self._exact and origin not in self._exact:
-                        self._exact[origin] = self._exact[node]
-                        changed = True
-            for target, expression, machine, events in self._computed:
-                if any(_overlap(node, target) for node in self._demanded):
-                    before = len(self._exact)
-                    self._need(expression, machine, events)
-                    changed |= len(self._exact) != before
-
-    def _machine(self, machine: ir.StateMachine) -> None:
-        name = machine.name
-        handled = tuple(
-            dict.fromkeys(
-                each.event
-                for state in machine.walk()
-                for transition in state.transitions
-                for each in transition.triggers
-                if isinstance(each, ir.EventTrigger)
-            )
-        )
-        types = {each.name: each.type for each in machine.variables}
-        for state in machine.walk():
-            self._effects((*state.entry, *state.exit), name, handled, types)
-            if state.activity is not None:
-                call = self._system.function(state.activity.function).communication
-                asked = sent_types(self._system.known_interface(call.type))
-                for field, value in state.activity.arguments:
-                    goal = ("goal", state.activity.function, (field,))
-                    self._flow(goal, value, asked.get(field), name, handled, is_needed=True)
-                for result in state.activity.results:
-                    source = ("result", state.activity.function, (result.field,))
-                    target = ("var", f"{name}.{result.variable}", result.path)
-                    self._flows.append((target, source))
-            for transition in state.transitions:
-                events = tuple(
-                    each.event for each in transition.triggers if isinstance(each, ir.EventTrigger)
-                )
-                for trigger in transition.triggers:
-                    if isinstance(trigger, ir.TimeTrigger):
-                        self._delay(trigger.delay, name, ())
-                if transition.guard is not None:
-                    self._decide(transition.guard, name, events or handled)
-                self._effects(transition.effects, name, events or handled, types)
-
-    def _effects(
-        self,
-        effects: Iterable[ir.Effect],
-        machine: str,
-        events: tuple[str, ...],
-        types: Mapping[str, ir.Type],
-    ) -> None:
-        block = list(effects)
-        for effect in block:
-            match effect:
-                case ir.Assignment(variable=variable, path=path, value=value):
-                    held = field_type(types.get(variable), path, self._system)
-                    target = ("var", f"{machine}.{variable}", path)
-                    is_needed = effect is not block[-1]
-                    self._flow(target, value, held, machine, events, is_needed=is_needed)
-                case ir.Send(event=event, arguments=arguments, to=to, delay=delay):
-                    type_ = self._system.event(event).type
-                    for field, value in arguments:
-                        held = field_type(type_, (field,), self._system)
-                        target = ("event", event, (field,))
-                        self._flow(target, value, held, machine, events, is_needed=True)
-                    if to is not None:
-                        self._address(to, machine, events)
-                    if delay is not None:
-                        self._delay(delay, machine, events)
-
-    def _flow(
-        self,
-        target: Node,
-        value: ir.Expression,
-        held: ir.Type | None,
-        machine: str,
-        events: tuple[str, ...],
-        *,
-        is_needed: bool,
-    ) -> None:
-        """Note that a value is stored in a place.
-
-        If it `is_needed` for what follows, it counts whether the expression has a value.
-        """
-        if isinstance(value, ir.Construction):
-            for field, part in value.values:
-                inner = field_type(value.type, (field,), self._system)
-                place = (*target[:2], (*target[2], field))
-                self._flow(place, part, inner, machine, events, is_needed=is_needed)
-            return
-        nodes = self._nodes(value, machine, events)
-        if nodes is not None:
-            self._flows += [(target, node) for node in nodes]
-            for node in nodes:
-                self._read.setdefault(node, value)
-        elif not self._is_constant(value):
-            self._computed.append((target, value, machine, events))
-        if nodes is not None and bound_of(value, held) is not None:
-            self._computed.append((target, value, machine, events))
-        if is_needed and can_fail(value, held) and not self._is_constant(value):
-            self._need(value, machine, events)
-
-    def _address(self, to: ir.Address, machine: str, events: tuple[str, ...]) -> None:
-        for value in to.values:
-            if not isinstance(value, ir.Literal):
-                self._identity = True
-                self._need(value, machine, events)
-
-    def _delay(self, delay: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
-        """Demand if a delay is positive or not."""
-        nodes = self._nodes(delay, machine, events)
-        if nodes is not None:
-            for node in nodes:
-                self._cuts.setdefault(node, set()).add((">", 0))
-        elif not self._is_constant(delay):
-            self._need(delay, machine, events)
-
-    def _decide(self, expression: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
-        """Demand what the truth of a condition depends on."""
-        nodes = self._nodes(expression, machine, events)
-        if nodes is not None:
-            for node in nodes:
-                self._cuts.setdefault(node, set()).add(("==", True))
-            return
-        match expression:
-            case ir.Unary(operator="not", operand=operand):
-                self._decide(operand, machine, events)
-            case ir.Binary(operator="and" | "or", left=left, right=right):
-                self._decide(left, machine, events)
-                self._decide(right, machine, events)
-            case ir.Binary(operator=symbol, left=left, right=right) if symbol in _COMPARISONS:
-                if not (
-                    self._compare(symbol, left, right, machine, events)
-                    or self._compare(_COMPARISONS[symbol], right, left, machine, events)
-                ):
-                    self._need(expression, machine, events)
-            case _:
-                self._need(expression, machine, events)
-
-    def _compare(
-        self,
-        symbol: str,
-        place: ir.Expression,
-        constant: ir.Expression,
-        machine: str,
-        events: tuple[str, ...],
-    ) -> bool:
-        """Note the comparison of a place with a constant; return False if it is none."""
-        nodes = self._nodes(place, machine, events)
-        for node in nodes or ():
-            self._read.setdefault(node, place)
-        if nodes is None or not self._is_constant(constant):
-            return False
-        value = function_of(constant)
-        try:
-            values = {value(data, None) for data in self._data[machine]}
-        except (ArithmeticError, ValueError, ExecutionError, TypeError):
-            return False
-        for node in nodes:
-            self._cuts.setdefault(node, set()).update((symbol, each) for each in values)
-        return True
-
-    def _need(self, expression: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
-        """Demand the very values that an expression reads."""
-        nodes = self._nodes(expression, machine, events)
-        if nodes is not None:
-            for node in nodes:
-                self._exact.setdefault(node, expression)
-                self._read.setdefault(node, expression)
-            return
-        for part in _parts(expression):
-            self._need(part, machine, events)
-
-    def _nodes(
-        self, expression: ir.Expression, machine: str, events: tuple[str, ...]
-    ) -> list[Node] | None:
-        """Return the places that an expression names; None if it is more than a place."""
-        path: Path = ()
-        while isinstance(expression, ir.FieldAccess):
-            path = (expression.field, *path)
-            expression = expression.base
-        match expression:
-            case ir.VariableRef(name=name):
-                return [("var", f"{machine}.{name}", path)]
-            case ir.EventData():
-                return [("event", each, path) for each in events]
-            case ir.EnvelopeField(field=field):
-                return [("sender", each, ()) for each in events] if field == "sender" else [SENT]
-            case ir.SelfField(field="id" | "index"):
-                return [SELF]
-            case ir.Elapsed(state=state):
-                return [("time", state, ())]
-        return None
-
-    def _is_constant(self, expression: ir.Expression) -> bool:
-        """Return True for what is the same in all runs."""
-        varies = (
-            *(ir.VariableRef, ir.EventData, ir.EnvelopeField, ir.ItemRef),
-            *(ir.InState, ir.Elapsed),
-        )
-        return not any(
-            isinstance(part, varies)
-            or (isinstance(part, ir.SelfField) and part.field in ("id", "index"))
-            or (isinstance(part, ir.Call) and part.function == "present")
-            for part in ir.subexpressions(expression)
-        )
-
-
-def _parts(expression: ir.Expression) -> Iterator[ir.Expression]:
-    """Yield the direct parts of an expression."""
-    found: list[ir.Expression] = []
-
-    def keep(part: ir.Expression) -> ir.Expression:
-        found.append(part)
-        return part
-
-    ir.mapped(expression, keep)
-    yield from found
-
-
-def can_fail(expression: ir.Expression, held: ir.Type | None) -> bool:
-    """Return True if an expression may have no value that can be stored as a type."""
-    return bound_of(expression, held) is not None or any(
-        _is_unsure(part) for part in ir.subexpressions(expression)
-    )
-
-
-def _is_unsure(part: ir.Expression) -> bool:
-    match part:
-        case ir.Binary(operator=name) | ir.Call(function=name):
-            return name not in _SURE
-        case ir.Query(function=name):
-            return name in ("min", "max")
-    return False
-
-
-def _behind(node: Node, target: Node, source: Node) -> Node | None:
-    """Return the place in the source of a copy that becomes a place in its target."""
-    if node[:2] != target[:2]:
-        return None
-    inner, outer = node[2], target[2]
-    if inner[: len(outer)] == outer:
-        return (*source[:2], (*source[2], *inner[len(outer) :]))
-    return source if outer[: len(inner)] == inner else None
-
-
-def _overlap(node: Node, target: Node) -> bool:
-    return _behind(node, target, target) is not None

@@ -1,0 +1,340 @@
+"""Places of data that decide what some machines do.
+
+Demands flow backwards, from guards over copies to where the data come from: a program slice
+(M. Weiser, 1981).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from swarmdsl import ir
+from swarmdsl.codegen.shared.default_values import (
+    field_type,
+    sent_types,
+)
+from swarmdsl.execution.engine import ExecutionError
+from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.verify.representatives import Cut, Path
+from swarmdsl.ir.integer_ranges import bound_of
+
+Node = tuple[str, str, Path]
+"""Place of data: `var`, `event`, `sender` or `result`, its name, and fields in it."""
+
+SELF: Node = ("robot", "self", ())
+SENT: Node = ("time", "sent", ())
+_COMPARISONS = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
+"""Comparisons, each with the one that has its sides exchanged."""
+_SURE = {
+    *_COMPARISONS,
+    *("and", "or", "+", "-", "*", "min", "max", "abs", "clamp", "hypot", "distance", "atan2"),
+    *("len", "contains", "empty", "float", "seconds"),
+}
+"""Operations that have a value for all operands; of integers, it may be out of range."""
+
+
+class Slice:
+    """Places of data that decide on the behaviour of some machines.
+
+    `data` are the first data of the instances of each machine, by its name. `extra` are the
+    conditions of properties, each with the machine that it is about.
+    """
+
+    def __init__(
+        self,
+        system: ir.System,
+        data: Mapping[str, Sequence[Mapping[str, Any]]],
+        extra: Iterable[tuple[str, ir.Expression]] = (),
+    ) -> None:
+        self._system = system
+        self._data = data
+        self._flows: list[tuple[Node, Node]] = []
+        self.cuts: dict[Node, set[Cut]] = {}
+        """Places that are compared with constants."""
+        self.exact: dict[Node, ir.Expression] = {}
+        """Places whose very values count, with the expressions that use them."""
+        self._computed: list[tuple[Node, ir.Expression, str, tuple[str, ...]]] = []
+        self.is_addressed = False
+        """True if a machine computes an address."""
+        self.read: dict[Node, ir.Expression] = {}
+        """Places of data with the first expressions that compare or need them."""
+        for name in data:
+            self._machine(system.machines_by_name[name])
+        for name, expression in extra:
+            self._decide(expression, name, ())
+        for event in system.events:
+            for here in system.events:
+                if here.incoming_topic == event.topic and here is not event:
+                    self._flows.append((("event", here.name, ()), ("event", event.name, ())))
+        self._spread()
+
+    @property
+    def demanded(self) -> set[Node]:
+        """Places that decide on anything."""
+        return {*self.cuts, *self.exact}
+
+    # ---- internal
+
+    def _spread(self) -> None:
+        """Carry demands from where data are used to where they come from."""
+        changed = True
+        while changed:
+            changed = False
+            for target, source in self._flows:
+                for node in sorted(self.demanded):
+                    origin = _behind(node, target, source)
+                    if origin is None:
+                        continue
+                    if node in self.cuts:
+                        cuts = self.cuts.setdefault(origin, set())
+                        changed |= not self.cuts[node] <= cuts
+                        cuts |= self.cuts[node]
+                    if node in self.exact and origin not in self.exact:
+                        self.exact[origin] = self.exact[node]
+                        changed = True
+            for target, expression, machine, events in self._computed:
+                if any(_overlap(node, target) for node in self.demanded):
+                    before = len(self.exact)
+                    self._need(expression, machine, events)
+                    changed |= len(self.exact) != before
+
+    def _machine(self, machine: ir.StateMachine) -> None:
+        name = machine.name
+        handled = tuple(
+            dict.fromkeys(
+                each.event
+                for state in machine.walk()
+                for transition in state.transitions
+                for each in transition.triggers
+                if isinstance(each, ir.EventTrigger)
+            )
+        )
+        types = {each.name: each.type for each in machine.variables}
+        for state in machine.walk():
+            self._effects((*state.entry, *state.exit), name, handled, types)
+            if state.activity is not None:
+                call = self._system.function(state.activity.function).communication
+                asked = sent_types(self._system.known_interface(call.type))
+                for field, value in state.activity.arguments:
+                    goal = ("goal", state.activity.function, (field,))
+                    self._flow(goal, value, asked.get(field), name, handled, is_needed=True)
+                for result in state.activity.results:
+                    source = ("result", state.activity.function, (result.field,))
+                    target = ("var", f"{name}.{result.variable}", result.path)
+                    self._flows.append((target, source))
+            for transition in state.transitions:
+                events = tuple(
+                    each.event for each in transition.triggers if isinstance(each, ir.EventTrigger)
+                )
+                for trigger in transition.triggers:
+                    if isinstance(trigger, ir.TimeTrigger):
+                        self._delay(trigger.delay, name, ())
+                if transition.guard is not None:
+                    self._decide(transition.guard, name, events or handled)
+                self._effects(transition.effects, name, events or handled, types)
+
+    def _effects(
+        self,
+        effects: Iterable[ir.Effect],
+        machine: str,
+        events: tuple[str, ...],
+        types: Mapping[str, ir.Type],
+    ) -> None:
+        block = list(effects)
+        for effect in block:
+            match effect:
+                case ir.Assignment(variable=variable, path=path, value=value):
+                    held = field_type(types.get(variable), path, self._system)
+                    target = ("var", f"{machine}.{variable}", path)
+                    is_needed = effect is not block[-1]
+                    self._flow(target, value, held, machine, events, is_needed=is_needed)
+                case ir.Send(event=event, arguments=arguments, to=to, delay=delay):
+                    type_ = self._system.event(event).type
+                    for field, value in arguments:
+                        held = field_type(type_, (field,), self._system)
+                        target = ("event", event, (field,))
+                        self._flow(target, value, held, machine, events, is_needed=True)
+                    if to is not None:
+                        self._address(to, machine, events)
+                    if delay is not None:
+                        self._delay(delay, machine, events)
+
+    def _flow(
+        self,
+        target: Node,
+        value: ir.Expression,
+        held: ir.Type | None,
+        machine: str,
+        events: tuple[str, ...],
+        *,
+        is_needed: bool,
+    ) -> None:
+        """Note that a value is stored in a place.
+
+        If it `is_needed` for what follows, it counts whether the expression has a value.
+        """
+        if isinstance(value, ir.Construction):
+            for field, part in value.values:
+                inner = field_type(value.type, (field,), self._system)
+                place = (*target[:2], (*target[2], field))
+                self._flow(place, part, inner, machine, events, is_needed=is_needed)
+            return
+        nodes = self._nodes(value, machine, events)
+        if nodes is not None:
+            self._flows += [(target, node) for node in nodes]
+            for node in nodes:
+                self.read.setdefault(node, value)
+        elif not self._is_constant(value):
+            self._computed.append((target, value, machine, events))
+        if nodes is not None and bound_of(value, held) is not None:
+            self._computed.append((target, value, machine, events))
+        if is_needed and can_fail(value, held) and not self._is_constant(value):
+            self._need(value, machine, events)
+
+    def _address(self, to: ir.Address, machine: str, events: tuple[str, ...]) -> None:
+        for value in to.values:
+            if not isinstance(value, ir.Literal):
+                self.is_addressed = True
+                self._need(value, machine, events)
+
+    def _delay(self, delay: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
+        """Demand if a delay is positive or not."""
+        nodes = self._nodes(delay, machine, events)
+        if nodes is not None:
+            for node in nodes:
+                self.cuts.setdefault(node, set()).add((">", 0))
+        elif not self._is_constant(delay):
+            self._need(delay, machine, events)
+
+    def _decide(self, expression: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
+        """Demand what the truth of a condition depends on."""
+        nodes = self._nodes(expression, machine, events)
+        if nodes is not None:
+            for node in nodes:
+                self.cuts.setdefault(node, set()).add(("==", True))
+            return
+        match expression:
+            case ir.Unary(operator="not", operand=operand):
+                self._decide(operand, machine, events)
+            case ir.Binary(operator="and" | "or", left=left, right=right):
+                self._decide(left, machine, events)
+                self._decide(right, machine, events)
+            case ir.Binary(operator=symbol, left=left, right=right) if symbol in _COMPARISONS:
+                if not (
+                    self._compare(symbol, left, right, machine, events)
+                    or self._compare(_COMPARISONS[symbol], right, left, machine, events)
+                ):
+                    self._need(expression, machine, events)
+            case _:
+                self._need(expression, machine, events)
+
+    def _compare(
+        self,
+        symbol: str,
+        place: ir.Expression,
+        constant: ir.Expression,
+        machine: str,
+        events: tuple[str, ...],
+    ) -> bool:
+        """Note the comparison of a place with a constant; return False if it is none."""
+        nodes = self._nodes(place, machine, events)
+        for node in nodes or ():
+            self.read.setdefault(node, place)
+        if nodes is None or not self._is_constant(constant):
+            return False
+        value = function_of(constant)
+        try:
+            values = {value(data, None) for data in self._data[machine]}
+        except (ArithmeticError, ValueError, ExecutionError, TypeError):
+            return False
+        for node in nodes:
+            self.cuts.setdefault(node, set()).update((symbol, each) for each in values)
+        return True
+
+    def _need(self, expression: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
+        """Demand the very values that an expression reads."""
+        nodes = self._nodes(expression, machine, events)
+        if nodes is not None:
+            for node in nodes:
+                self.exact.setdefault(node, expression)
+                self.read.setdefault(node, expression)
+            return
+        for part in _parts(expression):
+            self._need(part, machine, events)
+
+    def _nodes(
+        self, expression: ir.Expression, machine: str, events: tuple[str, ...]
+    ) -> list[Node] | None:
+        """Return the places that an expression names; None if it is more than a place."""
+        path: Path = ()
+        while isinstance(expression, ir.FieldAccess):
+            path = (expression.field, *path)
+            expression = expression.base
+        match expression:
+            case ir.VariableRef(name=name):
+                return [("var", f"{machine}.{name}", path)]
+            case ir.EventData():
+                return [("event", each, path) for each in events]
+            case ir.EnvelopeField(field=field):
+                return [("sender", each, ()) for each in events] if field == "sender" else [SENT]
+            case ir.SelfField(field="id" | "index"):
+                return [SELF]
+            case ir.Elapsed(state=state):
+                return [("time", state, ())]
+        return None
+
+    def _is_constant(self, expression: ir.Expression) -> bool:
+        """Return True for what is the same in all runs."""
+        varies = (
+            *(ir.VariableRef, ir.EventData, ir.EnvelopeField, ir.ItemRef),
+            *(ir.InState, ir.Elapsed),
+        )
+        return not any(
+            isinstance(part, varies)
+            or (isinstance(part, ir.SelfField) and part.field in ("id", "index"))
+            or (isinstance(part, ir.Call) and part.function == "present")
+            for part in ir.subexpressions(expression)
+        )
+
+
+def _parts(expression: ir.Expression) -> Iterator[ir.Expression]:
+    """Yield the direct parts of an expression."""
+    found: list[ir.Expression] = []
+
+    def keep(part: ir.Expression) -> ir.Expression:
+        found.append(part)
+        return part
+
+    ir.mapped(expression, keep)
+    yield from found
+
+
+def can_fail(expression: ir.Expression, held: ir.Type | None) -> bool:
+    """Return True if an expression may have no value that can be stored as a type."""
+    return bound_of(expression, held) is not None or any(
+        _is_unsure(part) for part in ir.subexpressions(expression)
+    )
+
+
+def _is_unsure(part: ir.Expression) -> bool:
+    match part:
+        case ir.Binary(operator=name) | ir.Call(function=name):
+            return name not in _SURE
+        case ir.Query(function=name):
+            return name in ("min", "max")
+    return False
+
+
+def _behind(node: Node, target: Node, source: Node) -> Node | None:
+    """Return the place in the source of a copy that becomes a place in its target."""
+    if node[:2] != target[:2]:
+        return None
+    inner, outer = node[2], target[2]
+    if inner[: len(outer)] == outer:
+        return (*source[:2], (*source[2], *inner[len(outer) :]))
+    return source if outer[: len(inner)] == inner else None
+
+
+def _overlap(node: Node, target: Node) -> bool:
+    return _behind(node, target, target) is not None
