@@ -327,6 +327,22 @@ async def test_hover_shows_who_sent_an_event(client, editor):
     assert "one member" in found
 
 
+async def test_hover_shows_which_robot_was_lost(client, editor):
+    text = """
+      statemachine M {
+        initial A
+        state A { on member_lost [event.role == "base" and event.id != self.id] -> B }
+        final B
+      }
+      member Rover { behavior M }
+      swarm S { heartbeat 1 s lost after 5 s; base : Rover }
+    """
+    for place, declared in (("role ==", "event.role : string"), ("id !=", "event.id : string")):
+        found = await hovered(client, editor, EXAMPLE / "new.swarm", place, text)
+        assert declared in found
+        assert "joined or was lost" in found
+
+
 async def test_hover_shows_support_in_targets_of_the_project(client, editor, folder):
     (folder / "swarm.toml").write_text("[targets.smach]\nros = 2\n[targets.yasmin]\n")
     model = folder / "lab.swarm"

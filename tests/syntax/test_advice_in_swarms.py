@@ -19,6 +19,8 @@ struct Plan { speed : float64 in m/s }
 swarm event Bid : Offer
 swarm event Ping : std_msgs/Empty
 
+function carry : abstraction { service "carry" : std_srvs/Trigger }
+
 statemachine M {
   param speed : float64 in m/s = 2 m/s
   param patience : duration = 9 s
@@ -99,7 +101,31 @@ MISTAKES = (
     ("MACHINE", "on Start -> B", "on Start -> B", "state Z {{ on Start -> B }}"),
     ("MACHINE", "state Z {\nStart / n = 1 -> B\n}", "Start", "{0} Start"),
     ("MACHINE", "state Z { shallow history H; initial Y; state Y }", "shallow history H", "{0}"),
+    ("STATEMENT", "on Start | Late -> B", " |", "{0}"),
+    ("STATEMENT", "do carry -> B; on aborted -> B", "do carry ->", "do carry; on succeeded ->"),
+    # expressions
+    ("STATEMENT", "on Bid [number > 3] -> B", "number", "{0}"),
+    ("STATEMENT", "on Bid / n = number", "number", "{0}"),
+    ("STATEMENT", 'on Bid [sender == "box[0]"] -> B', "sender", "{0}"),
+    ("STATEMENT", 'on member_lost [role == "box"] -> B', "role", "{0}"),
+    ("STATEMENT", "on Bid [Bid.number > 3] -> B", "Bid.number", "{0}"),
+    ("STATEMENT", "on Bid [event.number in xs] -> B", "event.number in xs", "{0}"),
+    ("STATEMENT", "on Start [xs.contains(n)] -> B", "xs.contains(n)", "{0}"),
+    ("STATEMENT", "on Start [xs.size() > 1] -> B", "xs.size()", "{0}"),
+    ("STATEMENT", "on Start [xs.isEmpty()] -> B", "xs.isEmpty()", "{0}"),
+    ("STATEMENT", "on Start [any(o in xs, o > 1)] -> B", ",", " {0}"),
     # effects
+    ("STATEMENT", "on Start / n = 1 send Ping", " send", "{0} send"),
+    ("STATEMENT", "on Start / if (n > 3) then n = 1", "/ if (n > 3) then", "[n > 3] /"),
+    ("STATEMENT", "on Start / sleep(5 s)", "on Start / sleep(5 s)", "{0}"),
+    ("STATEMENT", "on Bid / xs.clear()", "xs.clear()", "{0}"),
+    ("STATEMENT", "on Bid / xs.remove(0)", "xs.remove(0)", "{0}"),
+    (
+        "STATEMENT",
+        "on Start / send Bid number = 1",
+        "Bid number = 1",
+        "Bid(number = 1, cost = 2.0)",
+    ),
     ("STATEMENT", f"on Start / {BID} to carrier [1]", "carrier [1]", "{0}"),
     ("STATEMENT", f"on Start / {BID} to carrier.0", "carrier.0", "{0}"),
     ("STATEMENT", f"on Start / {BID} to carrier, box", f"{BID} to carrier, box", "{0}"),
@@ -160,10 +186,22 @@ MISTAKES = (
     ("TOP", "property P : each box : if in A then in B", "if in A then in B", "in A leads to in B"),
     ("TOP", "property P : box[0] in A then eventually box[1] in B", "then eventually", "leads to"),
 )
-# What the advice leaves to the user to name.
-ELSEWHERE = (
+# The beginning of what cannot be followed literally.
+ADVICE = (
     ("STATEMENT", "on Start [tries > 3] -> B", "it is a variable of `B`: declare it in `M` "),
     ("STATEMENT", "on Start / tries = 3", "it is a variable of `B`: declare it in `M` "),
+    ("STATEMENT", 'on Start / log "hi"', "an effect is `name = value` or `send Event`"),
+    ("STATEMENT", "else -> B", "`else` belongs to a `choice`"),
+    ("STATEMENT", "defer *", "name the events"),
+    ("STATEMENT", "on Start / n = min(o in ys by o.cost).number", "assign the item to a variable"),
+    ("STATEMENT", "on Start / append(xs, n)", "write `append value to array`"),
+    ("STATEMENT", "on Start [sum(o in ys by o.cost) > 1] -> B", "the queries are `count`, `any`"),
+    ("TOP", "property P : eventually always box[0] in B", "name what it follows: `after P, Q at"),
+    (
+        "TOP",
+        "fitness F { in t : float64 = time(box in A) / 2; maximize t }",
+        "a measure is no part of a calculation",
+    ),
 )
 
 
@@ -190,8 +228,8 @@ def test_advice_in_a_swarm(
     assert _errors(place, followed, tmp_path) == [], followed
 
 
-@pytest.mark.parametrize(("place", "mistake", "advice"), ELSEWHERE)
-def test_advice_on_a_variable_of_a_state(
+@pytest.mark.parametrize(("place", "mistake", "advice"), ADVICE)
+def test_advice_without_a_text_to_write(
     place: str, mistake: str, advice: str, tmp_path: Path
 ) -> None:
     (error,) = _errors(place, mistake, tmp_path)

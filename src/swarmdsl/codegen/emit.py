@@ -12,7 +12,7 @@ from swarmdsl.base.relative_paths import clash_key, stays_inside
 from swarmdsl.base.source import Span
 from swarmdsl.codegen import registry
 from swarmdsl.codegen.api import Generator, OutputFile
-from swarmdsl.codegen.features import unsupported
+from swarmdsl.codegen.features import WAYS_OUT, unsupported
 from swarmdsl.codegen.options import options_of, parse_options
 from swarmdsl.ir import System
 
@@ -99,7 +99,11 @@ def _emit_target(
     )
     for feature, place in uses or ():
         report.report(
-            "unsupported-construct", place, target=request.target, construct=feature.value
+            "unsupported-construct",
+            place,
+            target=request.target,
+            construct=feature.value,
+            help=WAYS_OUT.get(feature),
         )
     given = {**_implied_options(generator, request, built), **request.options}
     options = parse_options(generator, given, report, request.places)

@@ -13,6 +13,7 @@ from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import variables_of
 from swarmdsl.syntax.ast import (
     Element,
+    EventTrigger,
     Expression,
     IndexUse,
     NameUse,
@@ -22,23 +23,26 @@ from swarmdsl.syntax.ast import (
     State,
     StateMachine,
     TopLevel,
+    Transition,
     Value,
     nodes_of,
     walk,
 )
-from swarmdsl.syntax.types import Array, Named
+from swarmdsl.syntax.types import ENVELOPE_FIELDS, Array, Named
 
 
 def meaning_elsewhere(
     use: NameUse, within: Expression, machines: Iterable[StateMachine], scope: FileScope
 ) -> str | None:
-    """Hint for a field of an item without the item, or a variable of a state of the machines."""
+    """Hint for a field without its item or event, or a variable of a state of the machines."""
     for query in walk(within) if within.tree is not None else ():
         if isinstance(query, Query) and _has_field(query.element, use.name, scope):
             parts = [part for part in (query.condition, query.key) if part is not None]
             if any(use is node for part in parts for node in walk(part)):
                 return f"write `{query.element.name}.{use.name}`"
     for machine in machines:
+        if _is_field_of_event(use.name, within, machine, scope):
+            return f"write `event.{use.name}`"
         for state in _states(machine):
             if any(each.name == use.name for each in variables_of(state)):
                 return (
@@ -62,6 +66,26 @@ def robot_as_value(use: NameUse, owner: TopLevel) -> str | None:
         what = "role" if test.of_role else "robot"
         return f'the name of a {what} is a string: write `"{name}"`'
     return None
+
+
+def _is_field_of_event(
+    name: str, within: Expression, machine: StateMachine, scope: FileScope
+) -> bool:
+    """Return True if all events of the transition around an expression have a field or a fact."""
+    around = (
+        each for each in nodes_of(machine, Transition) if any(n is within for n in walk(each))
+    )
+    transition = next(around, None)
+    events = []
+    for trigger in transition.triggers if transition is not None else ():
+        events.append(trigger.event.target if isinstance(trigger, EventTrigger) else None)
+    types = {event.type.type for event in events if event is not None}
+    if None in events or len(types) != 1:
+        return False
+    (type_,) = types
+    fields = scope.interfaces.fields(type_) if isinstance(type_, Named) else None
+    facts = ENVELOPE_FIELDS if all(event is not None and event.swarm for event in events) else ()
+    return name in facts or any(each.name == name for each in fields or ())
 
 
 def _has_field(element: Element, name: str, scope: FileScope) -> bool:

@@ -19,6 +19,7 @@ from swarmdsl.syntax.ast import (
     Constant,
     Container,
     Declaration,
+    Event,
     EventTrigger,
     Expression,
     FieldUse,
@@ -297,11 +298,16 @@ def report_value(
     help_ = None
     if isinstance(found, Missing):
         help_ = value_hint(name, scope, report)
-        if help_ is None and report.wants_hint("unresolved-name"):
+        wanted = report.wants_hint("unresolved-name") and not _may_be_skipped(name, scope)
+        if help_ is None and wanted:
             help_ = meaning_elsewhere(base, within, machines, scope)
     if help_ is not None:
         report.report("unresolved-name", at, kind="value", name=name, help=help_)
         return
+
+    instead = None
+    if isinstance(found, WrongKind) and isinstance(found.node, Event) and fields:
+        instead = f"write `event.{fields[0].name}` for a field of the event that has arrived"
 
     def hint() -> str | None:
         # A name with fields may be a package.
@@ -312,7 +318,9 @@ def report_value(
         return robot_as_value(base, owner) or suggest_variable(base, within, owner, scope)
 
     known = [*values, "true", "false"]
-    _report_declaration(found, name, at, kinds, scope, report, built_in=known, hint=hint)
+    _report_declaration(
+        found, name, at, kinds, scope, report, built_in=known, instead=instead, hint=hint
+    )
 
 
 def report_type_as_value(name: str, at: Span, type_: Type, report: Diagnostics) -> None:

@@ -11,7 +11,7 @@ from swarmdsl.analysis.types.built_ins import BUILT_INS
 from swarmdsl.analysis.types.constant_folding import Folding
 from swarmdsl.analysis.types.fitting import is_number
 from swarmdsl.analysis.types.unit_rules import of_field
-from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import (
     Call,
@@ -116,7 +116,10 @@ def type_of_query(query: Query, typing: Inference) -> Type | None:
     word = str(query.function)
     kind = QUERIES.get(word)
     if kind is None:
-        report_missing("query", word, query.function.span, QUERIES, typing.report)
+        help_ = "the queries are " + listed(list(QUERIES), "and")
+        report_missing(
+            "query", word, query.function.span, QUERIES, typing.report, hint=lambda: help_
+        )
         return None
     if array is not None and not isinstance(array, Array):
         _report(query, f"`{array}`", "it queries the items of an array", typing)

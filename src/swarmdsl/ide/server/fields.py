@@ -42,7 +42,7 @@ from swarmdsl.syntax.ast import (
     nodes_of,
     walk,
 )
-from swarmdsl.syntax.types import ENVELOPE_FIELDS, Named, Type
+from swarmdsl.syntax.types import ENVELOPE_FIELDS, MEMBER, Named, Type
 
 Slot = Field | Parameter | Param
 
@@ -127,6 +127,14 @@ def facts_of(use: FieldUse, owner: TopLevel, project: Project) -> dict[str, Type
     if not typing.of_swarm:
         return {}
     return {name: type_ for name, type_ in ENVELOPE_FIELDS.items() if typing.is_envelope(name)}
+
+
+def is_of_member(use: FieldUse, owner: TopLevel, project: Project) -> bool:
+    """Return True for a field of `event` where it says which robot joined or was lost."""
+    if not (isinstance(use.base, NameUse) and use.base.name == "event"):
+        return False
+    typing = _with_event(use, owner, Typing(Interfaces(project.declarations())))
+    return typing.event == MEMBER
 
 
 def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:

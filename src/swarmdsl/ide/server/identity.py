@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.base.source import Span
-from swarmdsl.ide.server.fields import facts_of
+from swarmdsl.ide.server.fields import facts_of, is_of_member
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import FieldUse, NameUse, TopLevel, nodes_of
 from swarmdsl.syntax.types import SELF_FIELDS
@@ -19,6 +19,10 @@ _MEANINGS = {
 _FACTS = {
     "sender": "The robot that sent the event, by its id; empty for an event from outside.",
     "sent": "The time at which the event was sent.",
+}
+_OF_MEMBER = {
+    "id": "The name of the robot that joined or was lost, such as `uav[0]`.",
+    "role": "The role of the robot that joined or was lost, such as `uav`.",
 }
 _ALL = "The robot that runs the state machine: its `id`, `role`, `index` and `count`."
 
@@ -46,6 +50,9 @@ def _facts(owner: TopLevel, project: Project) -> Iterator[tuple[Span, str]]:
         if use.name in _FACTS and use.name in (facts := facts_of(use, owner, project)):
             declared = f"```swarm\nevent.{use.name} : {facts[use.name]}\n```"
             yield use.name.span.absolute, f"{declared}\n\n{_FACTS[use.name]}"
+        elif use.name in _OF_MEMBER and is_of_member(use, owner, project):
+            declared = f"```swarm\nevent.{use.name} : {SELF_FIELDS[use.name]}\n```"
+            yield use.name.span.absolute, f"{declared}\n\n{_OF_MEMBER[use.name]}"
 
 
 def _described(owner: TopLevel) -> Iterator[tuple[Span, str]]:

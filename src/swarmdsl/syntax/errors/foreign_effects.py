@@ -42,13 +42,16 @@ EFFECTS = (
         "",
         r"write `append \2\3 to \1`",
     ),
+    (r"\bappend\([^()]*\) *@", "", "write `append value to array`"),
+    (r"([\w.]+)\.clear\(@\)", "", r"write `clear \1`"),
+    (r"([\w.]+)\.(?:remove|erase|pop)\(@(\w+)\)", "", r"write `remove \1[\2]`"),
     (r"\bvar\b[^:]*: *(.*?) *= *@\[ *\]", "", r"an array is empty at first: write `\1`"),
     (r"([\w.]+) *= *@\[ *\]", "", r"write `clear \1`"),
     # what is no effect
     (
-        rf"[/,] *(?:wait|delay|sleep|pause) +@({DELAY})\b",
+        rf"[/,] *(?:wait|delay|sleep|pause)(?: +@({DELAY})\b|\(({DELAY})\) *@)",
         "",
-        r"effects take no time: go to a state with the transition `after \1 -> Target`",
+        r"effects take no time: go to a state with the transition `after \1\2 -> Target`",
     ),
     (
         r"[/,] *(?:log|print|echo|say) +@[\"\w]",
@@ -56,7 +59,7 @@ EFFECTS = (
         "an effect is `name = value` or `send Event`: what else a robot does is an activity, `do`",
     ),
     (
-        r"[/,] *if +@",
+        r"[/,] *if\b[^,;]*@",
         "",
         "write a guard before `/`, as in `on event [x < 3] / x = 1`, or go to a `choice`",
     ),

@@ -22,9 +22,14 @@ _HINTS = (
     # activities
     (r"\bdo *@/ *([\w.]+)", "", r"write `do \1`"),
     (
-        r"\bdo ([\w.]+) +@(\w+) *=",
+        r"\b(do|send) ([\w.]+) +@(?:with +)?(\w+) *=",
         "",
-        r"write the arguments in parentheses: `do \1(\2 = ...)`",
+        r"write the arguments in parentheses: `\1 \2(\3 = ...)`",
+    ),
+    (
+        r"\bdo +[\w.]+(?:\([^()]*\))? *;? *@-> *([\w.]+)",
+        "",
+        r"write the outcome on a line of its own: `on succeeded -> \1`",
     ),
     (
         r"(?:\b(?:do|send) |\bstate \w+ *= *)[\w.]+\((?:[^()]*, *)?@(-?[\w.]+|\"[^\"]*\")",
@@ -37,8 +42,13 @@ _HINTS = (
         _FIELD,
     ),
     # expressions
+    (r"\b(?:any|all|count)\(\w+ in [^()]*?@,", "`where`", "write `where` before the condition"),
+    (r"\b(any|all|count|min|max)\((\w+) *@: *(\w+)", "`in`", r"write `\1(\2 in \3 ...)`"),
+    (r"([\w.]+)\.contains\(([^()@]*)@([^()]*)\)", "", r"write `contains(\1, \2\3)`"),
+    (r"([\w.]+)\.(?:len|length|size|count)\(@\)", "", r"write `len(\1)`"),
+    (r"([\w.]+)\.(?:is_?empty|isEmpty|empty)\(@\)", "", r"write `len(\1) == 0`"),
     (
-        r"\[(?:[^]]*\W)?([\w.]+) @in +([A-Za-z_][\w.]*) *(?:\]|and\b|or\b)",
+        r"\[(?:[^]]*[^\w.])?([\w.]+) @in +([A-Za-z_][\w.]*) *(?:\]|and\b|or\b)",
         "",
         r"write `contains(\2, \1)`",
     ),

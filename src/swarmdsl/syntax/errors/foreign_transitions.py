@@ -30,7 +30,7 @@ TRANSITIONS = (
         r"write two transitions: `on \1 -> ...` and `[\2] -> ...`",
     ),
     (
-        r"\bon [\w., ]*@(?:\|\||or\b)",
+        r"\bon [\w., ]*@(?:\|\|?|or\b)",
         "",
         "write `,`: the transition fires on any of the events",
     ),
@@ -108,6 +108,10 @@ TRANSITIONS = (
         "",
         "an effect cannot start an activity: go to a state with `do`",
     ),
-    (r"/ *[^/]*= *[\w.]+ +@(\w+) *=(?!=)", "`,`", r"write `,` before `\1`"),
+    (
+        r"/ *[^/]*= *[\w.]+ +@(\w+ *=(?!=)|(?:send|cancel|append|remove|clear)\b)",
+        "`,`",
+        "write `,` between two effects",
+    ),
     (r"^ *@every\b", "", "for a periodic action, let `after 5 s` target its own state"),
 )

@@ -44,7 +44,6 @@ _FOUND = {
     **dict.fromkeys(("emits", "publishes", "raises"), "write `sends`"),
     **dict.fromkeys(("calls", "runs", "performs"), "write `starts`"),
 }
-_SCOPE = re.compile(r"\bafter\s+(?:in\s+)?[\w.]+")
 _TOKEN = re.compile(r"[A-Za-z_]\w*|[=\-]+>|\S")
 _SOON = re.compile(r"(?:in|for|by)\s+(\d[\d.]*\s*[A-Za-z]+)")
 _CHANCE = re.compile(r"with\s+(?:a\s+)?(?:probability|chance)(?:\s+of)?\s+([\d.]+)")
@@ -78,8 +77,8 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
         return f"write `has [{test[0]}]`"
     if found == "," and (each := re.search(r"\beach\s+\w+\Z", said)):
         return f"write `{each[0]} :`"
-    if "`until`" in expected and (begun := _SCOPE.search(said)):
-        return f"end it with a comma: `{begun[0]}, ...`"
+    if "`until`" in expected and "`,`" in expected:
+        return "end the first part with a comma: `after P, Q leads to R`"
     if soon := _SOON.match(text, at):
         return f"write `within {soon[1]}`"
     if chance := _CHANCE.match(text, at):
