@@ -109,9 +109,9 @@ TRANSITIONS = (
         "an effect cannot start an activity: go to a state with `do`",
     ),
     (
-        r"/ *[^/]*= *[\w.]+ +@(\w+ *=(?!=)|(?:send|cancel|append|remove|clear)\b)",
+        r"/ *[^/]*= *[\w.]+ +@(?:(\w+) *=(?!=)|(send|cancel|append|remove|clear)\b)",
         "`,`",
-        "write `,` between two effects",
+        r"write `,` before `\1\2`",
     ),
     (r"^ *@every\b", "", "for a periodic action, let `after 5 s` target its own state"),
 )
