@@ -57,6 +57,7 @@ HEARTBEAT = "heartbeat 1 s lost after 5 s"
 MISTAKES = (
     ("STATEMENT", "on Start [present(carrier[1]) > 0] -> B", "present(carrier[1])", "{0}"),
     ("STATEMENT", 'on Start [present("carrier") > 0] -> B', 'present("carrier")', "{0}"),
+    ("STATEMENT", "on Start [present(all) > 0] -> B", "present(all)", "{0}"),
     ("STATEMENT", "on Start [any(ys.number == 1)] -> B", "any(ys.number == 1)", "{0}"),
     ("STATEMENT", "on Start [all(ys.number == 1)] -> B", "all(ys.number == 1)", "{0}"),
     ("STATEMENT", "on Start [count(ys.number == n) > 0] -> B", "count(ys.number == n)", "{0}"),
@@ -190,6 +191,7 @@ MISTAKES = (
 ADVICE = (
     ("STATEMENT", "on Start [tries > 3] -> B", "it is a variable of `B`: declare it in `M` "),
     ("STATEMENT", "on Start / tries = 3", "it is a variable of `B`: declare it in `M` "),
+    ("STATEMENT", "on Bid / number = 3", "declare it in `M` "),
     ("STATEMENT", 'on Start / log "hi"', "an effect is `name = value` or `send Event`"),
     ("STATEMENT", "else -> B", "`else` belongs to a `choice`"),
     ("STATEMENT", "defer *", "name the events"),

@@ -21,7 +21,8 @@ from swarmdsl.base.suggest import suggest
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import Address, Role, Send, StateMachine, Swarm, nodes_of
 
-_EVERYBODY = ("all", "everybody", "everyone", "others")
+EVERYBODY = ("all", "everybody", "everyone", "others")
+"""Words for all robots, which no role has for a name."""
 
 
 def check_addresses(project: Project, context: Context) -> None:
@@ -119,7 +120,7 @@ def _report_missing(found: list[NamedRole], context: Context) -> None:
         help_ = suggest(found[0].name, roles, "roles")
         if not found[0].name:
             help_ = "an empty address is that of nobody: leave out `to` to send to all others"
-        elif found[0].name in _EVERYBODY:
+        elif found[0].name in EVERYBODY:
             help_ = "leave out `to` to send to all others"
     swarms = listed([str(each.swarm.name) for each in found], "or")
     context.report.report(

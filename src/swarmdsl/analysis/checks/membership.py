@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swarmdsl.analysis.checks.addresses import EVERYBODY
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.resolve.addresses import Crew, crews_of
 from swarmdsl.analysis.resolve.membership import MEMBER_EVENTS, is_member_event, presence_calls
@@ -134,6 +135,8 @@ def _check_roles(machine: StateMachine, crews: list[Crew], context: Context) -> 
             if context.report.wants_hint("unresolved-name"):
                 roles = dict.fromkeys(name for crew in without for name in crew.roles)
                 help_ = suggest(use.name, roles, "roles")
+                if use.name in EVERYBODY:
+                    help_ = "write `present()` for all robots of the swarm"
             swarms = listed([str(crew.swarm.name) for crew in without], "or")
             kind = f"role in swarm {swarms}"
             context.report.report("unresolved-name", use.span, kind=kind, name=use.name, help=help_)
