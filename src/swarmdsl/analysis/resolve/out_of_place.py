@@ -5,7 +5,7 @@ Only a model with mistakes imports this module.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.analysis.resolve.identity_tests import identity_tests
 from swarmdsl.analysis.resolve.missing_variable import type_of
@@ -33,23 +33,23 @@ from swarmdsl.syntax.types import ENVELOPE_FIELDS, Array, Named
 
 
 def meaning_elsewhere(
-    use: NameUse, within: Expression, owner: TopLevel, scope: FileScope
+    use: NameUse, within: Expression, machines: Iterable[StateMachine], scope: FileScope
 ) -> str | None:
-    """Hint for a field without its item or event, or a variable of another state."""
+    """Hint for a field without its item or event, or a variable of a state of the machines."""
     for query in walk(within) if within.tree is not None else ():
         if isinstance(query, Query) and _has_field(query.element, use.name, scope):
             parts = [part for part in (query.condition, query.key) if part is not None]
             if any(use is node for part in parts for node in walk(part)):
                 return f"write `{query.element.name}.{use.name}`"
-    if not isinstance(owner, StateMachine):
-        return None
-    if _is_field_of_event(use.name, within, owner, scope):
-        return f"write `event.{use.name}`"
-    for state in _states(owner):
-        if any(each.name == use.name for each in variables_of(state)):
-            return (
-                f"it is a variable of `{state.name}`: declare it in `{owner.name}` to use it here"
-            )
+    for machine in machines:
+        if _is_field_of_event(use.name, within, machine, scope):
+            return f"write `event.{use.name}`"
+        for state in _states(machine):
+            if any(each.name == use.name for each in variables_of(state)):
+                return (
+                    f"it is a variable of `{state.name}`: declare it in `{machine.name}` to use it "
+                    "here"
+                )
     return None
 
 

@@ -165,7 +165,7 @@ def _link_facts(
             _link_state(fact.state, machines, scope, report)
         if fact.guard is not None:
             guards.add(fact.guard)
-            values.link_only([fact.guard], owner, values_of_fact(fact, sentence))
+            values.link_only([fact.guard], owner, values_of_fact(fact, sentence), machines)
     return guards
 
 

@@ -275,13 +275,15 @@ def report_value(
     within: Expression,
     owner: TopLevel,
     values: Iterable[str],
+    machines: Iterable[StateMachine],
     kinds: tuple[type[D], ...],
     scope: FileScope,
     report: Diagnostics,
 ) -> None:
     """Report a name that means no value; for a package, the name that is missing in it.
 
-    `values` are the names of the variables, params and inputs of `owner`.
+    `values` are the names of the variables, params and inputs of `owner`; the expression is about
+    `machines`.
     """
     name, at = base.name, base.span
     for count, field in enumerate(fields):
@@ -298,7 +300,7 @@ def report_value(
         help_ = value_hint(name, scope, report)
         wanted = report.wants_hint("unresolved-name") and not _may_be_skipped(name, scope)
         if help_ is None and wanted:
-            help_ = meaning_elsewhere(base, within, owner, scope)
+            help_ = meaning_elsewhere(base, within, machines, scope)
     if help_ is not None:
         report.report("unresolved-name", at, kind="value", name=name, help=help_)
         return

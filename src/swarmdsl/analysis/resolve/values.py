@@ -71,8 +71,17 @@ class ValueLinker:
         """Bind the names in the expressions of a declaration with these values."""
         self.link_only(nodes_of(owner, Expression), owner, values)
 
-    def link_only(self, nodes: Iterable[Expression], owner: TopLevel, values: Values) -> None:
-        """Bind the names in some expressions of a declaration with these values."""
+    def link_only(
+        self,
+        nodes: Iterable[Expression],
+        owner: TopLevel,
+        values: Values,
+        machines: Iterable[StateMachine] = (),
+    ) -> None:
+        """Bind the names in some expressions of a declaration with these values.
+
+        `machines` are what the expressions are about, if they are in no machine.
+        """
         unknown: list[tuple[NameUse, list[FieldUse], Expression]] = []
         inside: dict[Expression, Values] = {}
         if isinstance(owner, StateMachine):
@@ -92,10 +101,13 @@ class ValueLinker:
                 # The name of a role is an address by itself; the swarm that has it checks it.
                 role = addresses[node].role_use if node in addresses else None
                 unknown += [(base, fields, node) for base, fields in missing if base is not role]
+        machines = (owner,) if isinstance(owner, StateMachine) else machines
         # Hints for a name depend on the names beside it, which are bound now.
         for base, fields, node in unknown:
             seen = inside.get(node, values)
-            report_value(base, fields, node, owner, seen, _DECLARED, self.scope, self.report)
+            report_value(
+                base, fields, node, owner, seen, machines, _DECLARED, self.scope, self.report
+            )
 
     def _check_no_self(self, expression: Expression) -> None:
         """Report `self` in a value that is the same for all robots."""
