@@ -287,6 +287,26 @@ def test_models(model: Path, tmp_path: Path) -> None:
     check(normalized(with_documents(system)), tmp_path)
 
 
+def test_fields_with_units(compiled: Callable[[str], System], tmp_path: Path) -> None:
+    text = """package test
+        message Seen { range : float64 in m, age : float64 in s, plain : float64 }
+        action Act { goal { rest : float64 in s } result { rest : float64 in m } }
+        function act : abstraction { action "act" : Act }
+        event Found : Seen
+        statemachine M {
+          var d : duration = 3 s
+          var x : float64 in m = 2 m
+          initial A
+          state A {
+            do act(rest = d + 1 s)
+            on succeeded / send Found(range = 5 m, age = elapsed(), plain = x) -> B
+            on aborted / send Found(range = 2 * x, age = 1500 ms, plain = 3) -> B
+          }
+          final B
+        }"""
+    check(compiled(text), tmp_path)
+
+
 def test_events_of_members(compiled: Callable[[str], System], tmp_path: Path) -> None:
     """The host raises them, and the model that is made of the document declares none."""
     text = """package test

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar, cast
 
 from swarmdsl.analysis.types.unit_rules import (
+    NUMBER_OF_SECONDS,
     has_root,
     must_be_alike,
     result_unit,
@@ -20,6 +21,7 @@ from swarmdsl.base.records import fields_of, replace
 from swarmdsl.base.source import Span
 from swarmdsl.ir import (
     Action,
+    Activity,
     Array,
     Assignment,
     Binary,
@@ -36,6 +38,7 @@ from swarmdsl.ir import (
     ParamRef,
     Primitive,
     Query,
+    Send,
     Service,
     StateMachine,
     System,
@@ -44,7 +47,8 @@ from swarmdsl.ir import (
     Variable,
     VariableRef,
 )
-from swarmdsl.syntax.types import FLOAT, INT, unit_of, with_unit
+from swarmdsl.ir.operations import SECOND
+from swarmdsl.syntax.types import DURATION, FLOAT, INT, unit_of, with_unit
 from swarmdsl.syntax.units import ANY, PERCENT, PLAIN, RADIAN, UNITS, Unit, unit_of_ros
 
 T = TypeVar("T")
@@ -69,8 +73,11 @@ def give_units(system: System) -> System:
         for known in system.interfaces
         for field in _fields_of(known)
     }
+    taken = {each.name: each.communication.type for each in system.functions}
+    sent = {each.name: each.type for each in system.events}
     return replace(
-        system, machines=tuple(_Units(each, fields).node(each) for each in system.machines)
+        system,
+        machines=tuple(_Units(each, fields, sent, taken).node(each) for each in system.machines),
     )
 
 
@@ -79,16 +86,27 @@ def _fields_of(known: Interface) -> Iterable[Field]:
         case Message(fields=fields):
             return fields
         case Service(request=request, response=response):
-            return (*request, *response)
+            return (*response, *request)  # of one name, that of what is sent
         case Action(goal=goal, result=result, feedback=feedback):
-            return (*goal, *result, *feedback)
+            return (*feedback, *result, *goal)
     return ()
 
 
 class _Units:
-    """Units of one machine: its variables and params, and the fields of messages."""
+    """Units of one machine: its variables and params, and the fields of messages.
 
-    def __init__(self, machine: StateMachine, fields: Mapping[tuple[Named, str], Type]) -> None:
+    `sent` and `taken` are the types of events and of functions by name.
+    """
+
+    def __init__(
+        self,
+        machine: StateMachine,
+        fields: Mapping[tuple[Named, str], Type],
+        sent: Mapping[str, Type | None],
+        taken: Mapping[str, Type | None],
+    ) -> None:
+        self._sent = sent
+        self._taken = taken
         self._types = {each.name: each.type for each in machine.variables}
         self._types.update({each.name: each.type for each in machine.params})
         self._fields = fields
@@ -108,8 +126,27 @@ class _Units:
             return cast("T", replace(node, initial=self.stored(node.initial, node.type)))
         if isinstance(node, Param) and node.default is not None:
             return cast("T", replace(node, default=self.stored(node.default, node.type)))
-        changed = {name: self.node(getattr(node, name)) for name in fields_of(type(node))}
+        parts = {name: getattr(node, name) for name in fields_of(type(node))}
+        changed = {}
+        if isinstance(node, Send):
+            changed["arguments"] = self._given(parts.pop("arguments"), self._sent.get(node.event))
+        elif isinstance(node, Activity):
+            type_ = self._taken.get(node.function)
+            changed["arguments"] = self._given(parts.pop("arguments"), type_)
+        changed.update((name, self.node(part)) for name, part in parts.items())
         return cast("T", replace(cast("Any", node), **changed))
+
+    def _given(
+        self, arguments: tuple[tuple[str, Expression], ...], of: Type | None
+    ) -> tuple[tuple[str, Expression], ...]:
+        """Return values of fields in their units; a field without one takes a number of any."""
+        types = (
+            {name: self._fields.get((of, name)) for name, _ in arguments}
+            if isinstance(of, Named)
+            else {}
+        )
+        measured = {name: each for name, each in types.items() if unit_of(each) is not None}
+        return tuple((name, self.stored(value, measured.get(name))) for name, value in arguments)
 
     def stored(self, value: Expression, type_: Type | None) -> Expression:
         """Return a value in the unit of the place where it is stored."""
@@ -202,6 +239,8 @@ def _is_number(tree: Expression) -> bool:
 
 def _converted(tree: Expression, found: Unit | None, expected: Unit | None) -> Expression:
     """Return a number in another unit, which its literal has if there is one."""
+    if isinstance(tree, Binary) and _is_seconds(tree, expected):
+        return replace(tree, type=NUMBER_OF_SECONDS, conversion="implied")
     if not _is_number(tree):
         return tree
     if isinstance(tree, Literal):
@@ -227,6 +266,17 @@ def _converted(tree: Expression, found: Unit | None, expected: Unit | None) -> E
     if expected is not None:
         made = Binary("*", made, _one(expected), FLOAT)
     return made
+
+
+def _is_seconds(division: Binary, expected: Unit | None) -> bool:
+    """Return True for a duration divided by a second where a number in seconds is expected."""
+    return (
+        expected is not None
+        and expected.dimension == UNITS["s"].dimension
+        and division.operator == "/"
+        and getattr(division.left, "type", None) == DURATION
+        and division.right == Literal(SECOND, DURATION)
+    )
 
 
 def _quotient(one: Unit | None, other: Unit | None) -> Unit | None:
