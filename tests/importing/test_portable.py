@@ -290,16 +290,20 @@ def test_models(model: Path, tmp_path: Path) -> None:
 def test_fields_with_units(compiled: Callable[[str], System], tmp_path: Path) -> None:
     text = """package test
         message Seen { range : float64 in m, age : float64 in s, plain : float64 }
+        struct Spot { x : float64 in m, y : float64 in m }
         action Act { goal { rest : float64 in s } result { rest : float64 in m } }
         function act : abstraction { action "act" : Act }
         event Found : Seen
         statemachine M {
           var d : duration = 3 s
           var x : float64 in m = 2 m
+          var here : Spot
+          var there : Spot
           initial A
           state A {
             do act(rest = d + 1 s)
             on succeeded / send Found(range = 5 m, age = elapsed(), plain = x) -> B
+            on Found / send Found(range = distance(here, there))
             on aborted / send Found(range = 2 * x, age = 1500 ms, plain = 3) -> B
           }
           final B

@@ -194,6 +194,8 @@ class _Units:
                 items = tuple(self.expression(each)[0] for each in arguments)
                 unit = unit_of(tree.type) if tree.type is not None else None
                 return replace(tree, arguments=items), unit
+            case Call(function="distance", arguments=coordinates):
+                return tree, self.expression(coordinates[0])[1]
             case Call(function=word, arguments=arguments):
                 made_, unit = self._operation(word, arguments)
                 return replace(tree, arguments=made_), unit
