@@ -37,6 +37,7 @@ NO_MODEL = {
     *("not-a-warning", "outside-project", "outside-workspace", "no-source-map"),
     "too-many-files",
     *("violated-property", "violated-in-runs", "refuted-chance", "failed-runs", "lost-worker"),
+    "no-histogram",
 }
 # Of SCXML documents, not of models; `tests/scxml` has them and their pages.
 OF_DOCUMENTS = {name for name, entry in CODES.items() if "SW08" < entry.code < "SW09"}
@@ -53,7 +54,7 @@ UNTEXTUAL = {
     *("unreadable-file", "nothing-to-compile", "broken-library"),
     *("bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic", "not-a-warning"),
     *("outside-project", "outside-workspace", "too-many-files", "violated-property"),
-    *("violated-in-runs", "refuted-chance", "failed-runs", "lost-worker"),
+    *("violated-in-runs", "refuted-chance", "failed-runs", "lost-worker", "no-histogram"),
 }
 
 
