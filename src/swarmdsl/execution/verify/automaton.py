@@ -51,6 +51,8 @@ class Automaton:
         self.kind = kind
         self.alphabet = alphabet
         self.replays = 0
+        self.is_too_large = False
+        """True if it has more states, or moves, than are looked at."""
         self.steps: list[list[Move] | None] = []
         self.heard: list[dict[int, Move]] = []
         self.first: Move
@@ -102,14 +104,13 @@ class Automaton:
         to = event.envelope.to
         return to is None or to == robot.role or to.partition("[")[0] == robot.role
 
-    def wide(self) -> str | None:
-        """Return the variable with the most values."""
+    def numbers_of_values(self) -> dict[str, int]:
+        """Return how many values the variables have that decide on anything."""
         values: dict[str, set[Any]] = {}
         for each in self._values:
             for name, value in each:
                 values.setdefault(name, set()).add(value)
-        best = max(values, key=lambda name: len(values[name]), default=None)
-        return best if best is not None and len(values[best]) > 1 else None
+        return {name: len(found) for name, found in values.items()}
 
     @property
     def is_complete(self) -> bool:
@@ -319,11 +320,8 @@ def close(
             number = 0
             while number < len(automaton.steps):
                 is_known = automaton.steps[number] is not None
-                if (
-                    number >= states
-                    or automaton.replays >= moves
-                    or not (is_known or budget.allows(0))
-                ):
+                automaton.is_too_large |= number >= states or automaton.replays >= moves
+                if automaton.is_too_large or not (is_known or budget.allows(0)):
                     complete = False
                     break
                 if not is_known:

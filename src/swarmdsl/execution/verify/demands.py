@@ -17,8 +17,9 @@ from swarmdsl.codegen.shared.default_values import (
     result_fields,
 )
 from swarmdsl.execution.verify.doubt import Doubt
+from swarmdsl.execution.verify.places import Node
 from swarmdsl.execution.verify.representatives import Part, Path, Values, combinations
-from swarmdsl.execution.verify.slice import Node, Slice
+from swarmdsl.execution.verify.slice import Slice
 
 _HEADERS = {
     "node": (ir.Named("swarmros", "EventHeader"),),
@@ -49,6 +50,11 @@ class Demands:
         return any(
             kind == "var" and name == f"{machine}.{variable}" for kind, name, _ in self._demanded
         )
+
+    @property
+    def growing(self) -> set[str]:
+        """Variables that are computed from themselves, as in `n = n + 1`."""
+        return self._slice.growing
 
     @property
     def identity(self) -> bool:

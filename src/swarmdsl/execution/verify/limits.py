@@ -33,6 +33,8 @@ class Budget:
         self._tell = tell
         self._began = time.monotonic()
         self.interrupted = False
+        self.reached = "states"
+        """The limit that ended the last search that did not find all states."""
 
     def allows(self, states: int) -> bool:
         """Return True if a search may go on."""
@@ -42,9 +44,13 @@ class Budget:
         if self.interrupted or states >= limits.states:
             return False
         if limits.seconds is not None and time.monotonic() - self._began >= limits.seconds:
+            self.reached = "time"
             return False
         used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * _KILOBYTES
-        return limits.memory is None or used < limits.memory
+        if limits.memory is None or used < limits.memory:
+            return True
+        self.reached = "memory"
+        return False
 
     @property
     def most(self) -> int:

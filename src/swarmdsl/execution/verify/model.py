@@ -22,8 +22,7 @@ from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.representatives import Values
-from swarmdsl.execution.verify.terms import meaning
-from swarmdsl.ir.sentences import facts_in
+from swarmdsl.execution.verify.terms import facts_of, mask_of, meaning, roles_of
 
 MOST_STATES, MOST_MOVES = 500, 5_000
 """Maximum number of states, and of moves, of one robot that are looked at."""
@@ -80,7 +79,7 @@ class Model:
         self._named = set(self._addressed()) | {
             f"{each.robots.role}[{each.robots.index or 0}]"
             for property_ in properties
-            for each in _facts_of(property_)
+            for each in facts_of(property_)
             if isinstance(each, ir.Fact)
             and each.robots is not None
             and each.robots.quantifier == "index"
@@ -103,7 +102,7 @@ class Model:
         """Return the groups of robots, with those by themselves that something tells apart."""
         made = []
         for number, automaton in enumerate(self.kinds):
-            mask = _mask(automaton, properties)
+            mask = mask_of(automaton.kind.facts, properties)
             quotient = self._quotient(number, mask, thorough)
             left = list(self._robots[number])
             for robot in self._robots[number]:
@@ -204,7 +203,7 @@ class Model:
         roles = list(dict.fromkeys(actor.robot.role for actor in self.cast))
         found: dict[str, list[ir.Fact | ir.Count]] = {role: [] for role in roles}
         for property_ in properties:
-            for fact in _facts_of(property_):
+            for fact in facts_of(property_):
                 for role in roles_of(fact, property_) or roles:
                     known = found.setdefault(role, [])
                     if all(meaning(each) != meaning(fact) for each in known):
@@ -341,31 +340,3 @@ class Model:
             ):
                 yield Doubt(f"the `lifespan` of `{event.name}` is not covered", event.origin)
         yield from self.demands.timed()
-
-
-def roles_of(fact: ir.Fact | ir.Count, property_: ir.Property) -> list[str]:
-    """Return the roles whose robots a fact is about; none means all robots."""
-    if isinstance(fact, ir.Count):
-        return [fact.role]
-    if fact.act == "arrives":
-        return []
-    if fact.robots is not None:
-        return [fact.robots.role]
-    return [property_.each] if property_.each is not None else []
-
-
-def _facts_of(property_: ir.Property) -> Iterator[ir.Fact | ir.Count]:
-    scope = property_.scope.claims if property_.scope is not None else ()
-    for claim in (*property_.claims, *scope):
-        yield from facts_in(claim)
-
-
-def facts_of(property_: ir.Property) -> list[ir.Fact | ir.Count]:
-    """Return the facts of a property and its scope."""
-    return list(_facts_of(property_))
-
-
-def _mask(automaton: Automaton, properties: Iterable[ir.Property]) -> int:
-    """Return the facts of some properties, as bits of an automaton."""
-    wanted = {meaning(fact) for each in properties for fact in _facts_of(each)}
-    return sum(1 << n for n, fact in enumerate(automaton.kind.facts) if meaning(fact) in wanted)

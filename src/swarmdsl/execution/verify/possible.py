@@ -32,7 +32,9 @@ def prove_possible(
     if doubts:
         return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
     if not graph.complete:
-        return Verdict(property_, "up to", states, unfinished(model), robot=me)
+        reason = unfinished(model, budget)
+        full = tuple(sorted(network.full))
+        return Verdict(property_, "up to", states, reason, robot=me, full=full)
     holds = _state_truth(property_, network, mine)
     numbers = {state: number for number, state in enumerate(graph.seen)}
     sources = array("I")

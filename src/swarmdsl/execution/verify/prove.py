@@ -9,7 +9,7 @@ from swarmdsl.base.records import replace
 from swarmdsl.execution.monitor import Sentence
 from swarmdsl.execution.verify.explore import Graph, observe
 from swarmdsl.execution.verify.limits import Budget
-from swarmdsl.execution.verify.model import Model, facts_of, roles_of
+from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.monitor_table import MOST_CLAIMS, MonitorTable
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network
@@ -17,7 +17,7 @@ from swarmdsl.execution.verify.observer import Observer
 from swarmdsl.execution.verify.possible import prove_possible
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.runs import play, steps_between
-from swarmdsl.execution.verify.terms import Terms, is_act
+from swarmdsl.execution.verify.terms import Terms, facts_of, is_act, roles_of
 from swarmdsl.execution.verify.verdict import Outcome, Verdict, unfinished, violated
 from swarmdsl.ir.sentences import facts_in
 
@@ -105,7 +105,7 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     if graph.bad is not None:
         steps = steps_between(graph.way(graph.bad), lambda s: list(observer.successors(s)))
         return violated(property_, play(observer.network, steps, property_), graph, me)
-    return _not_violated(property_, model, graph, groups, me)
+    return _not_violated(property_, model, graph, groups, me, budget)
 
 
 def _observer(
@@ -139,7 +139,12 @@ def _about(property_: ir.Property, model: Model, groups: Sequence[Group]) -> Ite
 
 
 def _not_violated(
-    property_: ir.Property, model: Model, graph: Graph, groups: Sequence[Group], me: str | None
+    property_: ir.Property,
+    model: Model,
+    graph: Graph,
+    groups: Sequence[Group],
+    me: str | None,
+    budget: Budget,
 ) -> Verdict:
     """Return the verdict when no violation was found."""
     states, full = len(graph.seen), tuple(sorted(graph.network.full))
@@ -147,7 +152,8 @@ def _not_violated(
     if doubts:
         return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
     if not graph.complete:
-        return Verdict(property_, "up to", states, unfinished(model), robot=me)
+        reason = unfinished(model, budget)
+        return Verdict(property_, "up to", states, reason, robot=me, full=full)
     scope = property_.scope.kind if property_.scope is not None else None
     if property_.kind not in _SAFE and scope not in ("before", "between"):
         return Verdict(property_, "unknown", states, _ENDLESS, robot=me)

@@ -6,7 +6,7 @@ Demands flow backwards, from guards over copies to where the data come from: a p
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from swarmdsl import ir
@@ -16,14 +16,10 @@ from swarmdsl.codegen.shared.default_values import (
 )
 from swarmdsl.execution.engine import ExecutionError
 from swarmdsl.execution.simulate.expressions import function_of
-from swarmdsl.execution.verify.representatives import Cut, Path
+from swarmdsl.execution.verify.places import Node, is_constant, parts, places, places_in
+from swarmdsl.execution.verify.representatives import Cut
 from swarmdsl.ir.integer_ranges import bound_of
 
-Node = tuple[str, str, Path]
-"""Place of data: `var`, `event`, `sender` or `result`, its name, and fields in it."""
-
-SELF: Node = ("robot", "self", ())
-SENT: Node = ("time", "sent", ())
 _COMPARISONS = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 """Comparisons, each with the one that has its sides exchanged."""
 _SURE = {
@@ -73,6 +69,24 @@ class Slice:
     def demanded(self) -> set[Node]:
         """Places that decide on anything."""
         return {*self.cuts, *self.exact}
+
+    @property
+    def growing(self) -> set[str]:
+        """Variables that are computed from themselves, perhaps by way of others or messages."""
+        sources: dict[tuple[str, str], set[tuple[str, str]]] = {}
+        for target, source in self._flows:
+            sources.setdefault(target[:2], set()).add(source[:2])
+        computed = []
+        for target, expression, machine, events in self._computed:
+            if places(expression, machine, events) is None:
+                read = {node[:2] for node in places_in(expression, machine, events)}
+                sources.setdefault(target[:2], set()).update(read)
+                computed.append((target[:2], read))
+        return {
+            target[1]
+            for target, read in computed
+            if target[0] == "var" and target in _reached(read, sources)
+        }
 
     # ---- internal
 
@@ -180,16 +194,16 @@ class Slice:
                 place = (*target[:2], (*target[2], field))
                 self._flow(place, part, inner, machine, events, is_needed=is_needed)
             return
-        nodes = self._nodes(value, machine, events)
+        nodes = places(value, machine, events)
         if nodes is not None:
             self._flows += [(target, node) for node in nodes]
             for node in nodes:
                 self.read.setdefault(node, value)
-        elif not self._is_constant(value):
+        elif not is_constant(value):
             self._computed.append((target, value, machine, events))
         if nodes is not None and bound_of(value, held) is not None:
             self._computed.append((target, value, machine, events))
-        if is_needed and can_fail(value, held) and not self._is_constant(value):
+        if is_needed and can_fail(value, held) and not is_constant(value):
             self._need(value, machine, events)
 
     def _address(self, to: ir.Address, machine: str, events: tuple[str, ...]) -> None:
@@ -200,16 +214,16 @@ class Slice:
 
     def _delay(self, delay: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
         """Demand if a delay is positive or not."""
-        nodes = self._nodes(delay, machine, events)
+        nodes = places(delay, machine, events)
         if nodes is not None:
             for node in nodes:
                 self.cuts.setdefault(node, set()).add((">", 0))
-        elif not self._is_constant(delay):
+        elif not is_constant(delay):
             self._need(delay, machine, events)
 
     def _decide(self, expression: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
         """Demand what the truth of a condition depends on."""
-        nodes = self._nodes(expression, machine, events)
+        nodes = places(expression, machine, events)
         if nodes is not None:
             for node in nodes:
                 self.cuts.setdefault(node, set()).add(("==", True))
@@ -238,10 +252,10 @@ class Slice:
         events: tuple[str, ...],
     ) -> bool:
         """Note the comparison of a place with a constant; return False if it is none."""
-        nodes = self._nodes(place, machine, events)
+        nodes = places(place, machine, events)
         for node in nodes or ():
             self.read.setdefault(node, place)
-        if nodes is None or not self._is_constant(constant):
+        if nodes is None or not is_constant(constant):
             return False
         value = function_of(constant)
         try:
@@ -254,60 +268,14 @@ class Slice:
 
     def _need(self, expression: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
         """Demand the very values that an expression reads."""
-        nodes = self._nodes(expression, machine, events)
+        nodes = places(expression, machine, events)
         if nodes is not None:
             for node in nodes:
                 self.exact.setdefault(node, expression)
                 self.read.setdefault(node, expression)
             return
-        for part in _parts(expression):
+        for part in parts(expression):
             self._need(part, machine, events)
-
-    def _nodes(
-        self, expression: ir.Expression, machine: str, events: tuple[str, ...]
-    ) -> list[Node] | None:
-        """Return the places that an expression names; None if it is more than a place."""
-        path: Path = ()
-        while isinstance(expression, ir.FieldAccess):
-            path = (expression.field, *path)
-            expression = expression.base
-        match expression:
-            case ir.VariableRef(name=name):
-                return [("var", f"{machine}.{name}", path)]
-            case ir.EventData():
-                return [("event", each, path) for each in events]
-            case ir.EnvelopeField(field=field):
-                return [("sender", each, ()) for each in events] if field == "sender" else [SENT]
-            case ir.SelfField(field="id" | "index"):
-                return [SELF]
-            case ir.Elapsed(state=state):
-                return [("time", state, ())]
-        return None
-
-    def _is_constant(self, expression: ir.Expression) -> bool:
-        """Return True for what is the same in all runs."""
-        varies = (
-            *(ir.VariableRef, ir.EventData, ir.EnvelopeField, ir.ItemRef),
-            *(ir.InState, ir.Elapsed),
-        )
-        return not any(
-            isinstance(part, varies)
-            or (isinstance(part, ir.SelfField) and part.field in ("id", "index"))
-            or (isinstance(part, ir.Call) and part.function == "present")
-            for part in ir.subexpressions(expression)
-        )
-
-
-def _parts(expression: ir.Expression) -> Iterator[ir.Expression]:
-    """Yield the direct parts of an expression."""
-    found: list[ir.Expression] = []
-
-    def keep(part: ir.Expression) -> ir.Expression:
-        found.append(part)
-        return part
-
-    ir.mapped(expression, keep)
-    yield from found
 
 
 def can_fail(expression: ir.Expression, held: ir.Type | None) -> bool:
@@ -334,6 +302,20 @@ def _behind(node: Node, target: Node, source: Node) -> Node | None:
     if inner[: len(outer)] == outer:
         return (*source[:2], (*source[2], *inner[len(outer) :]))
     return source if outer[: len(inner)] == inner else None
+
+
+def _reached(
+    first: Iterable[tuple[str, str]],
+    following: Mapping[tuple[str, str], Iterable[tuple[str, str]]],
+) -> set[tuple[str, str]]:
+    """Return what can be reached from some places."""
+    found = set(first)
+    todo = list(found)
+    while todo:
+        new = set(following.get(todo.pop(), ())) - found
+        found |= new
+        todo += new
+    return found
 
 
 def _overlap(node: Node, target: Node) -> bool:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from swarmdsl import ir
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.ir import Claim, Count, Fact, Junction
 from swarmdsl.ir.operations import OPERATIONS
+from swarmdsl.ir.sentences import facts_in
 
 Truth = Callable[[Sequence[int], Sequence[int]], bool]
 """Truth of a claim, given for each fact how many robots it holds for, and if it does for me."""
@@ -113,3 +114,26 @@ def meaning(fact: Fact | Count) -> tuple[str, str, ir.Expression | None]:
     if isinstance(fact, Count):
         return ("in", fact.state, None)
     return (fact.act, fact.name, fact.guard)
+
+
+def facts_of(property_: ir.Property) -> list[Fact | Count]:
+    """Return the facts of a property and its scope."""
+    scope = property_.scope.claims if property_.scope is not None else ()
+    return [fact for claim in (*property_.claims, *scope) for fact in facts_in(claim)]
+
+
+def roles_of(fact: Fact | Count, property_: ir.Property) -> list[str]:
+    """Return the roles whose robots a fact is about; none means all robots."""
+    if isinstance(fact, Count):
+        return [fact.role]
+    if fact.act == "arrives":
+        return []
+    if fact.robots is not None:
+        return [fact.robots.role]
+    return [property_.each] if property_.each is not None else []
+
+
+def mask_of(facts: Sequence[Fact | Count], properties: Iterable[ir.Property]) -> int:
+    """Return the bits of the facts that some properties are about."""
+    wanted = {meaning(fact) for each in properties for fact in facts_of(each)}
+    return sum(1 << n for n, fact in enumerate(facts) if meaning(fact) in wanted)

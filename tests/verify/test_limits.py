@@ -1,0 +1,75 @@
+"""Reasons why a search has ended before it has found all states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from swarmdsl.execution.simulate.properties import watchable
+from swarmdsl.execution.verify import model as models
+from swarmdsl.execution.verify.limits import Budget, Limits
+from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.prove import prove
+
+COUNTING = """package test
+message Job { number : uint32 }
+swarm event Announced : Job
+swarm event Done : Job
+function carry : abstraction { service "carry" : std_srvs/Empty }
+endless statemachine Announcing {
+  var number : uint32 = 0
+  initial Rest
+  state Rest { after 1 s / number = number + 1, send Announced(number = number) -> Wait }
+  state Wait {
+    on Done [event.number == number] -> Rest
+    after 5 s -> Rest
+  }
+}
+endless statemachine Carrying {
+  var job : Job
+  initial Free
+  state Free { on Announced / job = event -> Work }
+  state Work {
+    do carry
+    on succeeded, aborted / send Done(number = job.number) -> Free
+  }
+}
+member Carrier { behavior Carrying }
+member Boss { behavior Announcing }
+swarm Yard { carrier : Carrier[2]; boss : Boss }
+property Few of Yard : never count(carrier in Work) > 2
+"""
+
+
+def test_the_variable_to_bound_is_the_one_that_grows(
+    modelled: Callable[..., Model], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(models, "MOST_STATES", 20)
+    model = modelled(COUNTING)
+
+    (verdict,) = (
+        prove(each, model, Budget(Limits(states=2_000))) for each in watchable(model.subject)
+    )
+
+    assert verdict.outcome == "up to"
+    assert verdict.reason == "a `carrier` has too many states: bound `Announcing.number`"
+    assert "Announced" in verdict.full
+
+
+@pytest.mark.parametrize(
+    ("limits", "reached"),
+    [(Limits(states=5), "states"), (Limits(seconds=0), "time"), (Limits(memory=1), "memory")],
+)
+def test_the_limit_that_ended_a_search_is_told(
+    limits: Limits, reached: str, modelled: Callable[..., Model]
+) -> None:
+    bounded = COUNTING.replace("number = number + 1", "number = (number + 1) % 2")
+    model = modelled(bounded)
+    assert model.complete
+    (property_,) = watchable(model.subject)
+
+    verdict = prove(property_, model, Budget(limits))
+
+    assert verdict.outcome == "up to"
+    assert verdict.reason == f"the search came to its limit of {reached}"
