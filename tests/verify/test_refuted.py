@@ -198,3 +198,34 @@ def test_a_chain_of_too_many_claims_is_unknown(modelled: Callable[..., Model]) -
     verdict = verdicts_of(model)["P"]
 
     assert (verdict.outcome, verdict.reason) == ("unknown", "it has more than 10 claims")
+
+
+_TWICE = (
+    "package test\nevent Go : std_msgs/Empty\nswarm event Said : std_msgs/Empty { %s }\n"
+    "statemachine M {\n initial S0\n state S0 { on Go / send Said -> S1 }\n"
+    " state S1 { on Go / send Said -> End }\n final End\n}\n"
+    "statemachine N {\n initial S0\n state S0 { on Said -> S1 }\n state S1 { on Said -> End }\n"
+    " final End\n}\n" + _TWO + "property P of S : each b : always possible in End"
+)
+
+
+def test_reliable_events_of_which_the_oldest_are_dropped_may_be_lost(
+    modelled: Callable[..., Model], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    outcomes = []
+    for delivery in ("reliable", "reliable, keep 1"):
+        model = modelled(_TWICE % delivery, lossy=True)
+        outcomes.append(verdicts_of(model)["P"].outcome)
+    (tmp_path / "apart.toml").write_text(
+        '[[faults]]\nat = "0s"\nlasts = "10s"\napart = [["a"], ["b"]]\n'
+    )
+    go = json.dumps({"event": "Go", "member": "a[0]", "after": 10})
+    (tmp_path / "go.jsonl").write_text(f"{go}\n{go}\n")
+    files = ["--scenario", str(tmp_path / "apart.toml"), "--events", str(tmp_path / "go.jsonl")]
+
+    run(["simulate", str(tmp_path / "model.swarm"), *files, "--trace", "text"])
+    trace = capsys.readouterr().out
+
+    assert "b[0]  Said -> S1" in trace
+    assert "b[0]  Said -> End" not in trace
+    assert outcomes == ["holds", "fails"]

@@ -37,7 +37,8 @@ class Alphabet:
             self._known[key] = len(self.messages)
             assert self.system is not None
             delivery = self.system.event(event.name).delivery
-            reliable = delivery is not None and bool(delivery.reliable)
+            # Of events that wait for a robot out of reach, `keep` drops the oldest.
+            reliable = delivery is not None and bool(delivery.reliable) and delivery.keep is None
             self.messages.append(Message(len(self.messages), event, reliable))
         return self._known[key]
 

@@ -120,6 +120,9 @@ def conditions(model: Model, full: Sequence[str]) -> Iterator[str]:
     options = model.options
     if model.alphabet.messages:
         loss = "any of them may be lost" if options.lossy else "none is lost"
+        reliable = sorted({each.event.name for each in model.alphabet.messages if each.reliable})
+        if options.lossy and reliable:
+            loss += f" but {listed(reliable, 'and')}"
         yield f"messages between robots arrive in any order, {loss}"
         if full:
             names = listed(list(full), "and")
