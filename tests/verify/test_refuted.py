@@ -229,3 +229,36 @@ def test_reliable_events_of_which_the_oldest_are_dropped_may_be_lost(
     assert "b[0]  Said -> S1" in trace
     assert "b[0]  Said -> End" not in trace
     assert outcomes == ["holds", "fails"]
+
+
+_MANY = (
+    _PRELUDE + "statemachine M {\n initial S0\n state S0 { on Go / send Ask(word = 1), "
+    "send Ask(word = 2), send Ask(word = 3) -> S1 }\n"
+    " state S1 { on Go / send Ask(word = 4) -> End }\n final End\n}\n"
+    "endless statemachine N {\n initial S0\n state S0 { on Ask [event.word == 1] -> S1 }\n"
+    " state S1 { on Ask [event.word == 2] -> S2 }\n"
+    " state S2 {\n on Ask [event.word == 3] -> Good\n on Ask [event.word == 4] -> Bad\n}\n"
+    " state Good\n state Bad\n}\n" + _TWO
+)
+
+
+@pytest.mark.parametrize("claim", ["never in Bad", "always possible (in Good or in Bad)"])
+def test_no_run_loses_what_is_beyond_the_capacity(
+    claim: str, modelled: Callable[..., Model]
+) -> None:
+    text = f"{_MANY}property P of S : each b : {claim}"
+    verdict = verdicts_of(modelled(text))["P"]
+
+    assert verdict.outcome == "unknown"
+    assert "of more than 2 `Ask` on the way to a robot, one is lost in it" in verdict.reason
+
+
+def test_a_run_of_a_lossy_network_names_what_is_beyond_the_capacity(
+    modelled: Callable[..., Model],
+) -> None:
+    model = modelled(f"{_MANY}property P of S : each b : never in Bad", lossy=True)
+    verdict = verdicts_of(model)["P"]
+
+    assert verdict.outcome == "fails"
+    assert verdict.run is not None
+    assert [(event, robot) for _, event, robot in verdict.run.lost] == [("Ask", "b[0]")]

@@ -184,7 +184,7 @@ class _Part:
             waiting = self._waiting(self._graph.way(number)[-1])
             if not waiting or set(waiting) & trapped:
                 continue
-            run = play(self._network, self._steps(number))
+            run = play(self._network, self._steps(number), is_whole=True)
             if run.flaw:
                 continue
             group, local = waiting[0]

@@ -67,7 +67,7 @@ def prove_possible(
             return Verdict(property_, "unknown", states, reason, robot=me)
         return Verdict(property_, "holds", states, robot=me, full=tuple(sorted(network.full)))
     steps = steps_between(graph.way(lost), lambda s: list(network.followers(s)))
-    run = play(network, steps)
+    run = play(network, steps, is_whole=True)
     return violated(property_, run, graph, me)
 
 

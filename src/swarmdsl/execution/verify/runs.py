@@ -62,6 +62,8 @@ class _Robot:
     state: int
     body: Body
     bag: list[_Copy] = field(default_factory=list)
+    late: list[_Copy] = field(default_factory=list)
+    """Messages beyond the capacity of the network: they do not arrive in the run."""
     moments: list[int] = field(default_factory=list)
     """Numbers of the steps of the run at which it did something."""
 
@@ -71,15 +73,24 @@ class _Robot:
         return self.group.automaton.classes[self.state] == state and mine == bag
 
 
-def play(network: Network, steps: Sequence[Step], property_: Property | None = None) -> Run:
+def play(
+    network: Network,
+    steps: Sequence[Step],
+    property_: Property | None = None,
+    *,
+    is_whole: bool = False,
+) -> Run:
     """Run the steps of a network on the engine.
 
-    The run shows the property, if one is given, to be violated; otherwise that is a flaw.
+    The run shows the property, if one is given, to be violated; otherwise that is a flaw. With
+    `is_whole`, nothing more is on its way at its end.
     """
     timeless = _Play(network, [0] * (len(steps) + 1), None)
     timeless.run(steps)
     if timeless.departs:
         return Run((), flaw=_ELSEWHERE)
+    if timeless.exceeds or (is_whole and timeless.late):
+        return Run((), flaw=_exceeding(network, timeless.exceeds or timeless.late))
     if timeless.overtakes:
         return Run((), flaw=f"an event overtakes an earlier one on `{timeless.overtakes}`")
     times = _times(len(steps), timeless.constraints())
@@ -93,10 +104,16 @@ def play(network: Network, steps: Sequence[Step], property_: Property | None = N
     if timed.departs:
         return Run((), flaw=_ELSEWHERE)
     if watch is not None:
+        if not watch.violations and timed.late:
+            return Run((), flaw=_exceeding(network, timed.late))
         (result,) = watch.results(times[-1], ended=True)
         if result.verdict != FALSE:
             return Run((), flaw="the monitor does not see a violation in it")
     return Run(tuple(timed.lines), tuple(timed.lost))
+
+
+def _exceeding(network: Network, event: str) -> str:
+    return f"of more than {network.capacity} `{event}` on the way to a robot, one is lost in it"
 
 
 def _order(name: str | None) -> tuple[str, int]:
@@ -111,6 +128,9 @@ class _Play:
         self.lines: list[Line] = []
         self.lost: list[tuple[int, str, str]] = []
         self.overtakes = ""
+        """Topic on which a message overtakes an earlier one."""
+        self.exceeds = ""
+        """Event of a message beyond the capacity that a later one overtakes."""
         self.departs = False
         self._network = network
         self._alphabet: Alphabet = network.alphabet
@@ -142,6 +162,11 @@ class _Play:
             self._take(step)
             if self.departs:
                 return
+
+    @property
+    def late(self) -> str:
+        """Event of a message that has not arrived for lack of capacity, or an empty string."""
+        return next((copy.event.name for robot in self.robots for copy in robot.late), "")
 
     def data(self, actor: Actor) -> Any:
         """Return the variables of a machine."""
@@ -180,7 +205,7 @@ class _Play:
         if given.kind == "hear":
             robot, copy = self._heard(robots, given.choice)
             robot.bag.remove(copy)
-            event = copy.event
+            event = self._oldest(robot, copy).event
         else:
             robot = robots[0]
         self._move(robot, step.move, event)
@@ -195,15 +220,19 @@ class _Play:
         self.overtakes = choices[0][1].topic
         return choices[0]
 
+    def _oldest(self, robot: _Robot, copy: _Copy) -> _Copy:
+        """Return the first message of an equal kind, which arrives instead of a later one."""
+        equal = [each for each in robot.late if each.number == copy.number]
+        found = min((copy, *equal), key=lambda each: each.order)
+        if found is not copy:
+            robot.late[robot.late.index(found)] = copy
+        if any(_precedes(each, found) for each in robot.late):
+            self.exceeds = self.exceeds or found.event.name
+        return found
+
     def _is_before(self, robot: _Robot, copy: _Copy) -> bool:
         """Return True if an earlier message of the same channel is still on its way."""
-        sender = copy.event.envelope.sender
-        return any(
-            other.order < copy.order
-            and other.topic == copy.topic
-            and other.event.envelope.sender == sender
-            for other in robot.bag
-        )
+        return any(_precedes(other, copy) for other in robot.bag)
 
     def _move(self, robot: _Robot, move: Move, event: Event | None) -> None:
         automaton = robot.group.automaton
@@ -221,6 +250,7 @@ class _Play:
         robot.state = found.target
         if not robot.body.running:
             robot.bag.clear()
+            robot.late.clear()
         self._send(robot, list(robot.body.sent))
 
     def _send(self, source: _Robot, sent: Sequence[Event]) -> None:
@@ -239,16 +269,27 @@ class _Play:
                 to = event.envelope.to
                 if not (to is None or to in (robot.name, robot.group.role)):
                     continue
+                envelope = Envelope(source.name or "", event.envelope.sent, to)
+                real = Event(event.name, event.data, envelope=envelope)
+                copy = _Copy(number, real, topic, self._sent)
                 same = [c for c in robot.bag if c.event.name == event.name]
                 if len(same) < self._network.capacity:
-                    envelope = Envelope(source.name or "", event.envelope.sent, to)
-                    real = Event(event.name, event.data, envelope=envelope)
-                    robot.bag.append(_Copy(number, real, topic, self._sent))
+                    robot.bag.append(copy)
+                elif self._network.lossy and not self._alphabet.messages[number].reliable:
+                    self.lost.append((len(self.lines), event.name, robot.name or ""))
+                else:
+                    robot.late.append(copy)
 
     def _see(self, line: Line) -> None:
         self.lines.append(line)
         if self._watch is not None:
             self._watch.see(line)
+
+
+def _precedes(one: _Copy, other: _Copy) -> bool:
+    """Return True if a message was sent before another one on the same channel."""
+    senders = (each.event.envelope.sender for each in (one, other))
+    return one.order < other.order and one.topic == other.topic and len(set(senders)) == 1
 
 
 def _times(steps: int, constraints: Sequence[tuple[int, int, int]]) -> list[int] | None:
