@@ -28,12 +28,15 @@ class Values:
         self.whole = sorted({int(v) + near for v in numbers for near in (-1, 0, 1)} | set(range(8)))
         self.real = sorted({v + near for v in numbers for near in (-0.125, 0, 0.125)} | {0, 5.5})
         self.texts = sorted({v for v in literals if isinstance(v, str)} | {"", "a", "b"})
-        self.asked = {}
+        self.asked = {path: node.type for node in nodes if (path := _path(node))}
         """The fields of messages that are looked at, which an interface may not tell."""
+        self.needed: dict[tuple[str, ...], list[Any]] = {}
+        """Values that such fields have to equal somewhere."""
         for node in nodes:
-            path = _path(node)
-            if path:
-                self.asked[path] = node.type
+            match node:
+                case ir.Binary(operator="==", left=left, right=Literal(value=value)):
+                    if path := _path(left):
+                        self.needed.setdefault(path, []).append(value)
 
     def value(self, type_: ir.Type) -> Any:
         """A value of a type."""
@@ -61,7 +64,10 @@ class Values:
         """A message that comes with an event."""
         message: dict[str, Any] = self.value(event.type)
         for path, type_ in self.asked.items():
-            _store(message, path, self.value(type_))
+            _inside(message, path).setdefault(path[-1], self.value(type_))
+        for path, literals in self.needed.items():
+            if self.dice.random() < 0.5:
+                _inside(message, path)[path[-1]] = self.dice.choice(literals)
         return message
 
     def result(self, activity: ir.Activity) -> dict[str, Any]:
@@ -101,8 +107,8 @@ def _path(node: Any) -> tuple[str, ...]:
     return path if isinstance(node, EventData) else ()
 
 
-def _store(message: dict[str, Any], path: tuple[str, ...], value: Any) -> None:
+def _inside(message: dict[str, Any], path: tuple[str, ...]) -> dict[str, Any]:
+    """The part of a message that has the last field of a path."""
     for field in path[:-1]:
         message = message.setdefault(field, {})
-    if isinstance(message, dict):
-        message.setdefault(path[-1], value)
+    return message
