@@ -425,6 +425,42 @@ def test_robots_have_numbers(old: str, new: str, expected: list[str], tmp_path: 
     assert lines[1:] == expected
 
 
+LOCAL = """package lab
+event Go : std_msgs/Empty
+statemachine Fly {
+  initial Up
+  state Up {
+    var tries : int32 = 0
+    on Go / tries = tries + 1
+    [tries > 3] -> Down
+  }
+  final Down
+}
+member Robot { behavior Fly }
+swarm Lab { robot : Robot }
+property Few of Lab : never robot has [tries > 5]
+"""
+
+
+def test_variables_of_states_have_their_names_in_the_model(tmp_path: Path) -> None:
+    new = LOCAL.replace("= 0", "= 2").replace("tries + 1", "tries + 2").replace("5]", "6]")
+    changes, breaking = compare(system(LOCAL, tmp_path), system(new, tmp_path))
+
+    assert list(format_changes(changes, breaking, "text", lambda span: f"{span.line}")) == [
+        "~ statemachine Fly (3)",
+        "    ~ variable `Up.tries`: initial is `2`, was `0` (6)",
+        (
+            "    ~ transition `on Go` of state `Up`: effect is `Up.tries = Up.tries + 2`, "
+            "was `Up.tries = Up.tries + 1` (7)"
+        ),
+        "~ property Few (14)",
+        (
+            "    ~ says is `never robot has [Up.tries > 6]`, "
+            "was `never robot has [Up.tries > 5]` (14)"
+        ),
+    ]
+
+
 def test_every_rule_is_explained() -> None:
     assert all(rule == rule.upper() and about for rule, about in RULES.items())
 

@@ -129,6 +129,8 @@ MISTAKES = (
     ),
     ("STATEMENT", f"on Start / {BID} to carrier [1]", "carrier [1]", "{0}"),
     ("STATEMENT", f"on Start / {BID} to carrier.0", "carrier.0", "{0}"),
+    ("STATEMENT", f"on Start / {BID} to role carrier -> B", "to role carrier", "{0}"),
+    ("STATEMENT", "on Start [self.id in carrier] -> B", "self.id in carrier", "{0}"),
     ("STATEMENT", f"on Start / {BID} to carrier, box", f"{BID} to carrier, box", "{0}"),
     (
         "STATEMENT",

@@ -48,6 +48,12 @@ _HINTS = (
     (r"([\w.]+)\.(?:len|length|size|count)\(@\)", "", r"write `len(\1)`"),
     (r"([\w.]+)\.(?:is_?empty|isEmpty|empty)\(@\)", "", r"write `len(\1) == 0`"),
     (
+        r"\[(?:[^]]*[^\w.])?(self|event)\.id @in +([A-Za-z_]\w*) *(?:\]|and\b|or\b)",
+        "",
+        r'for a role, write `\1.role == "\2"`; for an array, `contains(\2, \1.id)`',
+    ),
+    (r"\bto +role +@(\w+)", "", r"write `to \1`"),
+    (
         r"\[(?:[^]]*[^\w.])?([\w.]+) @in +([A-Za-z_][\w.]*) *(?:\]|and\b|or\b)",
         "",
         r"write `contains(\2, \1)`",

@@ -34,7 +34,7 @@ from swarmdsl.ir import (
     sentences,
 )
 from swarmdsl.ir.sentences import sentence
-from swarmdsl.tools.compare.behaviour import machine_element, param_elements
+from swarmdsl.tools.compare.behaviour import declared_names, machine_element, param_elements
 from swarmdsl.tools.compare.elements import (
     ROBOT_KIND,
     Element,
@@ -48,6 +48,7 @@ from swarmdsl.tools.compare.elements import (
     state_kind,
     type_value,
     with_doc,
+    with_names,
 )
 
 T = TypeVar("T")
@@ -68,7 +69,7 @@ def model_element(system: System) -> Element:
         *(_property(each, system) for each in system.properties),
     )
     root = Element("model", (system.name,), (), children, origin=system.origin)
-    return with_doc(root, system.doc)
+    return with_doc(with_names(root, declared_names(system.machines)), system.doc)
 
 
 def _named(name: str | None, kind: str) -> Value:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.diagram.local_variables import without_first_values
 from swarmdsl.codegen.swarm_printer.reuse import Reuse, find_reuse, own_variables
 from swarmdsl.ir import (
     Activity,
@@ -29,6 +30,7 @@ from swarmdsl.ir import (
     TimeTrigger,
     Transition,
     Trigger,
+    Variable,
 )
 from swarmdsl.tools.compare.elements import (
     Element,
@@ -61,13 +63,13 @@ _KIND_NAMES = {
 def machine_element(machine: StateMachine, system: System) -> Element:
     """Element of a state machine with its params, variables and states."""
     machines = system.machines_by_name
-    builder = _Machine(machine.name, find_reuse(machine, machines))
+    builder = _Machine(machine.name, find_reuse(machine, machines), machine.variables)
     data = [*param_elements(machine.params, machine.name)]
     data += (
         with_doc(
             Element(
                 "variable",
-                (variable.name,),
+                (declared_name(variable),),
                 properties(
                     type=type_value(variable.type),
                     initial=expression_value(variable.initial, machine.name),
@@ -99,12 +101,29 @@ def param_elements(params: Iterable[Param], machine: str = "") -> Iterator[Eleme
         yield with_doc(Element("param", (param.name,), values, (), ref, param.origin), param.doc)
 
 
+def declared_name(variable: Variable) -> str:
+    """Name of a variable in the model; `State.variable` for one of a state."""
+    return f"{variable.owner}.{variable.local}" if variable.local else variable.name
+
+
+def declared_names(machines: Iterable[StateMachine]) -> dict[Ref, Ref]:
+    """Map the variables of states to their names in the model."""
+    return {
+        Ref(kind, each.name): Ref(kind, declared_name(each))
+        for machine in machines
+        for kind in [variable_kind(machine.name)]
+        for each in machine.variables
+        if each.local
+    }
+
+
 @dataclass(frozen=True)
 class _Machine:
     """Element builder that resolves the names of one state machine."""
 
     name: str
     reuse: Reuse | None
+    variables: tuple[Variable, ...]
 
     def state(self, id_: str | None) -> Value:
         return (Ref(state_kind(self.name), id_),) if id_ is not None else ()
@@ -118,7 +137,7 @@ class _Machine:
             submachine=(Ref("statemachine", state.submachine),) if state.submachine else (),
             bindings=argument_values(use.bindings, self.name) if use is not None else (),
             activity=self._activity(state.activity),
-            entry_effect=self._effects(entry),
+            entry_effect=self._effects(without_first_values(entry, self.variables)),
             exit_effect=self._effects(state.exit),
             deferred=join_values((self._trigger(each, state) for each in state.deferred), ", "),
             deep=state.deep,

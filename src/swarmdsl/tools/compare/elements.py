@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
@@ -108,6 +108,23 @@ def type_value(type_: Type | None) -> Value:
     whole = str(type_)
     name, bracket, size = whole.partition("[")
     return (Ref("interface", name), f"{bracket}{size}") if "/" in name else (written(type_),)
+
+
+def with_names(element: Element, names: Mapping[Ref, Ref]) -> Element:
+    """Return an element in which some elements have other names."""
+    if not names:
+        return element
+
+    def value(given: Value) -> Value:
+        return tuple(names.get(each, each) if isinstance(each, Ref) else each for each in given)
+
+    return replace(
+        element,
+        name=value(element.name),
+        values=tuple((name, value(given)) for name, given in element.values),
+        children=tuple(with_names(child, names) for child in element.children),
+        ref=names.get(element.ref, element.ref) if element.ref is not None else None,
+    )
 
 
 def state_kind(machine: str) -> str:
