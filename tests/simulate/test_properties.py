@@ -62,6 +62,9 @@ def verdicts(ran: Ran) -> dict[str, tuple[str, str]]:
         ("after Stop until Start, never robot[2] in Idle", "true", "its scope never began"),
         ("between Start and Stop, never robot[2] in Busy", "true", "its scope never ended"),
         ("each robot : after hears Stop, never in Idle", "true", "its scope never began"),
+        ("Stop leads to robot[2] in Busy", "true", "its first part never happened"),
+        ("each robot : hears Stop only after in Idle", "true", "its first part never happened"),
+        ("before Start, Stop leads to Start", "true", "its first part never happened"),
         ("each robot : after hears Start, eventually in Busy", "true", ""),
         ("never count(robot in Going) > 1", "false", "at 1.5 s"),
         ("never count(robot in Busy.Going) > 2", "true", ""),
@@ -238,13 +241,19 @@ def test_a_timeline_has_a_lane_for_each_property(simulate: Simulate) -> None:
     model = f"""{MODEL}
 property Calm of Crew : never some robot in Going
 property Ends of Crew : each robot : in Going leads to in Resting
+property Halts of Crew : Stop leads to all robot in Idle
+property Rests of Crew : after Stop, never some robot in Busy
 """
     simulate(model, "--timeline", "run.svg", "--until", "20s", events=EVENTS)
-    titles = re.findall(r"<title>(\w+: \w+)\n([^:]*):", Path("run.svg").read_text(encoding="utf-8"))
+    titles = re.findall(
+        r"<title>(\w+: [\w, ]+)\n([^:]*):", Path("run.svg").read_text(encoding="utf-8")
+    )
     assert ("Calm: true", "0 ms to 1 s") in titles
     assert ("Calm: false", "1 s to 16.5 s") in titles
     assert ("Ends: open", "1 s to 2.5 s") in titles
     assert ("Ends: true", "12.5 s to 16.5 s") in titles
+    assert ("Halts: true, but its first part never happened", "0 ms to 16.5 s") in titles
+    assert ("Rests: true, but its scope never began", "0 ms to 16.5 s") in titles
 
 
 @pytest.mark.parametrize(("lasts", "verdict"), [('lasts = "2 s"\n', "open"), ("", "true")])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -50,6 +51,28 @@ def test_a_property_that_holds_is_not_violated(run: Run) -> None:
     assert ran.code == 1
     assert "expected property `Lit` to be violated" in ran.out + ran.err
     assert "its verdict is true" in ran.out + ran.err
+
+
+@pytest.mark.parametrize(
+    ("steps", "noted"),
+    [
+        ('{ pass = "1 s" }', ["scope never began", "first part never happened"]),
+        ('{ send = "Start" }, { pass = "1 s" }', []),
+    ],
+)
+def test_a_property_that_says_nothing_of_any_test_is_noted(
+    run: Run, folder: Path, steps: str, noted: list[str]
+) -> None:
+    quiet = "property Lights of Lamps : some lamp in On leads to some lamp in Off\n"
+    (folder / "lamps.swarm").write_text(MODEL + PROPERTIES + quiet, encoding="utf-8")
+    waits = '[[test]]\nname = "waits"\nsteps = [{ pass = "1 s" }]\n'
+    test = f'[[test]]\nname = "t"\nsteps = [{steps}]\n'
+    ran = run(
+        f'swarm = "Lamps"\nproperties = ["Lit", "Lights"]\n{waits}{test}', "--junit", "out.xml"
+    )
+    assert ran.code == 0
+    assert re.findall(r"  note    property `\w+`: its (.*) in these tests", ran.out) == noted
+    assert all(remark in Path("out.xml").read_text(encoding="utf-8") for remark in noted)
 
 
 def test_properties_of_a_file_are_those_of_the_subject(run: Run) -> None:

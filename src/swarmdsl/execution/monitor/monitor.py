@@ -18,6 +18,8 @@ Verdict = Literal["true", "false", "open"]
 TRUE: Verdict = "true"
 FALSE: Verdict = "false"
 OPEN: Verdict = "open"
+_CAUSED = ("leads", "only")
+"""Kinds of sentences that say nothing of a run in which their first claim never holds."""
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,7 @@ class Monitor:
         self._over = False
         self._began = False
         self._ended = False
+        self._happened = sentence.kind not in _CAUSED
 
     def copy(self) -> Monitor:
         """Return a monitor that has seen the same."""
@@ -77,12 +80,12 @@ class Monitor:
 
     @property
     def remark(self) -> str:
-        """Return why a verdict is about no part of the run, else an empty string."""
+        """Return why the property says nothing of the run, else an empty string."""
         if not self._began:
             return "its scope never began"
         if self._waits_for_end and not self._ended:
             return "its scope never ended"
-        return ""
+        return "" if self._happened else "its first part never happened"
 
     @property
     def due(self) -> int | None:
@@ -105,6 +108,7 @@ class Monitor:
             if self._scope == "before" and scope[0]:
                 self._close(time)
         if self._pattern is not None and self._pattern.broken is None:
+            self._happened |= claims[0]
             self._pattern.step(time, claims)
             self._judge()
 

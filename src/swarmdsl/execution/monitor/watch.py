@@ -31,7 +31,7 @@ class Violation(NamedTuple):
 class PropertyResult(NamedTuple):
     """Verdict on a property at the end of a run; `robots` are those with the same verdict.
 
-    `remark` says why a true one is about no part of the run.
+    `remark` says why a true one says nothing of the run.
     """
 
     property: Property
@@ -310,7 +310,7 @@ class _Watched:
 
     @property
     def remark(self) -> str:
-        """Return why a verdict is about no part of the run, for no robot."""
+        """Return why the property says nothing of the run, for no robot."""
         remarks = {monitor.remark for monitor in self._monitors.values()}
         if not remarks:
             return "there was no robot"

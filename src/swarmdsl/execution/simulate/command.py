@@ -194,7 +194,7 @@ class _Play:
                     readings = monitors.readings(now, self._limit if over else now)
                     fitness = evaluate(self._fitness, readings)
                 if picture is not None:
-                    picture()
+                    picture({each.property.name: each.remark for each in results})
         except OSError as error:
             if error.filename is None:
                 raise  # of standard output
@@ -314,8 +314,8 @@ class _Play:
         history: Mapping[str, Sequence[tuple[int, Verdict]]],
         stack: ExitStack,
         report: Diagnostics,
-    ) -> Callable[[], object] | None:
-        """Prepare drawing the timeline, if requested."""
+    ) -> Callable[[Mapping[str, str]], object] | None:
+        """Prepare drawing the timeline with remarks on properties, if requested."""
         if self._request.timeline is None:
             return None
         stream = self._write_to(self._request.timeline, stack, report)
@@ -324,7 +324,7 @@ class _Play:
         timeline = Timeline(self._subject.name, self._cast)
         self._listeners.append(timeline.note)
         self._world.network.transmitted = timeline.transmitted
-        return lambda: stream.write(timeline.svg(self._world.clock.now, history))
+        return lambda remarks: stream.write(timeline.svg(self._world.clock.now, history, remarks))
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         try:

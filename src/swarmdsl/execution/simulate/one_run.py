@@ -23,7 +23,7 @@ class Outcome(NamedTuple):
     """Result of a run: verdicts by property, values of measures in order, and the fitness.
 
     A value is a number or a time in nanoseconds, and False if it was not reached. `remarks` say
-    why a true verdict is about no part of the run, `reason` why there is no fitness, `failure` why
+    why a true verdict says nothing of the run, `reason` why there is no fitness, `failure` why
     a run has no result. `failed` are the evaluations that failed, by machine and reason.
     """
 

@@ -80,12 +80,24 @@ class Timeline:
         """Keep a swarm event in transit."""
         self._transmissions.append(crossing)
 
-    def svg(self, end: int, verdicts: Verdicts | None = None) -> str:
-        """Draw a run of the given duration, with a lane for each property."""
-        picture = _Picture(
-            self._title, self._lines, self._transmissions, max(end, 1), verdicts or {}
-        )
-        return picture.draw()
+    def svg(
+        self,
+        end: int,
+        verdicts: Verdicts | None = None,
+        remarks: Mapping[str, str] | None = None,
+    ) -> str:
+        """Draw a run of the given duration, with a lane for each property.
+
+        `remarks` by property explain verdicts at the end.
+        """
+        return _Picture(
+            self._title,
+            self._lines,
+            self._transmissions,
+            max(end, 1),
+            verdicts or {},
+            remarks or {},
+        ).draw()
 
 
 class _Stay(NamedTuple):
@@ -104,8 +116,10 @@ class _Picture:
         transmissions: list[Transmission],
         end: int,
         verdicts: Verdicts,
+        remarks: Mapping[str, str],
     ) -> None:
         self.verdicts = verdicts
+        self.remarks = remarks
         self.title = title
         self.lines = lines
         self.transmissions = transmissions
@@ -199,10 +213,13 @@ class _Picture:
             ends = [*(time for time, _ in changes[1:]), self.end]
             for (start, verdict), end in zip(changes, ends, strict=True):
                 width = max(self.x(end) - self.x(start), _NARROWEST)
-                title = f"{name}: {verdict}\n{_between(start, end)}"
+                remark = self.remarks.get(name) if end == self.end else None
+                said = f"{verdict}, but {remark}" if remark else verdict
+                title = f"{name}: {said}\n{_between(start, end)}"
                 drawing.bar(self.x(start), top, width, _ROW, _VERDICTS[verdict], title)
-                if width > _LETTER * (len(verdict) + 1):
-                    drawing.text(self.x(start) + 4, top + _ROW / 2 + 4, verdict, "state")
+                label = next((t for t in (said, verdict) if width > _LETTER * (len(t) + 1)), "")
+                if label:
+                    drawing.text(self.x(start) + 4, top + _ROW / 2 + 4, label, "state")
             top += _ROW + 2
 
     def stays(self, actor: Actor) -> dict[tuple[int, int], list[_Stay]]:

@@ -102,6 +102,7 @@ class _Session:
             found = Diagnostics()
             verdict.report(found)
             outcome.verdicts.append((verdict, tuple(found)))
+        self._console.remarks(outcome)
 
     @property
     def _pattern(self) -> str | None:

@@ -17,7 +17,7 @@ from swarmdsl.execution.testing.case import InvalidTest
 from swarmdsl.execution.testing.outcome import FileOutcome
 from swarmdsl.execution.testing.verdict import Verdict
 
-_COLOURS = {"ok": "green", "FAILED": "red", "unread": "red"}
+_COLOURS = {"ok": "green", "FAILED": "red", "unread": "red", "note": "cyan"}
 
 
 class Console:
@@ -54,6 +54,11 @@ class Console:
     def unread(self, case: InvalidTest) -> None:
         """Print a test that could not run; its errors are printed with the file."""
         self._test("unread", case.name)
+
+    def remarks(self, outcome: FileOutcome) -> None:
+        """Print remarks after the tests of a file."""
+        for remark in outcome.remarks:
+            self._test("note", remark)
 
     def trace(self, seed: int, line: Line) -> None:
         """Print a trace line with its seed."""

@@ -71,6 +71,9 @@ def _suite(outcome: FileOutcome) -> etree._Element:
                 case, "failure", message=_message(found), type=found[-1].name
             )
             failure.text = _text(_rendered(found) + _last(verdict))
+    if outcome.remarks:
+        output = etree.SubElement(suite, "system-out")
+        output.text = _text("".join(f"{remark}\n" for remark in outcome.remarks))
     return suite
 
 

@@ -35,3 +35,17 @@ class FileOutcome:
     def seconds(self) -> float:
         """Duration of the tests."""
         return sum(verdict.seconds for verdict, _ in self.verdicts)
+
+    @property
+    def remarks(self) -> list[str]:
+        """Remarks on properties that say nothing of any run in which a test claims them."""
+        found: dict[str, list[str]] = {}
+        for verdict, _ in self.verdicts:
+            for property_, _ in verdict.case.properties:
+                remark = verdict.remarks.get(property_.name, "")
+                found.setdefault(property_.name, []).append(remark)
+        return [
+            f"property `{name}`: {remarks[0]} in these tests"
+            for name, remarks in found.items()
+            if all(remarks)
+        ]

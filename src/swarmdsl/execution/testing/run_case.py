@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.records import dataclass
@@ -22,10 +22,14 @@ from swarmdsl.execution.testing.recorder import Recorder
 
 @dataclass(frozen=True)
 class RunResult:
-    """Result of a run; `faults` are failed guards and effects, by machine."""
+    """Result of a run; `faults` are failed guards and effects, by machine.
+
+    `remarks` by property say why it says nothing of the run.
+    """
 
     failure: Failure | None
     faults: tuple[tuple[str, str], ...]
+    remarks: Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -74,6 +78,7 @@ class _CaseRun:
         listeners = [self._recorder.see, listener]
         watched = [each for each, _ in (*case.properties, *case.violates)]
         self._watch: Watch | None = None
+        self._remarks: dict[str, str] = {}
         self._fitness = fitness_of(case.subject) if case.measures else None
         if watched or self._fitness is not None:
             measures = measures_of(self._fitness)
@@ -90,7 +95,7 @@ class _CaseRun:
 
     def run_case(self) -> RunResult:
         failure = self._failed()
-        return RunResult(failure, tuple(self._world.failures))
+        return RunResult(failure, tuple(self._world.failures), self._remarks)
 
     def _failed(self) -> Failure | None:
         place = self._case.place
@@ -130,6 +135,7 @@ class _CaseRun:
         self._world.trace.flush()
         results = self._watch.results(self._world.clock.now, ended=self._world.over)
         self._check_properties()
+        self._remarks = {each.property.name: each.remark for each in results if each.remark}
         verdicts = {each.property.name: each.verdict for each in results}
         for each, place in self._case.violates:
             if verdicts[each.name] != FALSE:

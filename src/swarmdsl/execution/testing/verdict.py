@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -20,13 +20,17 @@ _HAIR = 1e-9
 
 @dataclass(frozen=True)
 class Verdict:
-    """Result of a test: failures by seed, and its duration in seconds."""
+    """Result of a test: failures by seed, and its duration in seconds.
+
+    `remarks` are about properties that say nothing of any of its runs.
+    """
 
     case: Case
     seeds: tuple[int, ...]
     failures: dict[int, Failure]
     faults: tuple[tuple[str, str], ...]
     seconds: float
+    remarks: Mapping[str, str]
 
     @property
     def passed(self) -> bool:
@@ -81,9 +85,17 @@ def judge(case: Case, seeds: Sequence[int], listener: Callable[[int, Line], None
     began = time.perf_counter()
     failures: dict[int, Failure] = {}
     faults: dict[tuple[str, str], None] = {}
+    remarks: list[Mapping[str, str]] = []
     for seed in seeds:
         played = run_case(case, seed, partial(listener, seed))
         faults.update(dict.fromkeys(played.faults))
+        remarks.append(played.remarks)
         if played.failure is not None:
             failures[seed] = played.failure
-    return Verdict(case, tuple(seeds), failures, tuple(faults), time.perf_counter() - began)
+    silent = {
+        name: remark
+        for name, remark in (remarks[0] if remarks else {}).items()
+        if all(name in each for each in remarks)
+    }
+    seconds = time.perf_counter() - began
+    return Verdict(case, tuple(seeds), failures, tuple(faults), seconds, silent)
