@@ -11,6 +11,7 @@ ARGS :=
 WORKERS := auto
 PARALLEL = $(BIN)/pytest -n $(WORKERS)
 MUTANTS ?= 10000
+WALKS ?= 1000
 CASES ?= 20000
 PAIRS ?= 10000
 BENCH_READY := benchmarks/node_modules/.ready
@@ -23,7 +24,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement w3c check fmt docs bench fuzz properties bless parser dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement w3c check fmt docs bench fuzz properties mutants bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o build/demo
@@ -94,6 +95,9 @@ fuzz: $(READY) ## Run commands with 10,000 models with random mistakes, and in 2
 
 properties: $(READY) ## Compare monitors of properties with their definitions, on 10,000 random pairs of a property and a run; PAIRS=100000 for more.
 	$(BIN)/python -m tests.monitor.random_runs $(PAIRS)
+
+mutants: $(READY) ## Put mistakes into the examples, and show which of them `swarmc verify` finds; WALKS=10000 to tell more of them from the original.
+	$(BIN)/python -m tests.verify.seeded $(WALKS)
 
 parser: $(READY) ## Make the parser from the grammar.
 	$(BIN)/python -m swarmdsl.syntax.pegen
