@@ -274,6 +274,15 @@ def test_pre_commit_hooks(tmp_path: Path) -> None:
     assert run(hooks["swarmc-fmt"]).returncode == 0
     assert model.read_text() == "const A : int32 = 5\n"
     assert run(hooks["swarmc-check"]).returncode == 0
+    model.write_text(
+        "endless statemachine Work {\n  initial Idle\n  state Idle {}\n}\n"
+        "property Rests of Work : in Idle at all times\n"
+    )
+    assert run(hooks["swarmc-verify"]).returncode == 0
+    model.write_text(model.read_text().replace("in Idle at all", "not in Idle at all"))
+    ran = run(hooks["swarmc-verify"])
+    assert ran.returncode == 1
+    assert "SW1701" in ran.stdout + ran.stderr
     model.write_text("const A : int32 = B\n")
     ran = run(hooks["swarmc-check"])
     assert ran.returncode == 1

@@ -107,6 +107,18 @@ def _limits(_context: click.Context, _param: click.Parameter, texts: tuple[str, 
     type=click.Path(path_type=Path),
     help="Write the runs that show what is wrong, as traces for `swarmc simulate --replay`.",
 )
+@click.option(
+    "--results",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the verdicts with their conditions as JSON.",
+)
+@click.option(
+    "--junit",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the verdicts as JUnit XML, for CI.",
+)
 @options.diagnostics_format
 @options.debug
 def verify(
@@ -119,6 +131,8 @@ def verify(
     lossy: bool,
     limits: Limits,
     output: Path | None,
+    results: Path | None,
+    junit: Path | None,
     format_: str,
 ) -> int:
     """Prove properties of a swarm, and find what can go wrong in it.
@@ -133,7 +147,18 @@ def verify(
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` conflict")
     request = Request(
-        paths, machine, swarm, properties, sizes, channel, lossy, limits, format_, output
+        paths,
+        machine,
+        swarm,
+        properties,
+        sizes,
+        channel,
+        lossy,
+        limits,
+        format_,
+        output,
+        results,
+        junit,
     )
     succeeded = run_verification(request, sys.stdout, sys.stderr)
     return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS

@@ -127,7 +127,7 @@ class _Session:
         if request.junit is not None:
             try:
                 with write_stream(request.junit) as stream:
-                    stream.write(junit(self._outcomes).decode())
+                    stream.write(junit(self._outcomes))
             except OSError as error:
                 reason = str(error.strerror or error).lower()
                 report.report("cannot-write", path=request.junit, reason=reason)

@@ -24,8 +24,9 @@ from swarmdsl.execution.verify.findings import Survey, survey
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model, Options
 from swarmdsl.execution.verify.prove import prove
+from swarmdsl.execution.verify.results import Results, as_document, junit
 from swarmdsl.execution.verify.runs import Run
-from swarmdsl.execution.verify.sizes import shown, sizes
+from swarmdsl.execution.verify.sizes import shown, sizes, whole
 from swarmdsl.execution.verify.verdict import Verdict
 
 _PAUSE = 0.2
@@ -35,7 +36,7 @@ _WORST = ("fails", "unknown", "up to", "holds")
 
 @dataclass(frozen=True)
 class Request:
-    """Arguments of the command; `output` is the folder for runs."""
+    """Arguments of the command; `output` is the folder for runs, the last ones are files."""
 
     paths: tuple[Path, ...]
     machine: str | None = None
@@ -47,6 +48,8 @@ class Request:
     limits: Limits = Limits()
     format: str = "text"
     output: Path | None = None
+    results: Path | None = None
+    junit: Path | None = None
 
 
 def verify(request: Request, stdout: TextIO, stderr: TextIO) -> bool | None:
@@ -56,6 +59,7 @@ def verify(request: Request, stdout: TextIO, stderr: TextIO) -> bool | None:
     report = Diagnostics()
     session = _Session(request, report, stdout, stderr)
     finished = session.run()
+    session.write_files()
     stdout.flush()
     render(report, request.format, stdout)
     return None if finished is None else not report.has_errors
@@ -70,7 +74,8 @@ class _Session:
         self._results = stdout if request.format == "text" else stderr
         self._progress = _Progress(stderr)
         self._budget = Budget(request.limits, self._progress.tell)
-        self._written: list[Path] = []
+        self._written: dict[str, Path] = {}
+        self._found: Results | None = None
 
     def run(self) -> bool | None:
         """Return None if interrupted."""
@@ -107,7 +112,17 @@ class _Session:
         for found in surveys:
             full.update(found.full)
         left = len(every) - len(looked)
-        self._print(subject, model, looked, left, surveys, list(verdicts.values()), sorted(full))
+        told = tuple(diagnostics.conditions(model, sorted(full)))
+        findings = tuple(finding for found in surveys for finding in found.findings)
+        self._found = Results(
+            subject.name,
+            tuple(whole(subject, counts) for counts in looked),
+            told,
+            tuple(verdicts.values()),
+            findings,
+            self._written,
+        )
+        self._print(subject, self._found, left, surveys)
         return None if self._budget.interrupted else True
 
     def _size(
@@ -124,7 +139,7 @@ class _Session:
             found = survey(model, self._budget)
             surveys.append(found)
             for finding in found.findings:
-                self._write(f"{finding.fault}-{finding.name}", finding.run)
+                self._write(finding.title, finding.run)
                 diagnostics.report_finding(finding, size, self._report)
         for property_ in properties:
             known = verdicts.get(property_.name)
@@ -165,14 +180,11 @@ class _Session:
     def _print(
         self,
         subject: Subject,
-        model: Model,
-        looked: Sequence[dict[str, int]],
+        results: Results,
         left: int,
         surveys: Sequence[Survey],
-        verdicts: Sequence[Verdict],
-        full: Sequence[str],
     ) -> None:
-        self._say(f"{subject.name}: {shown(subject, looked)}")
+        self._say(f"{subject.name}: {shown(subject, results.sizes)}")
         for found in surveys:
             states = diagnostics.counted_in_thousands(found.states, "state")
             steps = diagnostics.counted_in_thousands(found.transitions, "step")
@@ -181,7 +193,7 @@ class _Session:
         if left:
             sizes_left = diagnostics.counted_in_thousands(left, "larger size")
             self._say(f"  {sizes_left} not looked at: the search came to its limit")
-        lines = list(diagnostics.rows(verdicts))
+        lines = list(diagnostics.rows(results.verdicts))
         if lines:
             self._say("")
         widths = [max(len(line[n]) for line in lines) for n in range(2)] if lines else []
@@ -190,10 +202,10 @@ class _Session:
             self._say(printable(text.rstrip()))
         self._say("")
         self._say("under these conditions:")
-        for condition in diagnostics.conditions(model, full):
+        for condition in results.conditions:
             self._say(printable(f"  - {condition}"))
         self._say("")
-        for path in self._written:
+        for path in self._written.values():
             self._say(f"written: {printable(path.as_posix())}")
 
     def _say(self, text: str) -> None:
@@ -205,15 +217,28 @@ class _Session:
         if folder is None or run is None:
             return
         path = folder / f"{name}.jsonl"
+        if self._write_file(path, "".join(f"{as_json(line)}\n" for line in run.lines)):
+            self._written[name] = path
+
+    def write_files(self) -> None:
+        """Write the results for programs, where they are asked for."""
+        if self._request.results is not None and self._found is not None:
+            self._write_file(self._request.results, as_document(self._found))
+        if self._request.junit is not None:
+            self._write_file(self._request.junit, junit(self._found, self._report))
+
+    def _write_file(self, path: Path, text: str) -> bool:
+        """Write a file; return False and report if that fails."""
         try:
-            folder.mkdir(parents=True, exist_ok=True)
+            if path.parent == self._request.output:
+                path.parent.mkdir(parents=True, exist_ok=True)
             with write_stream(path) as stream:
-                stream.writelines(f"{as_json(line)}\n" for line in run.lines)
+                stream.write(text)
         except OSError as error:
             reason = str(error.strerror)
             self._report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
-            return
-        self._written.append(path)
+            return False
+        return True
 
 
 class _Progress:

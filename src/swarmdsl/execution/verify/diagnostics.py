@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.diagnostics.render.printable import printable
@@ -31,6 +32,11 @@ _HELP: Mapping[Fault, str] = {
     "waits": "let a robot send what it waits for, or add a transition `after` a time",
     "lost": "handle it in the states in which it arrives, or `defer` it there",
 }
+
+
+def code_of(finding: Finding) -> str:
+    """Return the code of its diagnostic."""
+    return CODES[_CODES[finding.fault]].code
 
 
 def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:

@@ -34,6 +34,11 @@ class Finding:
     detail: str = ""
     run: Run | None = None
 
+    @property
+    def title(self) -> str:
+        """Name of its run."""
+        return f"{self.fault}-{self.name}"
+
 
 @dataclass(frozen=True)
 class Survey:

@@ -76,8 +76,14 @@ def shown(subject: Subject, every: Sequence[Mapping[str, int]]) -> str:
     return ", ".join(_of_roles(subject, every)) or "one machine"
 
 
+def whole(subject: Subject, counts: Mapping[str, int]) -> dict[str, int]:
+    """Return the numbers of members of all roles."""
+    roles = subject.swarm.roles if subject.swarm is not None else ()
+    return {each.name: counts.get(each.name, max(each.multiplicity.lower, 1)) for each in roles}
+
+
 def _of_roles(subject: Subject, every: Sequence[Mapping[str, int]]) -> Iterator[str]:
-    for role in subject.swarm.roles if subject.swarm is not None else ():
-        numbers = [each.get(role.name, max(role.multiplicity.lower, 1)) for each in every]
-        least, most = min(numbers), max(numbers)
-        yield f"{least} {role.name}" if least == most else f"{least} to {most} {role.name}"
+    every = [whole(subject, each) for each in every]
+    for name in every[0] if every else ():
+        least, most = min(each[name] for each in every), max(each[name] for each in every)
+        yield f"{least} {name}" if least == most else f"{least} to {most} {name}"
