@@ -55,7 +55,7 @@ PYTHON = Dialect(
     division=PYTHON_DIVISION,
 )
 ECMASCRIPT = ecmascript.dialect({"n": "n", "report": "report"})
-QUICK = settings(max_examples=200)
+QUICK = settings(max_examples=100)
 
 REPORT = Named("test", "Report")
 
