@@ -171,6 +171,9 @@ def test_it_is_said_what_is_different(replay: Replay) -> None:
         ('{"t": 1, "event": 2}', "`event` must be an event name"),
         ('{"t": 1, "event": "a", "member": 3}', "`member` must be a member name"),
         ('{"t": 1, "event": "a", "configuration": [1]}', "`configuration` is a list of names"),
+        ('{"t": 1, "loop": -1}', "`loop` is a number of lines"),
+        ('{"t": 1, "cause": 0}', "`cause` is that of a line"),
+        (json.dumps({**GO, "loop": 3}), "`loop` has too many lines"),
     ],
 )
 def test_what_is_no_trace(replay: Replay, text: str, reason: str) -> None:
@@ -178,6 +181,27 @@ def test_what_is_no_trace(replay: Replay, text: str, reason: str) -> None:
 
     assert code == 1
     assert f"trace.jsonl:2:1: error[SW1010] invalid trace line: {reason}" in err
+
+
+def test_only_the_last_line_has_a_loop(replay: Replay) -> None:
+    code, err = replay({**START, "loop": 0}, GO)
+
+    assert code == 1
+    assert "trace.jsonl:1:1: error[SW1010] invalid trace line: only the last line has `loop`" in err
+
+
+@pytest.mark.parametrize(
+    ("lines", "told"),
+    [
+        (0, "nothing happens after them"),
+        (1, "the last line repeats for ever"),
+        (2, "the last 2 lines repeat for ever"),
+    ],
+)
+def test_lines_that_repeat(replay: Replay, lines: int, told: str) -> None:
+    code, err = replay(START, GO, {**AGAIN, "loop": lines})
+
+    assert (code, told in err) == (0, True)
 
 
 def test_a_member_that_there_is_not(replay: Replay) -> None:

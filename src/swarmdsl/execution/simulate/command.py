@@ -81,6 +81,16 @@ def _prepare(request: Request, report: Diagnostics) -> _Play | None:
     return None if report.has_errors else _Play(request, prepared, cast, inputs)
 
 
+def _loop_shown(lines: int) -> str:
+    if not lines:
+        return "nothing happens after them"
+    return (
+        "the last line repeats for ever"
+        if lines == 1
+        else f"the last {lines} lines repeat for ever"
+    )
+
+
 def _typed_bytes() -> bytes:
     return os.read(_STANDARD_INPUT, _AT_ONCE)
 
@@ -121,7 +131,9 @@ class _Play:
                 continue
             recording = Recording(self._watched, self._fitness)
             found = replay(source, self._subject, self._cast, report, recording.see)
-            results, fitness = recording.results(found.end)
+            results, fitness = recording.results(
+                found.end, found.loop if not found.left_out else None
+            )
             report_violations(results, report)
             left_out = {"left_out": found.left_out} if found.left_out else {}
             conditions = {"replayed": str(path), "lines": found.lines, **left_out}
@@ -129,6 +141,8 @@ class _Play:
             which = f"{printable(str(path))}: " if several else ""
             lines, members = counted(found.lines, "line"), counted(found.members, "member")
             click.echo(f"{which}{lines} of {members} as in the model", err=True)
+            if found.loop is not None:
+                click.echo(_loop_shown(found.loop), err=True)
             tables = [*property_table(results), *measure_table(fitness)]
             if tables and found.left_out:
                 click.echo(

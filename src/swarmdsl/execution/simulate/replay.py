@@ -58,13 +58,15 @@ class _Record:
 class Replayed:
     """Number of conforming lines and members of a trace, and the time of its last line.
 
-    `left_out` are the lines that differ, follow a difference, or are of no member.
+    `left_out` are the lines that differ, follow a difference, or are of no member. The last `loop`
+    lines repeat for ever; with 0, nothing happens after them.
     """
 
     lines: int
     members: int
     end: int
     left_out: int = 0
+    loop: int | None = None
 
 
 Seen = Callable[[Line, Mapping[str, Any], int], None]
@@ -85,6 +87,7 @@ def replay(
     """
     records = list(_records(source, report))
     end = max((record.time for record in records), default=0)
+    loop = _loop(records, report)
     by_member: dict[str | None, list[_Record]] = {}
     for record in records:
         if not is_verdict(record.done):
@@ -104,7 +107,20 @@ def replay(
             continue
         roster = Roster(dict.fromkeys(each.robot for each in cast))
         followed += _Replay(actor, subject, report, seen, roster).replay(records)
-    return Replayed(followed, len(by_member), end, given - followed)
+    return Replayed(followed, len(by_member), end, given - followed, loop)
+
+
+def _loop(records: Sequence[_Record], report: Diagnostics) -> int | None:
+    """Return how many lines repeat for ever, which the last one says; report another number."""
+    for number, record in enumerate(records, start=1):
+        loop = record.done.get("loop")
+        if loop is None:
+            continue
+        if number == len(records) and loop <= number:
+            return int(loop)
+        reason = "only the last line has `loop`" if loop <= number else "`loop` has too many lines"
+        report.report("bad-trace-line", record.place, reason=reason)
+    return None
 
 
 def _impersonate(actor: Actor, member: str, subject: Subject) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.base.records import dataclass, field
@@ -250,8 +250,8 @@ class Trace(Observer):
             self._line.nobody.append(len(self._line.sent) - 1)
 
 
-def as_json(line: Line) -> str:
-    """Format a line as JSON; times are in whole milliseconds."""
+def as_json(line: Line, more: Mapping[str, int] | None = None) -> str:
+    """Format a line as JSON, with more keys at its end; times are in whole milliseconds."""
     called = line.actor.machine.called
     values: dict[str, Any] = {
         "t": line.time // MILLISECOND,
@@ -285,6 +285,7 @@ def as_json(line: Line) -> str:
         values["to"] = line.addresses
     if line.nobody:
         values["nobody"] = [line.sent[number] for number in line.nobody]
+    values.update(more or {})
     return json.dumps(values, ensure_ascii=False, default=str, allow_nan=False)
 
 

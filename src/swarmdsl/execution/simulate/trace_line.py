@@ -66,6 +66,12 @@ def _fault(value: dict[str, Any]) -> str:
             return f"`{key}` must be a number of milliseconds"
     if is_verdict(value):
         return ""
+    for key, least in (("loop", 0), ("cause", 1)):
+        number = value.get(key, least)
+        if not isinstance(number, int) or isinstance(number, bool) or number < least:
+            return (
+                f"`{key}` is a number of lines" if key == "loop" else f"`{key}` is that of a line"
+            )
     if not isinstance(value.get("event", 0), (str, type(None))):
         return "`event` must be an event name or `null`"
     if not isinstance(value.get("member"), (str, type(None))):

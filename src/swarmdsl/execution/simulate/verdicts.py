@@ -78,20 +78,44 @@ class Recording:
         if self._properties or self._fitness is not None:
             self._lines.append((place, line, dict(data or {})))
 
-    def results(self, end: int) -> tuple[list[PropertyResult], FitnessResult | None]:
-        """Return verdicts and fitness of the traces until a time; a log can end at any time."""
+    def results(
+        self, end: int, loop: int | None = None
+    ) -> tuple[list[PropertyResult], FitnessResult | None]:
+        """Return verdicts and fitness of the traces until a time; a log can end at any time.
+
+        The last `loop` lines repeat for ever; with 0, nothing happens after them.
+        """
         if not self._lines:
             return [], None
         known: dict[Actor, Mapping[str, Any]] = {}
         measures = measures_of(self._fitness)
         monitors = watch(self._properties, lambda actor: known[actor], measures=measures)
-        for _, line, data in sorted(self._lines, key=_order):
+        lines = sorted(self._lines, key=_order)
+        endings = [watch(self._properties, lambda actor: known[actor]) for _ in range(loop or 0)]
+        never: list[list[PropertyResult]] = []
+        for number, (_, line, data) in enumerate(lines, start=1):
             known[line.actor] = data
-            monitors.see(line)
-        results = monitors.results(end, ended=False)
+            for each in (monitors, *endings):
+                each.see(line)
+            if endings and number > len(lines) - (loop or 0):
+                # What stays open at each of these lines never happens.
+                never.append(endings.pop(0).results(line.time, ended=True))
+        results = monitors.results(end, ended=loop == 0)
+        if never:
+            results = [
+                last if all(_is_false_for(last, one) for one in others) else result
+                for result, last, *others in zip(results, *never[::-1], strict=True)
+            ]
         if self._fitness is None:
             return results, None
         return results, evaluate(self._fitness, monitors.readings(end))
+
+
+def _is_false_for(last: PropertyResult, other: PropertyResult) -> bool:
+    """Return True if two results are false, of one robot at least if they are about each."""
+    if last.verdict != FALSE or other.verdict != FALSE:
+        return False
+    return last.property.each is None or bool({*last.robots} & {*other.robots})
 
 
 def _order(each: tuple[int, Line, Mapping[str, Any]]) -> tuple[int, bool, int]:

@@ -17,7 +17,7 @@ from swarmdsl.execution.simulate.expressions import SELF
 from swarmdsl.execution.simulate.properties import claim_of, conditions
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.verify.alphabet import Alphabet, frozen
-from swarmdsl.execution.verify.body import Body, Input
+from swarmdsl.execution.verify.body import Body, Input, Task
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.moves import Look, Moment, Move
 from swarmdsl.ir import Count, Fact
@@ -59,6 +59,8 @@ class Automaton:
         self._keys: dict[Any, int] = {}
         self._origins: list[tuple[int, Input] | None] = []
         self.looks: list[Look] = []
+        self.tasks: list[frozenset[Task]] = []
+        """Tasks of each state: what is over some time, however long it takes."""
         self._values: list[tuple[tuple[str, Any], ...]] = []
         has = conditions(self._data)
         self._tests = [
@@ -207,7 +209,10 @@ class Automaton:
             shown.append((actor, reduce(or_, held, momentary)))
 
         self._body, body.seen = body, see
+        before = list(body.tasks())
         act()
+        left = {id(each) for _, each in body.tasks()}
+        ended = frozenset(task for task, each in before if id(each) not in left)
         last = len(shown) - 1
         moments = tuple(
             Moment(
@@ -225,7 +230,7 @@ class Automaton:
         )
         sends = tuple(map(self.alphabet.number, body.sent))
         origin = None if source is None else (source, given)
-        return Move(given, moments, sends, self._add(body, tuple(held), origin))
+        return Move(given, moments, sends, self._add(body, tuple(held), origin), ended)
 
     def _add(self, body: Body, held: tuple[int, ...], origin: tuple[int, Input] | None) -> int:
         key = (self._key(body), held)
@@ -246,6 +251,7 @@ class Automaton:
             quiet = not (body.runs or body.delays or body.inside)
             holding = reduce(or_, held, 0)
             self.looks.append(Look(not body.running, holding, tuple(shown), quiet, held))
+            self.tasks.append(frozenset(task for task, _ in body.tasks()))
             self._values.append(self._kept(body))
         return self._keys[key]
 

@@ -38,6 +38,10 @@ class Input(NamedTuple):
     choice: Any = None
 
 
+Task = tuple[str, int, str | int]
+"""Running activity or delay, or inner events that wait: kind of input, machine, state or timer."""
+
+
 class Delay:
     """A running delay: its timer, its length in nanoseconds, and when it began."""
 
@@ -103,6 +107,17 @@ class Body:
             seen.add(key)
         if self.inside:
             yield Input("inside", -1, self.inside[0].name)
+
+    def tasks(self) -> Iterator[tuple[Task, object]]:
+        """Yield what is over some time, each with the object that stands for it."""
+        if not self.running:
+            return
+        for number, run in self.runs:
+            yield ("end", number, run.state), run
+        for delay in self.delays:
+            yield ("time", delay.actor, delay.timer.id), delay
+        for event in self.inside:
+            yield ("inside", -1, ""), event
 
     def end(self, given: Input, outcome: str, result: Mapping[str, Any] | None) -> None:
         """End an activity."""

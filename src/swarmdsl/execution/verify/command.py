@@ -18,14 +18,13 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject, choose
-from swarmdsl.execution.simulate.trace import as_json
 from swarmdsl.execution.verify import diagnostics
 from swarmdsl.execution.verify.findings import Survey, survey
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model, Options
-from swarmdsl.execution.verify.prove import prove
+from swarmdsl.execution.verify.prove import is_about_ends, prove
 from swarmdsl.execution.verify.results import Results, as_document, junit
-from swarmdsl.execution.verify.runs import Run
+from swarmdsl.execution.verify.runs import Run, written
 from swarmdsl.execution.verify.sizes import shown, sizes, whole
 from swarmdsl.execution.verify.verdict import Verdict
 
@@ -112,7 +111,8 @@ class _Session:
         for found in surveys:
             full.update(found.full)
         left = len(every) - len(looked)
-        told = tuple(diagnostics.conditions(model, sorted(full)))
+        fair = any(is_about_ends(each.property) for each in verdicts.values())
+        told = tuple(diagnostics.conditions(model, sorted(full), fair=fair))
         findings = tuple(finding for found in surveys for finding in found.findings)
         self._found = Results(
             subject.name,
@@ -217,7 +217,7 @@ class _Session:
         if folder is None or run is None:
             return
         path = folder / f"{name}.jsonl"
-        if self._write_file(path, "".join(f"{as_json(line)}\n" for line in run.lines)):
+        if self._write_file(path, "".join(f"{line}\n" for line in written(run))):
             self._written[name] = path
 
     def write_files(self) -> None:

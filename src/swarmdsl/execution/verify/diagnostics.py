@@ -49,7 +49,7 @@ def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
         name=verdict.property.name,
         who=f" for `{verdict.robot}`" if verdict.robot is not None else "",
         related=tuple(_last_taken(verdict.run)),
-        notes=(f"a shortest run, of {size}:", *_lines(verdict.run)),
+        notes=(_head(verdict.run, size), *_lines(verdict.run)),
     )
 
 
@@ -69,10 +69,17 @@ def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
     )
 
 
+def _head(run: Run, size: str) -> str:
+    return f"a run that goes on for ever, of {size}:" if run.loop else f"a shortest run, of {size}:"
+
+
 def _lines(run: Run) -> Iterator[str]:
     """Format a run: a line a step, with the place of its transition."""
     width = max((len(line.actor.name or "") for line in run.lines), default=0)
+    again = len(run.lines) - run.loop if run.loop else None
     for number, line in enumerate(run.lines[:_MOST_LINES]):
+        if number == again:
+            yield "from here on, again and again:"
         yield from _losses(run, number)
         place = place_of(line)
         where = f"  ({printable(place.source.name)}:{place.line})" if place is not None else ""
@@ -81,6 +88,8 @@ def _lines(run: Run) -> Iterator[str]:
         yield f"... and {len(run.lines) - _MOST_LINES} more"
     else:
         yield from _losses(run, len(run.lines))
+        if run.loop == 0:
+            yield "nothing happens any more"
 
 
 def _losses(run: Run, number: int) -> Iterator[str]:
@@ -121,8 +130,8 @@ def rows(verdicts: Sequence[Verdict]) -> Iterator[tuple[str, str, str]]:
         yield each.property.name, outcome, reason
 
 
-def conditions(model: Model, full: Sequence[str]) -> Iterator[str]:
-    """Yield what the verdicts were found under."""
+def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str]:
+    """Yield what the verdicts were found under; `fair` says if some are about what must happen."""
     options = model.options
     if model.alphabet.messages:
         loss = "any of them may be lost" if options.lossy else "none is lost"
@@ -135,6 +144,9 @@ def conditions(model: Model, full: Sequence[str]) -> Iterator[str]:
             yield f"of more than {options.capacity} {names} on the way to a robot, the rest is lost"
     yield "functions and delays take any time"
     yield "functions succeed or are aborted, actions are also preempted"
+    if fair:
+        yield "functions and delays end some time, and events that are not lost arrive"
+        yield "a function may end in the same way each time, and nothing need come from outside"
     yield "no robot and no answer of a function is lost"
     if model.outside:
         names = listed(list(model.outside), "and")

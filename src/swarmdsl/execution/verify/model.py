@@ -88,7 +88,7 @@ class Model:
         self._gather(facts)
         self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
         self._unfinished = [each for each in self.kinds if not each.is_complete]
-        self._quotients: dict[tuple[int, int, bool], Quotient] = {}
+        self._quotients: dict[tuple[int, int, bool, bool], Quotient] = {}
 
     # ---- groups
 
@@ -98,15 +98,20 @@ class Model:
         *,
         me: str | None = None,
         thorough: bool = False,
+        tasks: bool = False,
+        single: bool = False,
     ) -> list[Group]:
-        """Return the groups of robots, with those by themselves that something tells apart."""
+        """Return the groups of robots, with those by themselves that something tells apart.
+
+        With `single`, each robot is a group. The automata tell apart what `Quotient` says.
+        """
         made = []
         for number, automaton in enumerate(self.kinds):
             mask = mask_of(automaton.kind.facts, properties)
-            quotient = self._quotient(number, mask, thorough)
+            quotient = self._quotient(number, mask, thorough=thorough, tasks=tasks)
             left = list(self._robots[number])
             for robot in self._robots[number]:
-                if robot in self._named or robot == me:
+                if single or robot in self._named or robot == me:
                     left.remove(robot)
                     made.append(Group(quotient, (robot,)))
             if left:
@@ -190,10 +195,12 @@ class Model:
                 found.update(move.sends)
         return found
 
-    def _quotient(self, number: int, mask: int, thorough: bool) -> Quotient:
-        key = (number, mask, thorough)
+    def _quotient(self, number: int, mask: int, *, thorough: bool, tasks: bool) -> Quotient:
+        key = (number, mask, thorough, tasks)
         if key not in self._quotients:
-            self._quotients[key] = Quotient(self.kinds[number], mask, thorough=thorough)
+            self._quotients[key] = Quotient(
+                self.kinds[number], mask, thorough=thorough, tasks=tasks
+            )
         return self._quotients[key]
 
     # ---- what is known before

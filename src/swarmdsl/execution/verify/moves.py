@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from swarmdsl.execution.verify.body import Input
+from swarmdsl.execution.verify.body import Input, Task
 
 
 class Moment(NamedTuple):
@@ -25,12 +25,16 @@ class Moment(NamedTuple):
 
 
 class Move(NamedTuple):
-    """A step of a robot: its input, what it shows, the messages that it sends, its target."""
+    """A step of a robot: its input, what it shows, the messages that it sends, its target.
+
+    `ended` are the tasks that are over after it.
+    """
 
     given: Input
     moments: tuple[Moment, ...]
     sends: tuple[int, ...]
     target: int
+    ended: frozenset[Task] = frozenset()
 
     @property
     def idle(self) -> bool:

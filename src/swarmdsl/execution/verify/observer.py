@@ -74,20 +74,26 @@ class Observer:
 
     def successors(self, state: int) -> Iterator[tuple[int, Step]]:
         """Yield the states after one step, each with the step."""
+        for after, step, _ in self.passing(state):
+            yield after, step
+
+    def passing(self, state: int) -> Iterator[tuple[int, Step, Sequence[int]]]:
+        """Yield the same, with the memories of the monitor at the moments of the step."""
         network = self.network
         memory = state & self._mine
         present = network.present(state)
         seen = _Sight(self, present)
-        silent = self._silence(memory, seen) - memory
+        silent = [self._silence(memory, seen)]
         for place, _ in present:
             for step in network.row(place):
                 after = network.after(state, step)
+                passed = [memory]
                 if step.move is not None:
                     if self._is_silent(place, step.move):
-                        after += silent
+                        passed = silent
                     else:
-                        after += self._moments(memory, place, step.move, seen) - memory
-                yield after, step
+                        passed = self._memories(memory, place, step.move, seen) or passed
+                yield after + passed[-1] - memory, step, passed
 
     def following(self, state: int) -> Iterator[int]:
         """Yield the same states, each at least once."""
@@ -185,18 +191,25 @@ class Observer:
 
     def _moments(self, memory: int, place: int, move: Move, seen: _Sight) -> int:
         """Return the memory of the monitor after the moments of a move."""
+        passed = self._memories(memory, place, move, seen)
+        return passed[-1] if passed else memory
+
+    def _memories(self, memory: int, place: int, move: Move, seen: _Sight) -> list[int]:
+        """Return the memories of the monitor at the moments of a move."""
         counts, mine = seen.counts
         group = self.network.places[place].group
         before = self._lasting(place)
         terms = range(len(self.terms))
         others = [counts[t] - self.terms.holds(t, group, before) for t in terms]
+        passed = []
         for moment in move.moments:
             now = [self.terms.holds(t, group, moment.holding) for t in terms]
             total = [others[t] + now[t] for t in terms]
             me = now if group == self._me else mine
             truths = tuple(bool(each(total, me)) for each in self._claims)
             memory = self.table.step(memory, truths)
-        return memory
+            passed.append(memory)
+        return passed
 
     def _silence(self, memory: int, seen: _Sight) -> int:
         """Return the memory of the monitor after a move that changes no fact.

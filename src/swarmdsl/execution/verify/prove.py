@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import islice
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.monitor import Sentence
 from swarmdsl.execution.verify.explore import Graph, observe
+from swarmdsl.execution.verify.laps import endless
+from swarmdsl.execution.verify.lassos import Lassos
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.monitor_table import MOST_CLAIMS, MonitorTable
@@ -16,14 +19,17 @@ from swarmdsl.execution.verify.network import Group, Network
 from swarmdsl.execution.verify.observer import Observer
 from swarmdsl.execution.verify.possible import prove_possible
 from swarmdsl.execution.verify.quotient import Quotient
-from swarmdsl.execution.verify.runs import play, steps_between
+from swarmdsl.execution.verify.runs import Run, play, steps_between
 from swarmdsl.execution.verify.terms import Terms, facts_of, is_act, roles_of
 from swarmdsl.execution.verify.verdict import Outcome, Verdict, unfinished, violated
 from swarmdsl.ir.sentences import facts_in
 
 _SAFE = ("never", "always", "only", "times")
 """Patterns that a finite run violates."""
-_ENDLESS = "no run that ends violates it; runs that go on for ever are not covered"
+_LIVE = ("eventually", "leads", "then", "again")
+"""Patterns that a run that goes on for ever can violate."""
+_MOST_LASSOS = 60
+"""Number of loops that are tried on the engine."""
 
 
 def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
@@ -81,6 +87,8 @@ def _negates(claim: ir.Claim) -> bool:
 
 def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
     """Decide on a property, of one robot if it is about each."""
+    if is_about_ends(property_):
+        return _in_the_end(property_, model, me, budget)
     every = model.groups([property_], me=me)
     mine = next((n for n, g in enumerate(every) if me is not None and g.robots == (me,)), None)
     about = set(_about(property_, model, every))
@@ -103,9 +111,62 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
         observer = _observer(property_, model, groups, me, others=False)
         graph = observe(observer.network, observer, budget)
     if graph.bad is not None:
-        steps = steps_between(graph.way(graph.bad), lambda s: list(observer.successors(s)))
-        return violated(property_, play(observer.network, steps, property_), graph, me)
+        return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
     return _not_violated(property_, model, graph, groups, me, budget)
+
+
+def is_about_ends(property_: ir.Property) -> bool:
+    """Return True if runs that go on for ever can violate a property."""
+    scope = property_.scope.kind if property_.scope is not None else None
+    return property_.kind in _LIVE and scope not in ("before", "between")
+
+
+def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
+    """Decide on a property that runs that go on for ever can violate.
+
+    If robots of a group must be told apart to decide, each is looked at by itself.
+    """
+    flaw = ""
+    for single in (False, True):
+        every = model.groups([property_], me=me, tasks=True, single=single)
+        about = set(_about(property_, model, every))
+        about |= {number for number, group in enumerate(every) if group.robots == (me,)}
+        groups = model.cone(every, about) or every
+        observer = _observer(property_, model, groups, me, others=len(groups) < len(every))
+        if observer.others:
+            # What holds for a moment ends when any robot does something.
+            groups = every
+            observer = _observer(property_, model, groups, me, others=False)
+        graph = observe(observer.network, observer, budget)
+        if graph.bad is not None:
+            return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+        lassos = Lassos(graph, observer, budget)
+        doubts = model.doubts(groups)
+        found = 0
+        for lasso in islice(lassos, _MOST_LASSOS):
+            found += 1
+            if lasso.loop and doubts:
+                # What is not covered may end the loop.
+                break
+            run = endless(observer.network, lasso, property_, me)
+            if not run.flaw:
+                return violated(property_, run, graph, me)
+            flaw = flaw or run.flaw
+        graph.complete &= lassos.complete
+        if doubts or not found:
+            return _not_violated(property_, model, graph, groups, me, budget)
+        if all(len(group.robots) == 1 for group in groups):
+            break
+    reason = f"the run that was found cannot be: {flaw}"
+    return Verdict(property_, "unknown", len(graph.seen), reason, robot=me)
+
+
+def _run(property_: ir.Property, observer: Observer, graph: Graph, bad: int) -> Run:
+    """Return a run to a state that violates a property, at once or if nothing follows."""
+    way = graph.way(bad)
+    steps = steps_between(way, lambda state: list(observer.successors(state)))
+    run = play(observer.network, steps, property_)
+    return run if observer.is_bad(way[-1]) else replace(run, loop=0)
 
 
 def _observer(
@@ -154,9 +215,6 @@ def _not_violated(
     if not graph.complete:
         reason = unfinished(model, budget)
         return Verdict(property_, "up to", states, reason, robot=me, full=full)
-    scope = property_.scope.kind if property_.scope is not None else None
-    if property_.kind not in _SAFE and scope not in ("before", "between"):
-        return Verdict(property_, "unknown", states, _ENDLESS, robot=me)
     return Verdict(property_, "holds", states, robot=me, full=full)
 
 

@@ -10,20 +10,23 @@ from collections.abc import Sequence
 from typing import Any
 
 from swarmdsl.execution.verify.automaton import Automaton
+from swarmdsl.execution.verify.body import Task
 from swarmdsl.execution.verify.moves import Look, Move
 
 
 class Quotient:
     """Automaton of which states that no run can tell apart are one.
 
-    Runs tell apart the facts of `mask`, and with `thorough` also what findings are about: active
-    states and transitions. `classes` has the state of the quotient for each of the automaton.
+    Runs tell apart the facts of `mask`, with `tasks` also what is running, and with `thorough`
+    what findings are about: active states and transitions. `classes` has the state of the quotient
+    for each of the automaton.
     """
 
-    def __init__(self, whole: Automaton, mask: int, *, thorough: bool) -> None:
+    def __init__(self, whole: Automaton, mask: int, *, thorough: bool, tasks: bool = False) -> None:
         self.whole = whole
         self.mask = mask
         self._thorough = thorough
+        self._has_tasks = tasks
         size = len(whole.steps)
         looks = [self._look(n) for n in range(size)]
         blocks = _numbered(looks)
@@ -70,6 +73,10 @@ class Quotient:
         """Return what a state shows."""
         return self.whole.looks[self._representatives[state]]
 
+    def tasks(self, state: int) -> frozenset[Task]:
+        """Return what is running in a state, if this tells states apart."""
+        return self.whole.tasks[self._representatives[state]]
+
     def ended(self, state: int) -> bool:
         """Return True if the robot has ended."""
         return self.look(state).ended
@@ -82,14 +89,15 @@ class Quotient:
         cut = number if self.whole.steps[number] is None else None
         if self._thorough:
             return (cut, look)
-        return (cut, look.ended, look.holding & self.mask)
+        tasks = self.whole.tasks[number] if self._has_tasks else None
+        return (cut, look.ended, look.holding & self.mask, tasks)
 
     def _label(self, move: Move, target: int) -> tuple[Any, ...]:
         given, moments = move.given, move.moments
         if self._thorough:
             return (given.kind, given.actor, given.name, moments, move.sends, target)
         shown = tuple(each.holding & self.mask for each in moments)
-        return (shown, move.idle, move.sends, target)
+        return (shown, move.idle, move.sends, target, move.ended if self._has_tasks else None)
 
     def _signature(self, number: int, blocks: Sequence[int]) -> Any:
         steps = self.whole.steps[number] or ()

@@ -50,7 +50,13 @@ def _property(verdict: Verdict, runs: Mapping[str, Path]) -> dict[str, Any]:
         **({"member": verdict.robot} if fails and verdict.robot is not None else {}),
         **({"reason": verdict.reason} if verdict.reason else {}),
         **_written(verdict.property.name, runs),
+        **_loop(verdict),
     }
+
+
+def _loop(verdict: Verdict) -> dict[str, int]:
+    loop = verdict.run.loop if verdict.run is not None else None
+    return {"loop": loop} if loop is not None else {}
 
 
 def _finding(finding: Finding, runs: Mapping[str, Path]) -> dict[str, Any]:

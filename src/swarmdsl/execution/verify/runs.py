@@ -7,7 +7,7 @@ the engine, and times are found that fit all delays: they are a system of differ
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -18,16 +18,16 @@ from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
 from swarmdsl.execution.simulate.properties import watch as watched
-from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.trace import Line, as_json
 from swarmdsl.execution.verify.alphabet import Alphabet
 from swarmdsl.execution.verify.body import Body
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network, Step
 from swarmdsl.ir import Property
 
-_GAPS = (SECOND, MILLISECOND, 0)
+GAPS = (SECOND, MILLISECOND, 0)
 """Times between two steps, the preferred one first."""
-_ELSEWHERE = "the real messages lead elsewhere"
+ELSEWHERE = "the real messages lead elsewhere"
 
 
 @dataclass(frozen=True)
@@ -35,34 +35,40 @@ class Run:
     """A run of a swarm: its trace lines, and the messages that are lost on the way.
 
     `lost` has the event and the receiver of each, with the number of lines before. `flaw` says why
-    no swarm can run so, or is empty: then the model itself has run so.
+    no swarm can run so, or is empty: then the model itself has run so. The last `loop` lines repeat
+    for ever; 0 says that nothing happens after the run, None that it can go on in any way.
     """
 
     lines: tuple[Line, ...]
     lost: tuple[tuple[int, str, str], ...] = ()
     flaw: str = ""
+    loop: int | None = None
+    causes: Mapping[int, int] = field(default_factory=dict)
+    """For lines on which events of other robots arrive, those on which they were sent."""
 
 
 @dataclass(eq=False)
-class _Copy:
+class Copy:
     """A message on its way to one robot."""
 
     number: int
     event: Event
     topic: str
     order: int
+    line: int
+    """Number of the line on which it was sent."""
 
 
 @dataclass(eq=False)
-class _Robot:
+class Robot:
     """A robot of a run: its state in the automaton, and what is on its way to it."""
 
     name: str | None
     group: Group
     state: int
     body: Body
-    bag: list[_Copy] = field(default_factory=list)
-    late: list[_Copy] = field(default_factory=list)
+    bag: list[Copy] = field(default_factory=list)
+    late: list[Copy] = field(default_factory=list)
     """Messages beyond the capacity of the network: they do not arrive in the run."""
     moments: list[int] = field(default_factory=list)
     """Numbers of the steps of the run at which it did something."""
@@ -85,12 +91,12 @@ def play(
     The run shows the property, if one is given, to be violated; otherwise that is a flaw. With
     `is_whole`, nothing more is on its way at its end.
     """
-    timeless = _Play(network, [0] * (len(steps) + 1), None)
+    timeless = Play(network, [0] * (len(steps) + 1), None)
     timeless.run(steps)
     if timeless.departs:
-        return Run((), flaw=_ELSEWHERE)
+        return Run((), flaw=ELSEWHERE)
     if timeless.exceeds or (is_whole and timeless.late):
-        return Run((), flaw=_exceeding(network, timeless.exceeds or timeless.late))
+        return Run((), flaw=exceeding(network, timeless.exceeds or timeless.late))
     if timeless.overtakes:
         return Run((), flaw=f"an event overtakes an earlier one on `{timeless.overtakes}`")
     times = _times(len(steps), timeless.constraints())
@@ -99,20 +105,21 @@ def play(
     watch: Watch | None = None
     if property_ is not None:
         watch = watched([property_], lambda actor: timed.data(actor))
-    timed = _Play(network, times, watch)
+    timed = Play(network, times, watch)
     timed.run(steps)
     if timed.departs:
-        return Run((), flaw=_ELSEWHERE)
+        return Run((), flaw=ELSEWHERE)
     if watch is not None:
         if not watch.violations and timed.late:
-            return Run((), flaw=_exceeding(network, timed.late))
+            return Run((), flaw=exceeding(network, timed.late))
         (result,) = watch.results(times[-1], ended=True)
         if result.verdict != FALSE:
             return Run((), flaw="the monitor does not see a violation in it")
-    return Run(tuple(timed.lines), tuple(timed.lost))
+    return Run(tuple(timed.lines), tuple(timed.lost), causes=timed.causes)
 
 
-def _exceeding(network: Network, event: str) -> str:
+def exceeding(network: Network, event: str) -> str:
+    """Return the flaw of a run that loses an event for lack of capacity."""
     return f"of more than {network.capacity} `{event}` on the way to a robot, one is lost in it"
 
 
@@ -121,12 +128,13 @@ def _order(name: str | None) -> tuple[str, int]:
     return role, int(number[:-1]) if number else 0
 
 
-class _Play:
+class Play:
     """The robots of a run, at given times."""
 
     def __init__(self, network: Network, times: Sequence[int], watch: Watch | None) -> None:
         self.lines: list[Line] = []
         self.lost: list[tuple[int, str, str]] = []
+        self.causes: dict[int, int] = {}
         self.overtakes = ""
         """Topic on which a message overtakes an earlier one."""
         self.exceeds = ""
@@ -138,17 +146,17 @@ class _Play:
         self._watch = watch
         self._now = 0
         self._sent = 0
-        self.robots: list[_Robot] = []
+        self.robots: list[Robot] = []
         self._bodies: dict[Actor, Body] = {}
         for group in network.groups:
             whole = group.automaton.whole
             for name in group.robots:
                 cast = group.cast(name)
                 body = Body(cast, self._alphabet.system, Clock())
-                body.seen = self._see
+                body.seen = self.see
                 self._bodies.update(dict.fromkeys(cast, body))
                 first = whole.first.target
-                self.robots.append(_Robot(name, group, first, body, moments=[0]))
+                self.robots.append(Robot(name, group, first, body, moments=[0]))
         self.robots.sort(key=lambda robot: _order(robot.name))
 
     def run(self, steps: Sequence[Step]) -> None:
@@ -157,8 +165,12 @@ class _Play:
             robot.body.start()
         for robot in self.robots:
             self._send(robot, list(robot.body.sent))
-        for number, step in enumerate(steps, start=1):
-            self._now = number
+        self.go_on(steps)
+
+    def go_on(self, steps: Sequence[Step]) -> None:
+        """Take more steps."""
+        for step in steps:
+            self._now += 1
             self._take(step)
             if self.departs:
                 return
@@ -195,7 +207,7 @@ class _Play:
             self.departs = True
             return
         if step.move is None:
-            robot = robots[0]
+            robot = self.chosen(robots)
             lost = next(c for c in robot.bag if c.number == step.lost)
             robot.bag.remove(lost)
             self.lost.append((len(self.lines), lost.event.name, robot.name or ""))
@@ -205,12 +217,18 @@ class _Play:
         if given.kind == "hear":
             robot, copy = self._heard(robots, given.choice)
             robot.bag.remove(copy)
-            event = self._oldest(robot, copy).event
+            oldest = self._oldest(robot, copy)
+            event = oldest.event
+            self.causes[len(self.lines)] = oldest.line
         else:
-            robot = robots[0]
+            robot = self.chosen(robots)
         self._move(robot, step.move, event)
 
-    def _heard(self, robots: Sequence[_Robot], number: int) -> tuple[_Robot, _Copy]:
+    def chosen(self, robots: Sequence[Robot]) -> Robot:
+        """Return the robot that takes a step, of those that can."""
+        return robots[0]
+
+    def _heard(self, robots: Sequence[Robot], number: int) -> tuple[Robot, Copy]:
         """Return a copy of a message and who hears it; none overtakes another if possible."""
         choices = [(r, c) for r in robots for c in r.bag if c.number == number]
         choices.sort(key=lambda choice: choice[1].order)
@@ -220,7 +238,7 @@ class _Play:
         self.overtakes = choices[0][1].topic
         return choices[0]
 
-    def _oldest(self, robot: _Robot, copy: _Copy) -> _Copy:
+    def _oldest(self, robot: Robot, copy: Copy) -> Copy:
         """Return the first message of an equal kind, which arrives instead of a later one."""
         equal = [each for each in robot.late if each.number == copy.number]
         found = min((copy, *equal), key=lambda each: each.order)
@@ -230,11 +248,11 @@ class _Play:
             self.exceeds = self.exceeds or found.event.name
         return found
 
-    def _is_before(self, robot: _Robot, copy: _Copy) -> bool:
+    def _is_before(self, robot: Robot, copy: Copy) -> bool:
         """Return True if an earlier message of the same channel is still on its way."""
         return any(_precedes(other, copy) for other in robot.bag)
 
-    def _move(self, robot: _Robot, move: Move, event: Event | None) -> None:
+    def _move(self, robot: Robot, move: Move, event: Event | None) -> None:
         automaton = robot.group.automaton
         found = automaton.follow(robot.state, move)
         robot.moments.append(self._now)
@@ -253,7 +271,7 @@ class _Play:
             robot.late.clear()
         self._send(robot, list(robot.body.sent))
 
-    def _send(self, source: _Robot, sent: Sequence[Event]) -> None:
+    def _send(self, source: Robot, sent: Sequence[Event]) -> None:
         assert self._alphabet.system is not None
         for event in sent:
             self._sent += 1
@@ -271,7 +289,7 @@ class _Play:
                     continue
                 envelope = Envelope(source.name or "", event.envelope.sent, to)
                 real = Event(event.name, event.data, envelope=envelope)
-                copy = _Copy(number, real, topic, self._sent)
+                copy = Copy(number, real, topic, self._sent, self._sending(source, event))
                 same = [c for c in robot.bag if c.event.name == event.name]
                 if len(same) < self._network.capacity:
                     robot.bag.append(copy)
@@ -280,13 +298,23 @@ class _Play:
                 else:
                     robot.late.append(copy)
 
-    def _see(self, line: Line) -> None:
+    def _sending(self, source: Robot, event: Event) -> int:
+        """Return the number of the last line on which a robot has sent an event."""
+        return next(
+            number
+            for number in range(len(self.lines) - 1, -1, -1)
+            if self.lines[number].actor.robot.name == source.name
+            and event.name in self.lines[number].sent
+        )
+
+    def see(self, line: Line) -> None:
+        """Keep a line, and show it to the monitor."""
         self.lines.append(line)
         if self._watch is not None:
             self._watch.see(line)
 
 
-def _precedes(one: _Copy, other: _Copy) -> bool:
+def _precedes(one: Copy, other: Copy) -> bool:
     """Return True if a message was sent before another one on the same channel."""
     senders = (each.event.envelope.sender for each in (one, other))
     return one.order < other.order and one.topic == other.topic and len(set(senders)) == 1
@@ -294,7 +322,7 @@ def _precedes(one: _Copy, other: _Copy) -> bool:
 
 def _times(steps: int, constraints: Sequence[tuple[int, int, int]]) -> list[int] | None:
     """Return times of the steps that fit, with pauses between them if possible."""
-    for gap in _GAPS:
+    for gap in GAPS:
         every = [(n + 1, n, gap) for n in range(steps)] + list(constraints)
         times = [0] * (steps + 1)
         for _ in range(steps + 2):
@@ -313,6 +341,17 @@ def _times(steps: int, constraints: Sequence[tuple[int, int, int]]) -> list[int]
 
 
 Find = Callable[[int], "list[tuple[int, Step]]"]
+
+
+def written(run: Run) -> Iterator[str]:
+    """Yield the lines of a trace, with their causes; the last one has the loop of the run."""
+    for number, line in enumerate(run.lines):
+        more = {}
+        if number in run.causes:
+            more["cause"] = run.causes[number] + 1
+        if run.loop is not None and number == len(run.lines) - 1:
+            more["loop"] = run.loop
+        yield as_json(line, more)
 
 
 def steps_between(states: Sequence[int], find: Find) -> list[Step]:

@@ -1,0 +1,74 @@
+"""Verdicts on what must happen in random swarms are those of all fair loops on the engine."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.cli import run
+from swarmdsl.execution.verify.model import Options
+from swarmdsl.execution.verify.runs import written
+
+from .conftest import model_of, system_of, verdicts_of
+from .random_duties import random_duties
+from .slow import refuted
+from .slow_lassos import never_happening
+
+MOST = 60
+"""Number of states up to which the slow explorer plays all runs from their beginning."""
+
+
+def compare(seed: int, path: Path, capsys: pytest.CaptureFixture[str]) -> Counter[str]:
+    """Compare the verdicts on a random swarm; replay each run that violates a property.
+
+    Return how many there are of each kind, and none if it has too many states.
+    """
+    found: Counter[str] = Counter()
+    path.write_text(random_duties(seed), encoding="utf-8")
+    lossy = seed % 3 == 0
+    model, system = model_of(path, None, Options(1, lossy)), system_of(path)
+    never = never_happening(system, list(model.outside), 1, MOST, lossy=lossy)
+    if never is None:
+        return found
+    never |= refuted(system, list(model.outside), 1, MOST * MOST, lossy=lossy) or set()
+    for name, verdict in verdicts_of(model, 50_000).items():
+        found[verdict.outcome] += 1
+        # Times or an order of messages may be such that a run cannot be: that is not a proof.
+        assert (verdict.outcome != "holds") == (name in never), (seed, verdict)
+        if verdict.outcome == "unknown":
+            assert "cannot be" in verdict.reason
+        if verdict.run is not None:
+            trace = path.with_suffix(".jsonl")
+            trace.write_text("".join(f"{line}\n" for line in written(verdict.run)))
+            run(["simulate", str(path), "--replay", str(trace), "--property", name])
+            told = capsys.readouterr().err
+            assert "as in the model" in told
+            assert f"property `{name}` is violated" in told
+            assert "left out" not in told
+            found["loop"] += verdict.run.loop not in (None, 0)
+    return found
+
+
+def test_verdicts_are_those_of_all_fair_loops(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found: Counter[str] = Counter()
+    for seed in range(20):
+        found += compare(seed, tmp_path / "random.swarm", capsys)
+
+    assert min(found["holds"], found["fails"], found["loop"]) > 5
+
+
+@pytest.mark.long
+@pytest.mark.timeout(3000)
+@pytest.mark.parametrize("start", [1000])
+def test_verdicts_on_many_swarms_are_those_of_all_fair_loops(
+    start: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    found: Counter[str] = Counter()
+    for seed in range(start, start + 100):
+        found += compare(seed, tmp_path / "random.swarm", capsys)
+
+    assert min(found["holds"], found["fails"], found["loop"]) > 10
