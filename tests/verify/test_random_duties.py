@@ -58,7 +58,7 @@ def test_verdicts_are_those_of_all_fair_loops(
     for seed in range(20):
         found += compare(seed, tmp_path / "random.swarm", capsys)
 
-    assert min(found["holds"], found["fails"], found["loop"]) > 5
+    assert min(found["holds"], found["fails"], found["loop"]) > 3
 
 
 @pytest.mark.long
