@@ -11,6 +11,7 @@ from swarmdsl.base import resources
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import render
 from swarmdsl.base.source import Source
+from swarmdsl.cli import run
 from swarmdsl.codegen import registry
 from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
@@ -40,6 +41,15 @@ def write(block: Block, folder: Path) -> Path:
 def _write(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
+
+
+def test_the_example_of_an_absence_holds_in_all_runs(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (block,) = (each for each in MODELS if "property Absence " in each.text)
+
+    assert run(["verify", str(write(block, tmp_path)), "--property", "Absence"]) == 0
+    assert "  Absence  holds" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("block", MODELS, ids=str)
