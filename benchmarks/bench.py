@@ -27,6 +27,7 @@ import peers
 import ros1
 import ros2
 import simulation
+import verification
 from measure import Section
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "performance.md"
@@ -38,6 +39,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "workspace": large.section,
     "engine": engine.section,
     "simulate": simulation.section,
+    "verify": verification.section,
     "lsp": editing.section,
     "import": importing.section,
     "diagram": drawing.section,
