@@ -44,7 +44,8 @@ class Automaton:
     """States and moves of a kind of robot.
 
     `steps` are the moves of each state, None of those that were not looked at; `heard` are those
-    that messages cause.
+    that messages cause. A robot keeps one deferred event of a name: more stay on their way, as
+    `late`. Messages arrive in any order, so that this leaves out nothing.
     """
 
     def __init__(self, kind: Kind, alphabet: Alphabet) -> None:
@@ -55,12 +56,15 @@ class Automaton:
         """True if it has more states, or moves, than are looked at."""
         self.steps: list[list[Move] | None] = []
         self.heard: list[dict[int, Move]] = []
+        self.late: list[set[int]] = []
         self.first: Move
         self._keys: dict[Any, int] = {}
         self._origins: list[tuple[int, Input] | None] = []
         self.looks: list[Look] = []
         self.tasks: list[frozenset[Task]] = []
         """Tasks of each state: what is over some time, however long it takes."""
+        self._deferred: list[set[str]] = []
+        """Names of the deferred events of each state."""
         self._values: list[tuple[tuple[str, Any], ...]] = []
         has = conditions(self._data)
         self._tests = [
@@ -90,7 +94,11 @@ class Automaton:
     def hear(self, number: int, message: int) -> None:
         """Find the move of a state when a message arrives."""
         event = self.alphabet.messages[message].event
-        self.heard[number][message] = self._try(number, Input("hear", -1, event.name, message))
+        given = Input("hear", -1, event.name, message)
+        if self._is_late(number, given):
+            self.late[number].add(message)
+        else:
+            self.heard[number][message] = self._try(number, given)
 
     def listens(self, message: int) -> bool:
         """Return True if a machine handles a message that can be for such a robot."""
@@ -119,8 +127,8 @@ class Automaton:
         """True if all moves are known."""
         listened = [n for n in range(len(self.alphabet.messages)) if self.listens(n)]
         return all(
-            steps is not None and all(number in heard for number in listened)
-            for steps, heard in zip(self.steps, self.heard, strict=True)
+            steps is not None and all(number in heard or number in late for number in listened)
+            for steps, heard, late in zip(self.steps, self.heard, self.late, strict=True)
         )
 
     # ---- running
@@ -186,6 +194,17 @@ class Automaton:
         given = Input("start", -1, "")
         self.first = self._move(body, given, body.start, [0] * len(self.kind.cast), None)
 
+    def _is_late(self, number: int, given: Input) -> bool:
+        """Return True if an event would be deferred after another one, so that it may as well wait.
+
+        It must not if a machine of the robot does anything else with it.
+        """
+        if given.name not in self._deferred[number]:
+            return False
+        body = self._at(number)
+        self.apply(body, given)
+        return all(line.deferred for line in body.lines)
+
     def _try(self, number: int, given: Input) -> Move:
         body = self._at(number)
         held = list(self.looks[number].held)
@@ -238,6 +257,10 @@ class Automaton:
             self._keys[key] = len(self.steps)
             self.steps.append(None)
             self.heard.append({})
+            self.late.append(set())
+            self._deferred.append(
+                {each.name for one in body.instances for each in one._deferred or ()}
+            )
             self._origins.append(origin)
             shown = [
                 (number, state)
@@ -334,7 +357,8 @@ def close(
                     automaton.expand(number)
                     changed = True
                 for message in range(len(alphabet.messages)):
-                    if message not in automaton.heard[number] and automaton.listens(message):
+                    known = message in automaton.heard[number] or message in automaton.late[number]
+                    if not known and automaton.listens(message):
                         automaton.hear(number, message)
                         changed = True
                 number += 1

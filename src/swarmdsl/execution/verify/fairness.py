@@ -65,6 +65,8 @@ class Fairness:
             group, state, bag = self._network.places[place]
             robots = self._network.groups[group]
             found = 0
+            # A deferred event waits as long as the robot defers it.
+            bag = tuple(each for each in bag if not robots.automaton.is_late(state, each))
             for task in (*robots.automaton.tasks(state), *bag):
                 found |= self._bit((group, task))
             if found and len(robots.robots) > 1:

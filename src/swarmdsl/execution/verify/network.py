@@ -234,6 +234,8 @@ class Network:
         for message in dict.fromkeys(bag):
             rest = _without(bag, message)
             heard = automaton.move_on(state, message)
+            if heard is None and automaton.is_late(state, message):
+                continue
             if heard is None:
                 self.cut = True
                 continue

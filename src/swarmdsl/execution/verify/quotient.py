@@ -59,6 +59,10 @@ class Quotient:
         found = self.whole.heard[self._representatives[state]].get(message)
         return None if found is None else self._lifted(found)
 
+    def is_late(self, state: int, message: int) -> bool:
+        """Return True if a message stays on its way: enough of the same kind are deferred."""
+        return message in self.whole.late[self._representatives[state]]
+
     def follow(self, number: int, move: Move) -> Move:
         """Return the move of a state of the automaton that looks like one of the quotient."""
         if move.given.kind == "hear":
@@ -106,7 +110,7 @@ class Quotient:
             (message, self._label(each, blocks[each.target]))
             for message, each in sorted(self.whole.heard[number].items())
         )
-        return own, heard
+        return own, heard, frozenset(self.whole.late[number])
 
 
 def _numbered(keys: Sequence[Any]) -> list[int]:
