@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -61,6 +62,17 @@ def _limits(_context: click.Context, _param: click.Parameter, texts: tuple[str, 
     return limits
 
 
+def _new_test(_context: click.Context, _param: click.Parameter, path: Path | None) -> Path | None:
+    """Return the path of a test file that does not exist yet."""
+    from swarmdsl.execution.testing.discovery import SUFFIX
+
+    if path is not None and not path.name.endswith(SUFFIX):
+        raise click.BadParameter(f"`{path}` is no test file: its name must end with `{SUFFIX}`")
+    if path is not None and os.path.lexists(path):
+        raise click.BadParameter(f"`{path}` exists: name another file, or remove it")
+    return path
+
+
 @click.command(epilog="Example: swarmc verify examples/emergency_exit -o runs")
 @options.files
 @click.option("--machine", metavar="NAME", help="Verify this state machine alone.")
@@ -108,6 +120,15 @@ def _limits(_context: click.Context, _param: click.Parameter, texts: tuple[str, 
     help="Write the runs that show what is wrong, as traces for `swarmc simulate --replay`.",
 )
 @click.option(
+    "--save-test",
+    "saved_test",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    callback=_new_test,
+    help="Write the runs that show what is wrong as behaviour tests, which fail until the model is "
+    "mended: NAME.swarmtest.toml.",
+)
+@click.option(
     "--results",
     type=click.Path(path_type=Path),
     metavar="FILE",
@@ -131,6 +152,7 @@ def verify(
     lossy: bool,
     limits: Limits,
     output: Path | None,
+    saved_test: Path | None,
     results: Path | None,
     junit: Path | None,
     format_: str,
@@ -159,6 +181,7 @@ def verify(
         output,
         results,
         junit,
+        saved_test,
     )
     succeeded = run_verification(request, sys.stdout, sys.stderr)
     return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from random import Random
 
 from swarmdsl.base.records import dataclass, field
@@ -109,6 +110,9 @@ class Network:
         """Reliable events by sender, receiver and topic, in the order of sending."""
         self._latest: dict[tuple[Robot, str], tuple[Declared, deque[_Kept]]] = {}
         self._deadlines: dict[tuple[Robot, Robot, str], Alarm] = {}
+        self._holding: set[tuple[str, str | None]] = set()
+        self._held: list[_Packet] = []
+        """Events that arrive or are lost when told so, in the order of sending."""
 
     @property
     def waiting(self) -> Counter[str]:
@@ -119,7 +123,7 @@ class Network:
     @property
     def latency(self) -> int | None:
         """Latency of all events, if at present it is the same and none is lost."""
-        troubled = self._scenario.loss or self.gone or self._partitions
+        troubled = self._scenario.loss or self.gone or self._partitions or self._holding
         latency = self._scenario.latency
         if troubled or self.transmitted is not None or not isinstance(latency, Fixed):
             return None
@@ -172,9 +176,50 @@ class Network:
                 self._meet(source, target)
         return parted
 
+    def hold(self, event: str, target: str | None) -> None:
+        """Let events on their way to a robot wait, until they are told to arrive."""
+        self._holding.add((event, target))
+
+    def release(self, event: str, target: str | None) -> None:
+        """Let events arrive by themselves again; those that have waited arrive now."""
+        self._holding.remove((event, target))
+        for packet in [each for each in self._held if _is_of(each, event, target)]:
+            self._held.remove(packet)
+            self._clock.schedule(0, partial(self._arrive, packet))
+
+    def take(
+        self, event: str, target: str | None, source: str | None, *, arrives: bool
+    ) -> str | None:
+        """Let the first event that waits arrive at a robot, or lose it.
+
+        With a `source`, it is that of this robot. Return the reason if there is none, or if an
+        earlier event of the same channel waits.
+        """
+        waiting = [each for each in self._held if _is_of(each, event, target)]
+        packet = next((p for p in waiting if source in (None, p.source.name)), None)
+        if packet is None:
+            return "it is not on its way"
+        channel = (packet.source, packet.target, packet.declared.topic)
+        first = next(
+            each
+            for each in self._held
+            if (each.source, each.target, each.declared.topic) == channel
+        )
+        if arrives and first is not packet:
+            return f"`{first.event.name}` of the same sender arrives before it"
+        self._held.remove(packet)
+        if arrives:
+            self._arrive(packet)
+        else:
+            self.lost[event] += 1
+        return None
+
     def leave(self, robot: Robot) -> None:
         """Remove a robot; what it has sent and what waits for it is lost."""
         self.gone.add(robot)
+        for packet in [each for each in self._held if each.target is robot]:
+            self._held.remove(packet)
+            self.lost[packet.event.name] += 1
         for (source, target, _), packets in self._waiting.items():
             if robot in (source, target):
                 for packet in [each for each in packets if not each.ready]:
@@ -212,6 +257,11 @@ class Network:
         self._transmissions[source.name, target.name] += 1
         count = self._transmissions[source.name, target.name]
         chance = self._chance.stream(source.name, "to", target.name, count)
+        if (event.name, target.name) in self._holding:
+            self._held.append(_Packet(event, declared, source, target, sent, chance))
+            if kept is not None:
+                kept.reached.add(target)
+            return
         if declared.delivery is not None and declared.delivery.reliable:
             if target in self.gone:
                 self._lose(event, source, target, sent)
@@ -362,6 +412,10 @@ class Network:
         if self.transmitted is not None:
             to = event.envelope.to
             self.transmitted(Transmission(event.name, source, target, sent, due, arrives, to))
+
+
+def _is_of(packet: _Packet, event: str, target: str | None) -> bool:
+    return packet.event.name == event and packet.target.name == target
 
 
 def _group(robot: Robot, groups: Groups) -> int | None:

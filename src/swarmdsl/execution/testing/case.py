@@ -107,6 +107,20 @@ class Lose:
 
 
 @dataclass(frozen=True)
+class Arrive:
+    """Arrival of an event that is on its way to robots, by name, or its loss.
+
+    With a `sender`, the event is that of this robot.
+    """
+
+    place: Span
+    event: str
+    robots: tuple[str | None, ...]
+    sender: str | None
+    lost: bool
+
+
+@dataclass(frozen=True)
 class Expect:
     """Expectation: now, at some time `within` a duration, or during all of `lasting`."""
 
@@ -116,14 +130,15 @@ class Expect:
     lasting: int | None = None
 
 
-Step = Send | End | Pass | Lose | Expect
+Step = Send | End | Pass | Lose | Arrive | Expect
 
 
 @dataclass(frozen=True)
 class Case:
     """A test. It passes if at least the share `passing` of its runs does.
 
-    In each run, no one of `properties` may be violated, and all of `violates` must be; in the
+    With `skips`, actions that are impossible in a run are left out. In each run, no one of
+    `properties` may be violated, and all of `violates` must be; in the
     end, `measures` are as expected.
     """
 
@@ -138,6 +153,7 @@ class Case:
     properties: tuple[tuple[Property, Span], ...] = ()
     violates: tuple[tuple[Property, Span], ...] = ()
     measures: tuple[ExpectedMeasure, ...] = ()
+    skips: bool = False
 
 
 @dataclass(frozen=True)

@@ -49,6 +49,8 @@ class Console:
         runs = len(verdict.seeds)
         if runs > 1:
             name += f" ({runs - len(verdict.failures)} of {runs} seeds)"
+        if verdict.skipped:
+            name += f" ({counted(verdict.skipped, 'impossible action')} skipped)"
         self._test("ok" if verdict.passed else "FAILED", name)
 
     def unread(self, case: InvalidTest) -> None:

@@ -73,14 +73,21 @@ class Names:
         return own or found
 
     def machines_able(
-        self, who: list[int], word: str, action: ActionKind, name: str, place: Span
+        self,
+        who: list[int],
+        word: str,
+        action: ActionKind,
+        name: str,
+        place: Span,
+        *,
+        skips: bool = False,
     ) -> list[int]:
-        """Return the machines that can do an action; report if none can."""
+        """Return the machines that can do an action; report if none can, unless that is skipped."""
         kind = "event" if action == "sends" else "function"
         if not self.is_known(kind, name, place):
             return []
         able = [n for n in who if self._can(self.cast[n].machine, action, name)]
-        if not able:
+        if not able and not skips:
             called = f"`{word}`" if word else f"`{self.subject.name}`"
             verb = "sends" if action == "sends" else "calls"
             self._report.report("impossible-step", place, reason=f"{called} never {verb} `{name}`")

@@ -25,7 +25,7 @@ from swarmdsl.execution.testing.steps import StepReader
 from swarmdsl.ir import Property
 from swarmdsl.project.read_source import read_source
 
-_SHARED = ("swarm", "machine", "scenario", "seeds", "passing", "properties")
+_SHARED = ("swarm", "machine", "scenario", "seeds", "passing", "properties", "impossible")
 _FILE = ("model", *_SHARED, "test")
 _TEST = ("name", *_SHARED, "steps", "always", "violates", "measures")
 _NEVER = {"aborted": 0.0, "preempted": 0.0, "never": 1.0}
@@ -116,7 +116,9 @@ class _Reader:
         )
         if not cast:
             return None
-        reader = StepReader(Names(subject, cast, table.report), table.report)
+        reader = StepReader(
+            Names(subject, cast, table.report), table.report, skips=self._skips(table)
+        )
         steps = self._steps(table, reader)
         always = [reader.claim(each) for each in table.items("always")]
         if share is None:
@@ -132,6 +134,7 @@ class _Reader:
             share,
             *self._properties(table, subject),
             read_measures(table, subject),
+            self._skips(table),
         )
 
     def _properties(
@@ -198,6 +201,12 @@ class _Reader:
             if document is not None:
                 return read_scenario(document, subject, holder.report)
         return None
+
+    def _skips(self, table: Table) -> bool:
+        holder = self._holder(table, "impossible")
+        if "impossible" not in holder:
+            return False
+        return holder.name("impossible", ("fail", "skip"), "way") == "skip"
 
     def _whole(self, table: Table, key: str) -> int:
         holder = self._holder(table, key)

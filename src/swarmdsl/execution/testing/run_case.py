@@ -16,7 +16,17 @@ from swarmdsl.execution.simulate.properties import watch
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.verdicts import violation_fields
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.execution.testing.case import Case, Claim, End, Expect, Lose, Pass, Send, Step
+from swarmdsl.execution.testing.case import (
+    Arrive,
+    Case,
+    Claim,
+    End,
+    Expect,
+    Lose,
+    Pass,
+    Send,
+    Step,
+)
 from swarmdsl.execution.testing.recorder import Recorder
 
 
@@ -24,12 +34,14 @@ from swarmdsl.execution.testing.recorder import Recorder
 class RunResult:
     """Result of a run; `faults` are failed guards and effects, by machine.
 
-    `remarks` by property say why it says nothing of the run.
+    `remarks` by property say why it says nothing of the run; `skipped` is the number of
+    impossible actions that were left out.
     """
 
     failure: Failure | None
     faults: tuple[tuple[str, str], ...]
     remarks: Mapping[str, str]
+    skipped: int = 0
 
 
 @dataclass(frozen=True)
@@ -42,6 +54,9 @@ class Failure:
     label: str
     related: tuple[Label, ...]
     last: tuple[Line, ...]
+
+
+_NOBODY = "nobody handles it"
 
 
 class _FailedError(Exception):
@@ -79,6 +94,13 @@ class _CaseRun:
         watched = [each for each, _ in (*case.properties, *case.violates)]
         self._watch: Watch | None = None
         self._remarks: dict[str, str] = {}
+        self._skipped = 0
+        self._arrivals: dict[tuple[str, str | None], int] = {}
+        """Events and receivers that steps name, with the last of these steps."""
+        for number, step in enumerate(case.steps):
+            if isinstance(step, Arrive):
+                named = ((step.event, robot) for robot in step.robots)
+                self._arrivals.update(dict.fromkeys(named, number))
         self._fitness = fitness_of(case.subject) if case.measures else None
         if watched or self._fitness is not None:
             measures = measures_of(self._fitness)
@@ -95,16 +117,19 @@ class _CaseRun:
 
     def run_case(self) -> RunResult:
         failure = self._failed()
-        return RunResult(failure, tuple(self._world.failures), self._remarks)
+        return RunResult(failure, tuple(self._world.failures), self._remarks, self._skipped)
 
     def _failed(self) -> Failure | None:
         place = self._case.place
+        for event, robot in self._arrivals:
+            self._world.network.hold(event, robot)
         try:
             self._world.begin()
             self._pass(0)
-            for step in self._case.steps:
+            for number, step in enumerate(self._case.steps):
                 place = step.place
                 self._do(step)
+                self._release(number)
             self._judge_properties()
             self._judge_measures()
         except _FailedError as failed:
@@ -175,6 +200,8 @@ class _CaseRun:
                 self._world.deliver(event, data, [self._cast[number] for number in to], sender)
             case End():
                 self._end(step)
+            case Arrive():
+                self._arrive(step)
             case Pass(length=length):
                 self._pass(length)
             case Lose(robots=names):
@@ -192,10 +219,36 @@ class _CaseRun:
     def _end(self, step: End) -> None:
         running = [actor for actor in self._actors(step.of) if self._events(actor, step)]
         if not running:
-            raise _FailedError(step.place, f"`{step.function}` to be running", "it is not running")
+            expected = f"`{step.function}` to be running"
+            self._impossible(step.place, expected, "it is not running")
         for actor in running:
             for event in self._events(actor, step):
                 self._world.deliver(event, step.result, [actor])
+
+    def _arrive(self, step: Arrive) -> None:
+        network = self._world.network
+        reasons = [
+            network.take(step.event, robot, step.sender, arrives=not step.lost)
+            for robot in step.robots
+        ]
+        if all(reasons):
+            sender = f" of `{step.sender}`" if step.sender is not None else ""
+            who = listed([str(robot) for robot in step.robots], "or")
+            expected = f"`{step.event}`{sender} to be on its way to {who}"
+            self._impossible(step.place, expected, (reasons or [_NOBODY])[0] or "")
+
+    def _impossible(self, place: Span, expected: str, actual: str) -> None:
+        """Fail, unless impossible actions are skipped."""
+        if not self._case.skips:
+            raise _FailedError(place, expected, actual)
+        self._skipped += 1
+
+    def _release(self, number: int) -> None:
+        """Let events arrive by themselves after the last step that names them."""
+        for (event, robot), last in self._arrivals.items():
+            if last == number:
+                self._world.network.release(event, robot)
+                self._pass(0)
 
     def _events(self, actor: Actor, step: End) -> list[str]:
         """Return the events that end a running function of a machine."""

@@ -19,6 +19,7 @@ from swarmdsl.execution.testing.case import (
     ANY,
     NONE,
     ActionKind,
+    Arrive,
     Claim,
     End,
     Expect,
@@ -37,6 +38,8 @@ _ACTIONS: Mapping[str, tuple[str, ...]] = {
     "end": ("of", "as", "result"),
     "pass": (),
     "lose": (),
+    "hear": ("by", "from"),
+    "drop": ("by", "from"),
 }
 _SUBJECTS: Mapping[str, Quantity] = {"who": ALL, "all": ALL, "any": ANY, "no": NONE}
 _ACTION_KINDS: Mapping[str, ActionKind] = {
@@ -53,6 +56,8 @@ _OTHER_WORDS = {
     **dict.fromkeys(("event", "raise", "emit", "publish", "trigger"), "send"),
     **dict.fromkeys(("finish", "complete", "outcome", "succeed", "abort"), "end"),
     **dict.fromkeys(("kill", "lost", "crash", "fail"), "lose"),
+    **dict.fromkeys(("arrive", "receive", "hears", "deliver"), "hear"),
+    **dict.fromkeys(("drops", "loss", "discard"), "drop"),
     **dict.fromkeys(("expect", "state", "active", "assert", "is"), "in"),
     **dict.fromkeys(("variable", "variables", "var", "values", "where"), "has"),
     **dict.fromkeys(("every", "each"), "all"),
@@ -65,11 +70,15 @@ _COUNT = re.compile(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}|\*))?")
 
 
 class StepReader:
-    """Reader of the steps of a test; an invalid step is None."""
+    """Reader of the steps of a test; an invalid step is None.
 
-    def __init__(self, names: Names, report: Diagnostics) -> None:
+    With `skips`, it accepts actions that the model makes impossible.
+    """
+
+    def __init__(self, names: Names, report: Diagnostics, *, skips: bool = False) -> None:
         self._names = names
         self._report = report
+        self._skips = skips
 
     def step(self, table: Table) -> Step | None:
         """Read a step: an action or an expectation."""
@@ -83,6 +92,8 @@ class StepReader:
             "end": self._end,
             "pass": self._pass,
             "lose": self._lose,
+            "hear": lambda table: self._arrive(table, "hear"),
+            "drop": lambda table: self._arrive(table, "drop"),
         }
         return read[verb](table)
 
@@ -126,12 +137,12 @@ class StepReader:
                 data = table.fitted(lambda value, way: fitted(type_, value, system, way), "data")
         return Send(place, event, data, tuple(listening), sender)
 
-    def _sender(self, table: Table) -> str | None:
+    def _sender(self, table: Table, key: str = "sender") -> str | None:
         """Read the robot in whose name an event comes; alone, a machine can hear any."""
         if self._names.subject.swarm is None:
-            return table.text("sender", "the id of a robot")
+            return table.text(key, "the id of a robot")
         robots = dict.fromkeys(actor.robot.name for actor in self._names.cast)
-        return table.name("sender", [name for name in robots if name], "robot")
+        return table.name(key, [name for name in robots if name], "robot")
 
     def _end(self, table: Table) -> End | None:
         place = table.value_place(("end",))
@@ -141,13 +152,15 @@ class StepReader:
         if function is None or outcome is None or not who:
             return None
         word = table.values.get("of", "")
-        able = self._names.machines_able(who, word, "starts", function, place)
+        skips = self._skips
+        able = self._names.machines_able(who, word, "starts", function, place, skips=skips)
         result = None
         if "result" in table and able:
             if outcome != "succeeded":
                 table.wrong(("result",), "no result unless it succeeds", table.values["result"])
             result = self._result(table, function)
-        return End(place, function, outcome, result, tuple(able)) if able else None
+        known = able or (skips and self._names.is_known("function", function, place))
+        return End(place, function, outcome, result, tuple(able)) if known else None
 
     def _result(self, table: Table, function: str) -> Any:
         system = self._names.subject.system
@@ -167,6 +180,45 @@ class StepReader:
         who = self._members(table, "lose")
         robots = dict.fromkeys(self._names.cast[n].robot.name for n in who)
         return Lose(table.value_place(("lose",)), tuple(robots)) if who else None
+
+    def _arrive(self, table: Table, verb: str) -> Arrive | None:
+        """Read the arrival or the loss of an event that is on its way."""
+        place = table.value_place((verb,))
+        event = table.text(verb, "the name of an event")
+        if "by" not in table:
+            help_ = 'name the robot to which it is on its way, such as `by = "robot[0]"`'
+            self._report.report("missing-key", place, name="by", help=help_)
+            return None
+        who = self._members(table, "by")
+        sender = self._sender(table, "from") if "from" in table else ""
+        if event is None or sender is None or not self._names.is_known("event", event, place):
+            return None
+        system = self._names.subject.system
+        if not who or system is None:
+            return None
+        declared = system.event(event)
+        if not declared.swarm:
+            reason = f"`{event}` is not on its way between robots: it is no swarm event"
+            help_ = "let it arrive from outside with `send`"
+            self._report.report("impossible-step", place, reason=reason, help=help_)
+            return None
+        delivery = declared.delivery
+        if verb == "drop" and delivery is not None and delivery.reliable and not delivery.keep:
+            reason = f"`{event}` is reliable: it is not lost on its way"
+            self._report.report("impossible-step", place, reason=reason)
+            return None
+        cast = self._names.cast
+        robots = dict.fromkeys(cast[n].robot.name for n in who if cast[n].listens(event))
+        if not robots and not self._skips:
+            reason = f"`{table.values['by']}` never handles `{event}`"
+            self._report.report("impossible-step", place, reason=reason)
+            return None
+        senders = [n for n, actor in enumerate(cast) if not sender or actor.robot.name == sender]
+        skips = self._skips
+        able = self._names.machines_able(senders, sender, "sends", event, place, skips=skips)
+        if not able and not skips:
+            return None
+        return Arrive(place, event, tuple(robots), sender or None, verb == "drop")
 
     # ---- expectations
 

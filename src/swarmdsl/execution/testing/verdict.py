@@ -31,6 +31,8 @@ class Verdict:
     faults: tuple[tuple[str, str], ...]
     seconds: float
     remarks: Mapping[str, str]
+    skipped: int = 0
+    """Number of impossible actions that were left out, at most in one run."""
 
     @property
     def passed(self) -> bool:
@@ -86,10 +88,12 @@ def judge(case: Case, seeds: Sequence[int], listener: Callable[[int, Line], None
     failures: dict[int, Failure] = {}
     faults: dict[tuple[str, str], None] = {}
     remarks: list[Mapping[str, str]] = []
+    skipped = 0
     for seed in seeds:
         played = run_case(case, seed, partial(listener, seed))
         faults.update(dict.fromkeys(played.faults))
         remarks.append(played.remarks)
+        skipped = max(skipped, played.skipped)
         if played.failure is not None:
             failures[seed] = played.failure
     silent = {
@@ -98,4 +102,4 @@ def judge(case: Case, seeds: Sequence[int], listener: Callable[[int, Line], None
         if all(name in each for each in remarks)
     }
     seconds = time.perf_counter() - began
-    return Verdict(case, tuple(seeds), failures, tuple(faults), seconds, silent)
+    return Verdict(case, tuple(seeds), failures, tuple(faults), seconds, silent, skipped)

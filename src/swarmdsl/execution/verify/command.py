@@ -25,6 +25,12 @@ from swarmdsl.execution.verify.model import Model, Options
 from swarmdsl.execution.verify.prove import is_about_ends, prove
 from swarmdsl.execution.verify.results import Results, as_document, junit
 from swarmdsl.execution.verify.runs import Run, written
+from swarmdsl.execution.verify.saved_test import (
+    Shown,
+    shown_by_finding,
+    shown_by_verdict,
+    tests_of,
+)
 from swarmdsl.execution.verify.sizes import shown, sizes, whole
 from swarmdsl.execution.verify.verdict import Verdict
 
@@ -49,6 +55,7 @@ class Request:
     output: Path | None = None
     results: Path | None = None
     junit: Path | None = None
+    saved_test: Path | None = None
 
 
 def verify(request: Request, stdout: TextIO, stderr: TextIO) -> bool | None:
@@ -73,8 +80,11 @@ class _Session:
         self._results = stdout if request.format == "text" else stderr
         self._progress = _Progress(stderr)
         self._budget = Budget(request.limits, self._progress.tell)
+        self._models: list[Path] = []
         self._written: dict[str, Path] = {}
         self._found: Results | None = None
+        self._shown: list[Shown | str] = []
+        """What tests can show, or the name of what they cannot."""
 
     def run(self) -> bool | None:
         """Return None if interrupted."""
@@ -98,7 +108,7 @@ class _Session:
                     return False
                 model = made
                 looked.append(counts)
-                self._size(model, counts, properties, verdicts, surveys)
+                self._size(model, whole(subject, counts), properties, verdicts, surveys)
                 if not self._budget.allows(0):
                     break
         except KeyboardInterrupt:
@@ -123,6 +133,7 @@ class _Session:
             self._written,
         )
         self._print(subject, self._found, left, surveys)
+        self._save_test(subject)
         return None if self._budget.interrupted else True
 
     def _size(
@@ -140,6 +151,7 @@ class _Session:
             surveys.append(found)
             for finding in found.findings:
                 self._write(finding.title, finding.run)
+                self._shown.append(shown_by_finding(finding, counts) or finding.title)
                 diagnostics.report_finding(finding, size, self._report)
         for property_ in properties:
             known = verdicts.get(property_.name)
@@ -152,6 +164,8 @@ class _Session:
             if known is None or _WORST.index(verdict.outcome) <= _WORST.index(known.outcome):
                 verdicts[property_.name] = verdict
             self._write(property_.name, verdict.run)
+            if verdict.outcome == "fails":
+                self._shown.append(shown_by_verdict(verdict, counts) or property_.name)
             diagnostics.report_verdict(verdict, size, self._report)
 
     # ---- before
@@ -161,7 +175,8 @@ class _Session:
         settings = find_settings(models, self._report)
         if self._report.has_errors:
             return None
-        checked = pipeline.check(models or settings.sources, settings)
+        self._models = models or list(settings.sources)
+        checked = pipeline.check(self._models, settings)
         self._report.include(checked.report)
         if self._report.has_errors or checked.system is None:
             return None
@@ -219,6 +234,19 @@ class _Session:
         path = folder / f"{name}.jsonl"
         if self._write_file(path, "".join(f"{line}\n" for line in written(run))):
             self._written[name] = path
+
+    def _save_test(self, subject: Subject) -> None:
+        """Write what is wrong as behaviour tests."""
+        path = self._request.saved_test
+        if path is None:
+            return
+        left = [each for each in self._shown if isinstance(each, str)]
+        shown = [each for each in self._shown if not isinstance(each, str)]
+        text, others = tests_of(subject, self._models, path, shown)
+        if text and self._write_file(path, text):
+            self._say(f"written: {printable(path.as_posix())}")
+        for name in dict.fromkeys([*left, *others]):
+            self._say(f"not written as a test, which cannot show it: {printable(name)}")
 
     def write_files(self) -> None:
         """Write the results for programs, where they are asked for."""

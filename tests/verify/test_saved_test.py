@@ -1,0 +1,193 @@
+"""Runs as behaviour tests: they fail, until the model is mended."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.cli import run
+
+from .conftest import MODELS, ROOT
+
+PAGE = (ROOT / "docs" / "verify.md").read_text(encoding="utf-8")
+EXAMPLES = dict(re.findall(r"```swarm file=(\w+)\.swarm\n(.*?)```", PAGE, re.DOTALL))
+# What mends each example: drones land in turn, and ask again.
+IN_TURN = (
+    ("  initial Circle\n", "  var turn : uint32 = 0\n  initial Circle\n"),
+    (
+        "    on succeeded / send Taken -> Land\n",
+        "    on succeeded [self.index == turn] / send Taken -> Land\n    on succeeded -> Circle\n",
+    ),
+    ("    on Taken -> Wait\n", "    on Free [turn < 3] / turn = turn + 1 -> Circle\n"),
+    ("  state Wait { on Free -> Circle }\n", ""),
+)
+AGAIN = (("on Yes -> Land }", "on Yes -> Land\n    after 5 s / send Ask -> Wait }"),)
+SHORTER = (("after 3 s -> Wait", "after 1 s -> Wait"),)
+
+Saved = Callable[..., str]
+
+
+@pytest.fixture
+def saved(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Saved:
+    """Write a model, verify it, and return the written test file."""
+    monkeypatch.chdir(tmp_path)
+
+    def saved(text: str, *options: str) -> str:
+        Path("model.swarm").write_text(text, encoding="utf-8")
+        run(["verify", "model.swarm", "--save-test", "it.swarmtest.toml", *options])
+        return Path("it.swarmtest.toml").read_text(encoding="utf-8")
+
+    return saved
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "names", "mended"),
+    [
+        (
+            "landing",
+            (),
+            ["drone[1] goes on from Wait", "OneLands", "AllDown for drone[1]"],
+            IN_TURN,
+        ),
+        ("asking", ("--lossy",), ["drone[0] goes on from Wait", "CanLand for drone[0]"], AGAIN),
+        ("courier", (), ["Waits for courier[0]"], SHORTER),
+    ],
+)
+def test_each_run_of_the_page_fails_until_the_model_is_mended(
+    saved: Saved,
+    capsys: pytest.CaptureFixture[str],
+    name: str,
+    options: tuple[str, ...],
+    names: list[str],
+    mended: tuple[tuple[str, str], ...],
+) -> None:
+    text = saved(EXAMPLES[name], *options)
+    assert re.findall(r'^name = "(.*)"$', text, re.MULTILINE) == names
+    capsys.readouterr()
+
+    assert run(["test", "it.swarmtest.toml"]) == 1
+    assert re.findall("  FAILED  (.*)", capsys.readouterr().out) == names
+
+    model = Path("model.swarm")
+    for old, new in mended:
+        assert old in model.read_text(encoding="utf-8")
+        model.write_text(model.read_text(encoding="utf-8").replace(old, new), encoding="utf-8")
+    # Those about a state that is gone name what is missing.
+    gone = [each for each in names if "Wait" in each] if name == "landing" else []
+    code = run(["test", "it.swarmtest.toml"])
+    out = capsys.readouterr().out
+    passed = [each.partition(" (")[0] for each in re.findall("  ok      (.*)", out)]
+    assert passed == [each for each in names if each not in gone], out
+    assert bool(code) == bool(gone)
+    assert ("no state called `Wait`" in out) == bool(gone)
+    assert run(["verify", "model.swarm", *options]) == 0, capsys.readouterr().out
+
+
+def test_data_results_and_delays_are_replayed(
+    saved: Saved, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = saved(
+        """package model
+message Where { x : int32 }
+action Look { result { found : bool } }
+event Order : Where on "order"
+swarm event Seen : Where
+function look : abstraction { action "look" : Look }
+endless statemachine Search {
+  var found : bool
+  initial Idle
+  state Idle { on Order [event.x > 3] -> Rest }
+  state Rest { after 1.5 s -> Looking }
+  state Looking {
+    do look gives (found => found)
+    on succeeded [found] / send Seen(x = 2) -> Found
+    on succeeded, aborted -> Idle
+  }
+  state Found { on Seen -> Both }
+  state Both {}
+}
+member Scout { behavior Search }
+swarm Scouts { scout : Scout[2] }
+property NotBoth of Scouts : never some scout in Both
+"""
+    )
+    assert '{ send = "Order", to = "scout[0]", data = { x = 4' in text
+    assert '{ end = "look", of = "scout[1]", result = { found = true' in text
+    assert '{ pass = "1501 ms" }' in text
+    assert run(["test", "it.swarmtest.toml"]) == 1
+    assert "property `NotBoth` is violated" in capsys.readouterr().out
+
+
+def test_a_machine_alone(saved: Saved, capsys: pytest.CaptureFixture[str]) -> None:
+    text = saved(
+        """package model
+event Go : std_msgs/Empty
+endless statemachine Work {
+  initial Idle
+  state Idle { on Go -> Busy }
+  state Busy {}
+}
+property Rests of Work : in Idle at all times
+property Back of Work : always possible in Idle
+""",
+        "--machine",
+        "Work",
+    )
+
+    assert 'machine = "Work"' in text
+    assert '{ send = "Go" }' in text
+    assert run(["test", "it.swarmtest.toml"]) == 1
+    assert capsys.readouterr().out.count("FAILED") == 3
+
+
+def test_what_a_test_cannot_show_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "it.swarmtest.toml"
+    text = """package model
+swarm event Tell : std_msgs/Empty
+statemachine Work {
+  initial Idle
+  state Idle { after 1 s / send Tell -> Done }
+  final Done
+}
+statemachine Hear {
+  initial Idle
+  state Idle { after 1 s -> Late }
+  state Late {
+    after 9 s -> Done
+    on Tell [false] -> Done
+  }
+  final Done
+}
+member Worker { behavior Work }
+member Listener { behavior Hear }
+swarm Pair {
+  worker : Worker
+  listener : Listener
+}
+"""
+    (tmp_path / "model.swarm").write_text(text, encoding="utf-8")
+    run(["verify", str(tmp_path / "model.swarm"), "--save-test", str(path)])
+
+    out = capsys.readouterr().out
+    assert "SW1706" in out
+    assert "not written as a test, which cannot show it: lost-Tell" in out
+    assert not path.exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [("it.toml", "must end with `.swarmtest.toml`"), ("there.swarmtest.toml", "exists")],
+)
+def test_a_wrong_file_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], name: str, told: str
+) -> None:
+    (tmp_path / "there.swarmtest.toml").write_text("# mine\n", encoding="utf-8")
+
+    assert run(["verify", str(MODELS / "waits.swarm"), "--save-test", str(tmp_path / name)]) == 2
+    assert told in capsys.readouterr().err
+    assert (tmp_path / "there.swarmtest.toml").read_text(encoding="utf-8") == "# mine\n"
