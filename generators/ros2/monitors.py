@@ -1,8 +1,8 @@
-"""Monitors of swarms: what is watched of whom, for a node of each swarm with properties."""
+"""Monitors of swarms: what is watched and measured of whom, for a node of each swarm."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from swarmdsl.codegen import Diagnostics, Span, code_cell, dataclass, fresh
 from swarmdsl.codegen.python import Call, Source, comments, layout, source_place
@@ -11,6 +11,7 @@ from swarmdsl.codegen.shared import (
     constant,
     envelopes_of,
     facts_of,
+    parts_text,
     sentence_text,
 )
 from swarmdsl.ir import (
@@ -18,14 +19,20 @@ from swarmdsl.ir import (
     Count,
     Expression,
     Fact,
+    Fitness,
+    FitnessInput,
     Junction,
+    Measure,
     ParamRef,
     Property,
     Robots,
     StateMachine,
     System,
+    bound_of_any,
     subexpressions,
 )
+from swarmdsl.ir.sentences import facts_in, measure
+from swarmdsl.syntax.types import DURATION
 
 from .imports import WIDTH, Imports
 from .launch import Launch
@@ -48,7 +55,8 @@ class Entry:
 class WatchedSwarm:
     """Swarm with its properties; `machines` are those of its roles and parts, with their nodes.
 
-    `about` is a section for the README of the package.
+    `of_machines` are the properties of each machine, by the name of their table; `measures` are
+    inputs of the `fitness`. `about` is a section for the README of the package.
     """
 
     swarm: str
@@ -57,63 +65,171 @@ class WatchedSwarm:
     imports: tuple[str, ...]
     machines: tuple[Entry, ...]
     properties: tuple[Entry, ...]
+    of_machines: tuple[tuple[str, tuple[Entry, ...]], ...]
+    fitness: str
+    measures: tuple[Entry, ...]
     about: str
     origin: Span | None
+
+
+@dataclass(frozen=True)
+class _Subject:
+    """A swarm to watch: its properties, those of its machines by module, and its measures."""
+
+    launch: Launch
+    machines: Mapping[str, StateMachine]
+    properties: tuple[Property, ...]
+    of_machines: Mapping[str, tuple[Property, ...]]
+    fitness: Fitness | None
+    inputs: tuple[FitnessInput, ...]
+
+    @property
+    def facts(self) -> Iterator[Fact | Count]:
+        """Facts in all that is watched."""
+        of_machines = (each for found in self.of_machines.values() for each in found)
+        for each in (*self.properties, *of_machines):
+            yield from facts_of(each)
+        for input_ in self.inputs:
+            yield from _facts_of_input(input_)
 
 
 def watched_swarms(
     system: System, launches: Iterable[Launch], modules: Mapping[str, str], report: Diagnostics
 ) -> tuple[WatchedSwarm, ...]:
-    """Return the swarms that have properties and nodes; report what cannot be watched."""
+    """Return the swarms to watch: they have nodes, and properties or measures.
+
+    Report what cannot be watched.
+    """
     found: list[WatchedSwarm] = []
     launched = {each.swarm: each for each in launches}
-    for name, launch in launched.items():
-        about = [
-            each
-            for each in system.properties
-            if each.subject == name and _is_told(each, launch, modules, system, report)
-        ]
-        if about:
+    machines = {module: system.machines_by_name[name] for name, module in modules.items()}
+    for launch in launched.values():
+        subject = _subject(launch, machines, system, report)
+        if subject.properties or subject.of_machines or subject.inputs:
             taken = (*modules.values(), *(each.module for each in found))
             module = fresh(f"{launch.name}_monitor", taken)
-            machines = tuple(_machines(launch, modules, system))
-            found.append(_watched(about, launch, module, machines, _local_names(system)))
-            _check_senders(about, system, report)
-    for each in system.properties:
-        if each.subject not in launched:
-            what = f"property `{each.name}`: monitors watch properties of swarms with nodes"
-            report.report("no-place", each.origin, target=TARGET, what=what)
-    if not system.properties:
-        what = "option `monitors`, because the model has no property"
-        report.report("no-place", target=TARGET, what=what)
+            found.append(_watched(subject, module, _local_names(system)))
+            _check_senders(subject.facts, system, report)
+    _report_unwatched(system, launched, machines, report)
     return tuple(found)
 
 
 def conditions(machine: StateMachine, system: System) -> dict[str, Expression]:
-    """Return the conditions of properties that robots with a machine tell, by their text."""
-    found: dict[str, Expression] = {}
-    for swarm in system.swarms:
-        roles = {
-            role.name
-            for role in swarm.roles
-            if system.members_by_name[role.member].behavior == machine.name
-        }
-        for property_ in system.properties:
-            for fact in facts_of(property_) if property_.subject == swarm.name else ():
-                if isinstance(fact, Fact) and fact.guard is not None:
-                    role = fact.robots.role if fact.robots is not None else property_.each
-                    if role in roles and _unknown_param(fact.guard, machine) is None:
-                        found[condition_text(fact.guard)] = fact.guard
-    return found
+    """Return the conditions that robots with a machine tell, by their text."""
+    guards = [
+        fact.guard
+        for swarm in system.swarms
+        for role in swarm.roles
+        if system.members_by_name[role.member].behavior == machine.name
+        for each, fact in _facts_about(swarm.name, system)
+        if isinstance(fact, Fact) and fact.guard is not None
+        if role.name == (fact.robots.role if fact.robots is not None else each)
+    ]
+    guards += [
+        fact.guard
+        for property_ in system.properties
+        if property_.subject == machine.name
+        for fact in facts_of(property_)
+        if isinstance(fact, Fact) and fact.guard is not None
+    ]
+    known = (each for each in guards if _unknown_param(each, machine) is None)
+    return {condition_text(each): each for each in known}
 
 
-def _watched(
-    properties: Sequence[Property],
-    launch: Launch,
-    module: str,
-    machines: tuple[Entry, ...],
-    named: Callable[[str], str],
-) -> WatchedSwarm:
+def _facts_about(swarm: str, system: System) -> Iterator[tuple[str | None, Fact | Count]]:
+    """Yield the facts in properties and measures of a swarm, each with the role of `each`."""
+    for property_ in system.properties:
+        if property_.subject == swarm:
+            for fact in facts_of(property_):
+                yield property_.each, fact
+    fitness = _fitness_of(swarm, system)
+    for input_ in fitness.inputs if fitness is not None else ():
+        if input_.measure is not None:
+            for fact in _facts_of_input(input_):
+                yield input_.measure.each, fact
+
+
+def _facts_of_input(input_: FitnessInput) -> Iterable[Fact | Count]:
+    return facts_in(input_.measure.claim) if input_.measure is not None else ()
+
+
+def _fitness_of(swarm: str, system: System) -> Fitness | None:
+    (name,) = (each.fitness for each in system.swarms if each.name == swarm)
+    return next((each for each in system.fitness if each.name == name), None)
+
+
+def _subject(
+    launch: Launch, machines: Mapping[str, StateMachine], system: System, report: Diagnostics
+) -> _Subject:
+    nodes = [(role, node) for role in launch.roles for node in role.nodes]
+    behaviors = {r.name: machines[n.executable] for r, n in nodes if n.part is None}
+    run = {node.executable: machines[node.executable] for _, node in nodes}
+    fitness = _fitness_of(launch.swarm, system)
+    return _Subject(
+        launch,
+        machines,
+        tuple(
+            each
+            for each in system.properties
+            if each.subject == launch.swarm
+            and _is_told(f"property `{each.name}`", each.each, facts_of(each), behaviors, report)
+        ),
+        {
+            module: found
+            for module, machine in run.items()
+            if (found := tuple(p for p in system.properties if p.subject == machine.name))
+        },
+        fitness,
+        tuple(
+            each
+            for each in (fitness.inputs if fitness is not None else ())
+            if each.measure is not None
+            and _is_told(
+                f"measure `{each.name}`",
+                each.measure.each,
+                _facts_of_input(each),
+                behaviors,
+                report,
+            )
+        ),
+    )
+
+
+def _report_unwatched(
+    system: System,
+    launched: Mapping[str, Launch],
+    machines: Mapping[str, StateMachine],
+    report: Diagnostics,
+) -> None:
+    """Report properties and measures of what runs on no robot of a swarm with nodes."""
+    run = {
+        machines[node.executable].name
+        for launch in launched.values()
+        for role in launch.roles
+        for node in role.nodes
+    }
+    watched = {*launched, *run}
+    for each in system.properties:
+        if each.subject not in watched:
+            what = f"property `{each.name}`: monitors watch swarms with nodes, and their machines"
+            report.report("no-place", each.origin, target=TARGET, what=what)
+    used = {each.fitness for each in system.swarms if each.name in launched}
+    measured = [
+        (fitness.name, input_)
+        for fitness in system.fitness
+        for input_ in fitness.inputs
+        if input_.measure is not None
+    ]
+    for name, input_ in measured:
+        if name not in used:
+            what = f"measure `{input_.name}`: monitors measure the fitness of swarms with nodes"
+            report.report("no-place", input_.origin, target=TARGET, what=what)
+    if not system.properties and not measured:
+        what = "option `monitors`, because the model has no property and no measure"
+        report.report("no-place", target=TARGET, what=what)
+
+
+def _watched(subject: _Subject, module: str, named: Callable[[str], str]) -> WatchedSwarm:
     imports = Imports({})
     imports.own("node", "run_node")
     imports.own("robot_lines", "Machine")
@@ -121,14 +237,23 @@ def _watched(
     for name in ("MonitorNode", "Swarm"):
         imports.own("swarm_monitor", name)
     written = _Writer(imports, named)
+    launch = subject.launch
+    tables = {each: f"OF_{each.upper()}" for each in subject.of_machines}
+    of_machines = tuple(
+        (tables[each], tuple(map(written.entry, found)))
+        for each, found in subject.of_machines.items()
+    )
     return WatchedSwarm(
         swarm=launch.swarm,
         launch=launch.name,
         module=module,
-        machines=machines,
-        properties=tuple(map(written.entry, properties)),
+        machines=tuple(_machines(launch, subject.machines, tables)),
+        properties=tuple(map(written.entry, subject.properties)),
+        of_machines=of_machines,
+        fitness=subject.fitness.name if subject.fitness is not None and subject.inputs else "",
+        measures=tuple(map(written.measure_entry, subject.inputs)),
         imports=tuple(imports.lines()),
-        about=_about(launch, module, properties, named),
+        about=_about(subject, module, named),
         origin=launch.origin,
     )
 
@@ -140,60 +265,81 @@ def _local_names(system: System) -> Callable[[str], str]:
     return lambda name: local.get(name, name)
 
 
-def _about(
-    launch: Launch, module: str, properties: Iterable[Property], named: Callable[[str], str]
-) -> str:
+def _about(subject: _Subject, module: str, named: Callable[[str], str]) -> str:
+    launch = subject.launch
+    of_machines = [each for found in subject.of_machines.values() for each in found]
+    properties = (*subject.properties, *of_machines)
     texts = {each.name: code_cell(sentence_text(each, named)) for each in properties}
-    rows = "\n".join(f"| {name} | {text} |" for name, text in texts.items())
-    return f"""## Monitor of {launch.swarm}
+    about = f"""## Monitor of {launch.swarm}
 
-Node `{module}` watches the properties of the swarm in its namespace. The launch file starts it.
-
+Node `{module}` watches the swarm in its namespace. The launch file starts it.
+"""
+    if texts:
+        about += f"""
 | property | |
 |---|---|
-{rows}
+{_rows(texts)}
 
-It tells verdicts on `/diagnostics`, and on `~/verdicts` as lines of JSON. Its parameters are
-`members` (the robots that are to be heard), `wait` (seconds that a line may be on its way),
-`wait.start`, `diagnostics.period`, `swarm` and `trace.file`.
+It tells verdicts on `/diagnostics`, and on `~/verdicts` as lines of JSON.
+"""
+    if subject.inputs and subject.fitness is not None:
+        about += f"""
+| measure | |
+|---|---|
+{_rows({each.name: code_cell(_measure_text(each, named)) for each in subject.inputs})}
+
+It tells these inputs of fitness {subject.fitness.name} on `/diagnostics`, and on `~/measures` as
+a line of JSON, which the script of target `fitness` reads in a bag or in the trace of the node.
+"""
+    return f"""{about}
+Its parameters are `members` (the robots that are to be heard), `wait` (seconds that a line may be
+on its way), `wait.start`, `diagnostics.period`, `swarm` and `trace.file`.
 """
 
 
-def _machines(launch: Launch, modules: Mapping[str, str], system: System) -> Iterator[Entry]:
-    """Yield the machine of each role and of each part: the name of its node, and its states."""
-    machines = {module: system.machines_by_name[name] for name, module in modules.items()}
+def _rows(texts: Mapping[str, str]) -> str:
+    return "\n".join(f"| {name} | {text} |" for name, text in texts.items())
+
+
+def _measure_text(input_: FitnessInput, named: Callable[[str], str]) -> str:
+    assert input_.measure is not None
+    return parts_text(measure(input_.measure), named)
+
+
+def _machines(
+    launch: Launch, machines: Mapping[str, StateMachine], tables: Mapping[str, str]
+) -> Iterator[Entry]:
+    """Yield the machine of each role and of each part; `tables` of properties by module."""
     for role in launch.roles:
         for node in role.nodes:
             who = role.name if node.part is None else f"{role.name}.{node.part}"
             states = tuple(state.id for state in machines[node.executable].walk())
-            call = Call("Machine", (node.name, states))
+            keywords: list[tuple[str, object]] = []
+            if role.upper is not None:
+                keywords.append(("most", role.upper))
+            if node.executable in tables:
+                keywords.append(("properties", Source(tables[node.executable])))
+            call = Call("Machine", (node.name, states), tuple(keywords))
             yield Entry((), layout(call, 1, f"{_STEP}{who!r}: ", ",", WIDTH))
 
 
 def _is_told(
-    property_: Property,
-    launch: Launch,
-    modules: Mapping[str, str],
-    system: System,
+    what: str,
+    each: str | None,
+    facts: Iterable[Fact | Count],
+    machines: Mapping[str, StateMachine],
     report: Diagnostics,
 ) -> bool:
-    """Return True if nodes know what a property asks for; report it otherwise."""
-    machines = {
-        role.name: system.machines_by_name[name]
-        for name, module in modules.items()
-        for role in launch.roles
-        for node in role.nodes
-        if node.part is None and node.executable == module
-    }
-    for fact in facts_of(property_):
+    """Return True if nodes know what facts ask for, with the machine of each role.
+
+    Report it otherwise.
+    """
+    for fact in facts:
         if isinstance(fact, Fact) and fact.guard is not None:
-            role = fact.robots.role if fact.robots is not None else property_.each
+            role = fact.robots.role if fact.robots is not None else each
             param = _unknown_param(fact.guard, machines.get(role or ""))
             if param is not None:
-                what = (
-                    f"property `{property_.name}`: the state machine of `{role}` does not have "
-                    f"its param `{param}`"
-                )
+                what += f": the state machine of `{role}` does not have its param `{param}`"
                 help_ = "declare a param of this name in the state machine"
                 report.report("no-place", fact.origin, target=TARGET, what=what, help=help_)
                 return False
@@ -209,19 +355,18 @@ def _unknown_param(condition: Expression, machine: StateMachine | None) -> str |
     return None
 
 
-def _check_senders(properties: Iterable[Property], system: System, report: Diagnostics) -> None:
+def _check_senders(facts: Iterable[Fact | Count], system: System, report: Diagnostics) -> None:
     """Report events from outside that robots cannot tell from those of other robots."""
     sent = {name for machine in system.machines for name in sent_events(machine)}
     unknown = sent - envelopes_of(system).keys()
-    for property_ in properties:
-        for fact in facts_of(property_):
-            if isinstance(fact, Fact) and fact.act == "arrives" and fact.name in unknown:
-                what = (
-                    f"that `{fact.name}` comes from outside: robots send it too, and do not tell "
-                    "who sent it"
-                )
-                help_ = f"let a transition on `{fact.name}` use `event.sender`"
-                report.report("no-place", fact.origin, target=TARGET, what=what, help=help_)
+    for fact in facts:
+        if isinstance(fact, Fact) and fact.act == "arrives" and fact.name in unknown:
+            what = (
+                f"that `{fact.name}` comes from outside: robots send it too, and do not tell "
+                "who sent it"
+            )
+            help_ = f"let a transition on `{fact.name}` use `event.sender`"
+            report.report("no-place", fact.origin, target=TARGET, what=what, help=help_)
 
 
 class _Writer:
@@ -249,6 +394,33 @@ class _Writer:
         said = comments(property_.origin, property_.doc)
         return Entry(said, layout(call, 1, _STEP, ",", WIDTH))
 
+    def measure_entry(self, input_: FitnessInput) -> Entry:
+        """Return the entry of a measure, which says where it is in the model."""
+        assert input_.measure is not None
+        keywords: list[tuple[str, object]] = []
+        if (bound := bound_of_any(input_.type)) is not None:
+            keywords.append(("bound", bound))
+        if input_.type == DURATION:
+            keywords.append(("unit", "s"))
+        text = _measure_text(input_, self._named)
+        where = f" ({source_place(input_.origin)})" if input_.origin is not None else ""
+        measured = self._measure(input_.name, input_.measure)
+        class_ = self._imports.own("swarm_measures", "Input")
+        call = Call(class_, (measured, f"{text}{where}"), tuple(keywords))
+        said = comments(input_.origin, input_.doc)
+        return Entry(said, layout(call, 1, _STEP, ",", WIDTH))
+
+    def _measure(self, name: str, each: Measure) -> Call:
+        claim = self._claim(each.claim)
+        if each.counted_role is not None:
+            assert isinstance(each.claim, Fact)
+            claim = self._fact(each.claim, self._call("Robots", (each.counted_role, "every")))
+        keywords: list[tuple[str, object]] = []
+        for key, value in (("over", each.over), ("aggregate", each.aggregate), ("each", each.each)):
+            if value is not None:
+                keywords.append((key, value))
+        return self._call("Measure", (name, each.kind, claim), keywords)
+
     def _sentence(self, property_: Property) -> Call:
         keywords: list[tuple[str, object]] = []
         if property_.scope is not None:
@@ -268,13 +440,16 @@ class _Writer:
         if isinstance(claim, Count):
             numbers = (claim.role, claim.state, claim.comparison, claim.number)
             return self._call("Count", numbers)
+        return self._fact(claim, self._robots(claim.robots) if claim.robots is not None else None)
+
+    def _fact(self, fact: Fact, robots: Call | None) -> Call:
         keywords: list[tuple[str, object]] = []
-        if claim.robots is not None:
-            keywords.append(("robots", self._robots(claim.robots)))
-        if claim.guard is not None:
-            keywords.append(("condition", condition_text(claim.guard)))
-        name = (claim.name,) if claim.name else ()
-        return self._call("Fact", (claim.act, *name), keywords)
+        if robots is not None:
+            keywords.append(("robots", robots))
+        if fact.guard is not None:
+            keywords.append(("condition", condition_text(fact.guard)))
+        name = (fact.name,) if fact.name else ()
+        return self._call("Fact", (fact.act, *name), keywords)
 
     def _robots(self, robots: Robots) -> Call:
         keywords: list[tuple[str, object]] = []

@@ -11,8 +11,8 @@ from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 TARGET = "ros2"
 _MODULES = (
     *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "identity", "members"),
-    *("node", "parameters", "property_monitors", "robot_lines", "swarm_monitor"),
-    *("swarm_verdicts", "topics", "tracing", "values"),
+    *("node", "parameters", "property_monitors", "robot_lines", "swarm_measures"),
+    *("swarm_monitor", "swarm_verdicts", "swarm_watch", "topics", "tracing", "values"),
 )
 # A package with such a name would hide a module that the nodes import.
 _IMPORTED = (

@@ -23,5 +23,7 @@ class Options(PackageOptions):
     copyright: str = option(
         "", "year and holder of the copyright, for the header of each file", check=copyright_fault
     )
-    monitors: bool = option(False, "a node for each swarm that watches the properties of the model")
+    monitors: bool = option(
+        False, "a node for each swarm that watches properties and tells measures"
+    )
     lifecycle: bool = option(False, "managed nodes: configured and activated from outside")

@@ -33,7 +33,9 @@ _MODULES = (
     "tracing",
     "values",
 )
-_OF_MONITORS = ("robot_lines", "swarm_monitor", "swarm_verdicts")
+_OF_MONITORS = (
+    *("robot_lines", "swarm_measures", "swarm_monitor", "swarm_verdicts", "swarm_watch"),
+)
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:

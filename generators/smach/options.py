@@ -69,7 +69,7 @@ class Options(PackageOptions):
         only="ros=2",
     )
     monitors: bool = option(
-        False, "a node for each swarm that watches the properties of the model", only="ros=2"
+        False, "a node for each swarm that watches properties and tells measures", only="ros=2"
     )
     lifecycle: bool = option(
         False, "managed nodes: configured and activated from outside", only="ros=2"

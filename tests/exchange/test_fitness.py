@@ -118,7 +118,7 @@ def test_operators_mean_what_they_do_in_the_language(run: Run) -> None:
 @pytest.mark.parametrize(
     ("messages", "says"),
     [
-        (["('/found', 1)"], "no message in run.bag on: elapsed"),
+        (["('/found', 1)"], "no value in run.bag of: elapsed"),
         (["('/found', 10 ** 400)", "('/elapsed', Time(1))"], "the fitness has no value: "),
         (["('/found', float('nan'))", "('/elapsed', Time(1))"], "no value: it is not finite"),
     ],

@@ -305,8 +305,16 @@ statemachine Carrying {
 }
 member Carrier { behavior Carrying }
 member Spare {}
-swarm Depot { carrier : Carrier[2] }
+swarm Depot { carrier : Carrier[2]; fitness Moved }
 swarm Empty { spare : Spare }
+fitness Moved {
+  in away : uint8 = count(carrier in Away)
+  in time : duration = max each carrier : time(has [homes > 2])
+  in begun : duration = time until some carrier in Loaded
+  in way : float64
+  maximize away - way
+}
+property Alone of Carrying : never in Loaded and has [load > 7]
 property Light of Depot : each carrier : never has [load > most]
 property Rare of Depot : each carrier : never has [homes > 9]
 property Few of Depot : 1..2 carrier in Loaded leads to no carrier in Loaded within 1500 ms
@@ -326,12 +334,23 @@ def test_monitors_have_the_properties_of_a_swarm(generate: Generate, tmp_path: P
         "Fact('in', 'Loaded', robots=Robots('carrier', 'number', least=1, most=2))",
         "Sentence('times', scope='between', times=2)",
         "robots=Robots('carrier', 'index', number=1)",
-        "'carrier': Machine('carrying', ('Empty', 'Loaded', 'Away')),",
+        "Machine('carrying', ('Empty', 'Loaded', 'Away'), most=2, properties=OF_CARRYING),",
+        "'Alone',\n        Sentence('never'),",
+        "Measure('away', 'count', Fact('in', 'Away', robots=Robots('carrier', 'every'))),",
+        "bound='uint8',",
+        "Fact('has', condition='loaded_homes > 2'),\n            aggregate='max',",
+        "            each='carrier',",
+        "'max each carrier : time(has [homes > 2]) (",
+        "robots=Robots('carrier', 'some'))),\n        'time until some carrier in Loaded (",
+        "SWARM = Swarm('Depot', MACHINES, PROPERTIES, 'Moved', MEASURES)",
     ):
         assert written in text, text
     machine = files["lab_behavior/lab_behavior/carrying.py"].text
     assert "return machine.data.load > machine.data.most" in machine
     assert "'load > most': holds_carrying," in machine
+    assert "'loaded_homes > 2': " in machine
+    assert "'load > 7': " in machine
+    assert "'way'" not in text
     setup = files["lab_behavior/setup.py"].text
     assert "'depot_monitor = lab_behavior.depot_monitor:main'," in setup
     assert "## Monitor of Depot" in files["lab_behavior/README.md"].text
@@ -341,12 +360,13 @@ def test_monitors_have_the_properties_of_a_swarm(generate: Generate, tmp_path: P
 def test_what_monitors_cannot_watch_is_reported(
     reported: Callable[..., list[tuple[str, str, str]]],
 ) -> None:
-    without = WATCHED[: WATCHED.index("property")]
+    without = WATCHED[: WATCHED.index("fitness Moved {")].replace("; fitness Moved", "")
     more = """
 property Outside of Depot : eventually Home
-property Alone of Carrying : eventually in Away
+property Alone of Idling : eventually in Away
 property Nobody of Empty : never spare in Away
 """
+    more += "endless statemachine Idling { initial Away; state Away { on Take -> Away } }\n"
     assert reported(without + more) == []
     found = reported(without + more.replace("spare in Away", "Seen"), monitors="true")
     assert [(name, place) for name, _, place in found] == [
@@ -355,13 +375,25 @@ property Nobody of Empty : never spare in Away
         ("no-place", "Nobody"),
     ]
     assert "robots send it too, and do not tell who sent it" in found[0][1]
+    measures = "in away : uint32 = count(carrier in Away); in home : duration = time until Home"
+    fitness = f"fitness Moved of Depot {{ {measures}; maximize away }}\n"
+    found = reported(f"{without}{fitness}", monitors="true")
+    assert [place for _, _, place in found] == ["away", "home"]
+    assert "monitors measure the fitness of swarms with nodes" in found[0][1]
+    used = without.replace("Carrier[2]", "Carrier[2]; fitness Moved")
+    (outside,) = reported(f"{used}{fitness}", monitors="true")
+    assert outside[2] == "Home"
     param = without.replace("member Carrier {", "member Carrier { param size : float64 = 1.0;")
+    big = fitness.replace("carrier in Away", "some carrier has [size > 2.0]")
+    measured = param.replace("Carrier[2]", "Carrier[2]; fitness Moved")
+    found = reported(f"{measured}{big}", monitors="true")
+    assert "measure `away`: the state machine of `carrier` does not have its param" in found[0][1]
     (left_out,) = reported(
         f"{param}property Big of Depot : never some carrier has [size > 2.0]\n", monitors="true"
     )
     assert "property `Big`: the state machine of `carrier` does not have its param" in left_out[1]
     (nothing,) = reported(without, monitors="true")
-    assert "option `monitors`, because the model has no property" in nothing[1]
+    assert "option `monitors`, because the model has no property and no measure" in nothing[1]
 
 
 @pytest.mark.parametrize("lifecycle", ["false", "true"])

@@ -182,3 +182,17 @@ def test_time_limits_are_looked_at_when_no_line_can_come_any_more() -> None:
     lines.hear(line(0, 1, "Go", 5), ZERO + 50)
     assert lines.next_look(7_000_000) == ZERO + 150
     assert lines.settled(ZERO + 140) == ZERO + 5
+
+
+def test_robots_beyond_the_multiplicity_are_left_out() -> None:
+    machines = {"robot": Machine("work", ("Idle", "Busy"), most=2)}
+    lines = RobotLines(machines, (), wait=100, start=5000)
+    lines.hear(line(0, 0, None, 0), ZERO)
+    for number in range(2):
+        assert lines.hear(line(0, number, None, 0, "robot[2]"), ZERO) is None
+    lines.hear(line(0, 0, None, 0, "robot"), ZERO)
+    assert [each.actor.name for each in lines.rest()] == ["robot[0]"]
+    assert list(lines.conditions()) == [
+        "2 lines left out, because robot[2] is none of the 2 robots of role robot",
+        "1 line of no robot of the swarm left out",
+    ]

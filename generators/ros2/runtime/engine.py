@@ -1,6 +1,7 @@
 """Stand-in for the engine, which generated packages get from `swarmdsl.execution.engine`."""
 
 from swarmdsl.execution.engine import (
+    bounded,
     Envelope,
     Event,
     ExecutionError,
@@ -26,4 +27,5 @@ __all__ = (
     'Observer',
     'Run',
     'Servers',
+    'bounded',
 )

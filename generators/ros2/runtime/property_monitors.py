@@ -1,5 +1,14 @@
 """Stand-in for the monitors, which generated packages get from `swarmdsl.execution.monitor`."""
 
-from swarmdsl.execution.monitor import FALSE, LOST, OPEN, Property, TRUE, Watch
+from swarmdsl.execution.monitor import (
+    FALSE,
+    LOST,
+    Measure,
+    OPEN,
+    Property,
+    PropertyResult,
+    TRUE,
+    Watch,
+)
 
-__all__ = ('FALSE', 'LOST', 'OPEN', 'TRUE', 'Property', 'Watch')
+__all__ = ('FALSE', 'LOST', 'OPEN', 'TRUE', 'Measure', 'Property', 'PropertyResult', 'Watch')

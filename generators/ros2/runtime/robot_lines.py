@@ -4,6 +4,7 @@ from collections import Counter
 import heapq
 from itertools import count
 import json
+import re
 from typing import Any, NamedTuple
 
 from .property_monitors import LOST
@@ -13,11 +14,20 @@ _SHUTDOWN = 'node.shutdown'
 _LISTS = ('configuration', 'entered', 'exited', 'taken', 'started', 'cancelled', 'sent')
 
 
+_ROBOT = re.compile(r'(?P<role>\w+)\[(?P<number>\d+)\](\.(?P<part>\w+))?')
+
+
 class Machine(NamedTuple):
-    """Machine of a role or of a part: the name of its node, and its states."""
+    """
+    Machine of a role or of a part: the name of its node, its states, and its properties.
+
+    The role has at most so many robots, None for any number.
+    """
 
     node: str
     states: Any
+    most: Any = None
+    properties: Any = ()
 
 
 class Robot(NamedTuple):
@@ -96,6 +106,7 @@ class RobotLines:
         self._heard = count()
         self._passed = -1
         self._unknown = 0
+        self._beyond = Counter()
         self._missing = Counter()
         self._late = Counter()
         self._returned = set()
@@ -111,6 +122,9 @@ class RobotLines:
         try:
             record = _checked(json.loads(text))
             source = self._source(record['member'])
+        except _BeyondError as error:
+            self._beyond[str(error)] += 1
+            return None
         except (AttributeError, KeyError, TypeError, ValueError):
             self._unknown += 1
             return None
@@ -181,6 +195,8 @@ class RobotLines:
                 yield f'{_lines(number)} of {name} {what}'
         for name in sorted(self._returned):
             yield f'{name} lost and heard again'
+        for fault, number in sorted(self._beyond.items()):
+            yield f'{_lines(number)} left out, because {fault}'
         if self._unknown:
             yield f'{_lines(self._unknown)} of no robot of the swarm left out'
 
@@ -192,12 +208,13 @@ class RobotLines:
         return max(due, self._first + self._start) if self._expected else due
 
     def _source(self, name):
-        """Return the source of a machine, which may be new; raise KeyError for an unknown role."""
+        """Return the source of a machine, which may be new; raise KeyError for no robot."""
         if name not in self._sources:
-            robot, _, part = name.partition('.')
-            role = robot.partition('[')[0]
-            machine = self._machines[f'{role}.{part}' if part else role]
-            self._sources[name] = _Source(Actor(name, Robot(robot, role), tuple(machine.states)))
+            check_robot(name, self._machines)
+            robot = name.partition('.')[0]
+            machine = self._machines[machine_of(name)]
+            actor = Actor(name, Robot(robot, robot.partition('[')[0]), tuple(machine.states))
+            self._sources[name] = _Source(actor)
         return self._sources[name]
 
     def _add_lost(self, source, time, now):
@@ -238,6 +255,31 @@ class RobotLines:
             values=record.get('values', {}),
             record=record,
         )
+
+
+class _BeyondError(KeyError):
+    """A role has fewer robots."""
+
+    def __str__(self):
+        return self.args[0]
+
+
+def machine_of(name):
+    """Return the key of the machine of a robot or its part: `uav.camera` for `uav[0].camera`."""
+    robot, _, part = name.partition('.')
+    role = robot.partition('[')[0]
+    return f'{role}.{part}' if part else role
+
+
+def check_robot(name, machines):
+    """Raise KeyError, which says why, if a name is not that of a robot or part of the swarm."""
+    found = _ROBOT.fullmatch(name)
+    if found is None or machine_of(name) not in machines:
+        raise KeyError(f'{name} is no robot of the swarm')
+    most = machines[machine_of(name)].most
+    if most is not None and int(found['number']) >= most:
+        robots = 'robot' if most == 1 else 'robots'
+        raise _BeyondError(f'{name} is none of the {most} {robots} of role {found["role"]}')
 
 
 def _checked(record):

@@ -1,6 +1,5 @@
-"""Node that watches the properties of a swarm on its robots."""
+"""Node that watches the properties of a swarm on its robots, and measures its fitness."""
 
-from itertools import islice
 import re
 from typing import Any, NamedTuple
 
@@ -12,10 +11,11 @@ from std_msgs.msg import String
 
 from . import parameters
 from .alarms import Alarms
-from .parameters import Parameter
-from .property_monitors import FALSE, Watch
-from .robot_lines import RobotLines
+from .parameters import Parameter, StartError
+from .property_monitors import FALSE
+from .robot_lines import check_robot, RobotLines
 from .swarm_verdicts import Verdicts
+from .swarm_watch import Watches
 from .tracing import HISTORY
 from .values import MILLISECOND, SECOND
 
@@ -33,11 +33,17 @@ _LOOK = SECOND // 2
 
 
 class Swarm(NamedTuple):
-    """Swarm to watch: its properties, and the machines of its roles and parts."""
+    """
+    Swarm to watch: the machines of its roles and parts, its properties, and its fitness.
+
+    The `measures` are inputs of the fitness.
+    """
 
     name: str
     machines: Any
     properties: Any
+    fitness: str = ''
+    measures: Any = ()
 
 
 class MonitorNode(Node):
@@ -66,12 +72,12 @@ class Monitor:
         self._looks = Alarms(node, steady, self._group, _run)
         self._wake = None
         expected = settings['members'].split()
+        _check(expected, swarm.machines)
         wait, start = (settings[each] // MILLISECOND for each in ('wait', 'wait.start'))
         self._lines = RobotLines(swarm.machines, expected, wait, start)
         self._verdicts = Verdicts(node, swarm, self._lines, settings['trace.file'])
         self._news = {}
-        self._watch = Watch(swarm.properties, _has, told=self._note)
-        self._told = 0
+        self._watch = Watches(swarm, self._note)
         self._subscriptions = {}
         self._period = settings['diagnostics.period']
         for topic in topics(self._around, swarm.machines, expected):
@@ -88,7 +94,8 @@ class Monitor:
             self._see(line)
         if self._lines.zero is not None:
             time = self._settle()
-            self._verdicts.finish(self._watch.results(time, ended=False), time)
+            readings = self._watch.last_readings(time)
+            self._verdicts.finish(self._watch.results(time), readings, time)
         then()
 
     def release(self):
@@ -156,11 +163,10 @@ class Monitor:
 
     def _tell_news(self):
         """Tell verdicts that have changed, and violations."""
-        new = list(islice(self._watch.violations, self._told, None))
+        new = list(self._watch.new_violations())
         for violation in new:
             self._verdicts.violated(violation)
             self._note(violation.property, FALSE, violation.time)
-        self._told += len(new)
         news, self._news = self._news, {}
         for each in news.values():
             self._verdicts.note(*each)
@@ -168,6 +174,9 @@ class Monitor:
             self._verdicts.tell()
 
     def _tell_in_intervals(self):
+        if self._lines.zero is not None:
+            time = self._settle()
+            self._verdicts.measure(self._watch.readings(time), time)
         self._verdicts.tell()
         self._looks.schedule(self._period, self._tell_in_intervals)
 
@@ -203,8 +212,13 @@ def topics(around, machines, robots):
                 yield f'{around}/{role}_{number.rstrip("]")}/{machine.node}/transitions'
 
 
-def _has(line, condition):
-    return line.values.get(condition) is True
+def _check(robots, machines):
+    """Raise StartError if one of the robots that are to be heard is not in the swarm."""
+    for each in robots:
+        try:
+            check_robot(each, machines)
+        except KeyError as error:
+            raise StartError(f'parameter `members`: {error.args[0]}') from None
 
 
 def _run(action):

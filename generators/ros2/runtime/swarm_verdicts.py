@@ -1,4 +1,4 @@
-"""Verdicts on properties, told to people and tools."""
+"""Verdicts on properties and values of measures, told to people and tools."""
 
 import json
 
@@ -8,6 +8,8 @@ from std_msgs.msg import String
 
 from .parameters import StartError
 from .property_monitors import FALSE, OPEN
+from .swarm_measures import Measures
+from .swarm_watch import properties_of
 from .values import MILLISECOND, SECOND
 
 _DEPTH = 10
@@ -20,6 +22,8 @@ class Verdicts:
     """
     Tells verdicts on `/diagnostics`, on a topic of the node, in its log, and in its trace.
 
+    Measures are told likewise, on a topic of their own.
+
     The trace also has the lines of the robots, as they were judged. `lines` has what the verdicts
     depend on.
     """
@@ -29,8 +33,11 @@ class Verdicts:
         self._lines = lines
         self._namespace = node.get_namespace()
         self._name = f'{node.get_fully_qualified_name().lstrip("/")}: {{}}'
-        self._found = {each.name: (each, OPEN) for each in swarm.properties}
-        self._violations = {each.name: [] for each in swarm.properties}
+        properties = (*swarm.properties, *properties_of(swarm.machines))
+        self._found = {each.name: (each, OPEN) for each in properties}
+        self._violations = {each.name: [] for each in properties}
+        self._fitness = swarm.fitness
+        self._measures = Measures(node, swarm, lines) if swarm.measures else None
         self._remarks = {}
         self._diagnostics = node.create_publisher(DiagnosticArray, '/diagnostics', _DEPTH)
         self._verdicts = node.create_publisher(String, '~/verdicts', _HISTORY)
@@ -77,17 +84,29 @@ class Verdicts:
         else:
             self._node.get_logger().warning('\n'.join(said))
 
-    def finish(self, results, time):
-        """Tell the verdicts at the end."""
+    def finish(self, results, readings, time):
+        """Tell the verdicts and the values of measures at the end."""
+        if self._measures is not None:
+            self._write(self._measures.tell(readings, time, final=True))
+            said = self._measures.said(list(self._lines.conditions()))
+            self._node.get_logger().info(f'{self._fitness}: {said}')
         for result in results:
             self._remarks[result.property.name] = result.remark
             self.note(result.property, result.verdict, time)
             self._node.get_logger().info(f'{result.property.name}: {self._said(result.property)}')
         self.tell()
 
+    def measure(self, readings, time):
+        """Tell the values of measures so far, None before the beginning."""
+        if self._measures is not None and readings is not None:
+            self._measures.tell(readings, time)
+
     def tell(self):
-        """Publish the verdicts so far on `/diagnostics`."""
+        """Publish verdicts and measures so far on `/diagnostics`."""
         message = DiagnosticArray(status=[self._status(each) for each, _ in self._found.values()])
+        if self._measures is not None:
+            name = self._name.format(self._fitness)
+            message.status.append(self._measures.status(name, self._namespace))
         message.header.stamp = self._node.get_clock().now().to_msg()
         self._diagnostics.publish(message)
 
@@ -95,6 +114,8 @@ class Verdicts:
         """Destroy the publishers, and close the file."""
         self._node.destroy_publisher(self._diagnostics)
         self._node.destroy_publisher(self._verdicts)
+        if self._measures is not None:
+            self._measures.release()
         if self._file is not None:
             self._file.close()
 

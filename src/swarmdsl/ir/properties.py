@@ -115,3 +115,12 @@ class Measure:
     over: Literal["mean", "min", "max"] | None = None
     aggregate: Literal["sum", "mean", "min", "max"] | None = None
     each: str | None = None
+
+    @property
+    def counted_role(self) -> str | None:
+        """Role whose robots are counted, if the claim is a fact about one without a number."""
+        robots = self.claim.robots if isinstance(self.claim, Fact) else None
+        if self.kind == "until" or robots is None:
+            return None
+        is_role = robots.quantifier == "index" and robots.index is None
+        return robots.role if is_role else None

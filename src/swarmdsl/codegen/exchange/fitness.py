@@ -1,7 +1,7 @@
 """Target `fitness`: Python scripts that compute a fitness from a run's rosbag.
 
 The simulation managers of CPSwarm call it with the bag and limits of the run, and read
-`fitness=<number>` from its output.
+`fitness=<number>` from its output. It also takes what the monitor of a swarm on ROS 2 tells.
 """
 
 from __future__ import annotations
@@ -14,7 +14,15 @@ from swarmdsl.base.naming import snake_case
 from swarmdsl.codegen.api import Generator, NoOptions, OutputFile
 from swarmdsl.codegen.shared.constants import constant, params_by_name
 from swarmdsl.codegen.templates import Templates
-from swarmdsl.ir import Array, Fitness, FitnessInput, Primitive, System
+from swarmdsl.ir import (
+    Array,
+    Fitness,
+    FitnessInput,
+    Primitive,
+    System,
+    VariableRef,
+    subexpressions,
+)
 from swarmdsl.ir.expression_printer import (
     PYTHON_DIVISION,
     PYTHON_FUNCTIONS,
@@ -84,6 +92,8 @@ def _script(fitness: Fitness) -> str:
     known = params_by_name(fitness.params)
     value = translate(fitness.value, _DIALECT)
     small = fitness.goal == "minimize"
+    parts = subexpressions(fitness.value)
+    used = {part.name for part in parts if isinstance(part, VariableRef)}
     return Templates(Path(__file__).parent).fill(
         "fitness.py.j2",
         name=fitness.name,
@@ -93,6 +103,8 @@ def _script(fitness: Fitness) -> str:
             each.name: isinstance(each.type, Primitive) and each.type.name in _TIMES
             for each in fitness.inputs
         },
+        measures=[each.name for each in fitness.inputs if each.measure is not None],
+        used=[each.name for each in fitness.inputs if each.name in used],
         params={
             param.name: constant(param.default, known)
             for param in fitness.params

@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from swarmdsl.codegen.shared.property_texts import (
         condition_text,
         facts_of,
+        parts_text,
         sentence_text,
     )
     from swarmdsl.codegen.shared.state_expressions import (
@@ -92,7 +93,9 @@ else:
             ),
             "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
             "swarmdsl.codegen.shared.part_values": "check_part_values",
-            "swarmdsl.codegen.shared.property_texts": "condition_text facts_of sentence_text",
+            "swarmdsl.codegen.shared.property_texts": (
+                "condition_text facts_of parts_text sentence_text"
+            ),
             "swarmdsl.codegen.shared.state_expressions": "expressions_of timed_states",
             "swarmdsl.codegen.shared.swarmros": "bridge_files",
             "swarmdsl.codegen.shared.units": "doc_with_unit",
@@ -133,6 +136,7 @@ __all__ = [
     "member_wiring",
     "missing_values",
     "params_by_name",
+    "parts_text",
     "python_address",
     "reads_envelope",
     "region_transitions",

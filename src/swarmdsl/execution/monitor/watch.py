@@ -93,6 +93,11 @@ class Watch:
         self._begun = False
 
     @property
+    def has_begun(self) -> bool:
+        """True after the first step, from which on verdicts and readings are about the run."""
+        return self._begun
+
+    @property
     def due(self) -> int | None:
         """Time after which `advance` must be called, unless a line comes before.
 

@@ -64,11 +64,9 @@ def conditions(data: Data) -> Callable[[Any, Any], bool]:
 
 def _measure(name: str, measure: ir.Measure) -> monitor.Measure:
     claim = claim_of(measure.claim)
-    fact = measure.claim
-    robots = fact.robots if isinstance(fact, ir.Fact) and measure.kind != "until" else None
-    if robots is not None and robots.quantifier == "index" and robots.index is None:
+    if measure.counted_role is not None:
         assert isinstance(claim, monitor.Fact)
-        claim = claim._replace(robots=monitor.Robots(robots.role, "every"))
+        claim = claim._replace(robots=monitor.Robots(measure.counted_role, "every"))
     return monitor.Measure(name, measure.kind, claim, measure.over, measure.aggregate, measure.each)
 
 

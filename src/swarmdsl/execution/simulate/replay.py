@@ -32,7 +32,7 @@ from swarmdsl.execution.simulate.members import Roster, following
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, Trace
-from swarmdsl.execution.simulate.trace_line import NAMES, is_verdict, numbers, read_line
+from swarmdsl.execution.simulate.trace_line import NAMES, is_of_monitor, numbers, read_line
 from swarmdsl.execution.simulate.world import LATE
 from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS
@@ -90,7 +90,7 @@ def replay(
     loop = _loop(records, report)
     by_member: dict[str | None, list[_Record]] = {}
     for record in records:
-        if not is_verdict(record.done):
+        if not is_of_monitor(record.done):
             by_member.setdefault(record.done.get("member"), []).append(record)
     actors = {actor.name: actor for actor in cast}
     followed = 0
