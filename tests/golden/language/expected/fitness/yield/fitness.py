@@ -38,7 +38,7 @@ def main():
     found = measured(sys.argv[1])
     missing = [name for name in INPUTS if name not in found]
     if missing:
-        sys.exit(f'no message in {sys.argv[1]} on: {", ".join(missing)}')
+        sys.exit(f'no value in {sys.argv[1]} of: {", ".join(missing)}')
     try:
         value = float(fitness({**PARAMS, **found}))
     except (ArithmeticError, ValueError) as error:
