@@ -94,7 +94,7 @@ class Watch:
 
     @property
     def has_begun(self) -> bool:
-        """True after the first step, from which on verdicts and readings are about the run."""
+        """Return True after the first step, when all machines have started."""
         return self._begun
 
     @property
