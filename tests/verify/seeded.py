@@ -31,7 +31,7 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 _WALKS = 1_000
 _MORE = 20
 """Number of walks that look for a violation, though the first one already is different."""
-_LIMIT = "200k"
+_LIMIT = "60k"
 """Limit of states for a mutant."""
 
 Report = tuple[str, str]
