@@ -26,6 +26,8 @@ PUBLIC = {
     "swarmdsl.codegen.shared",
     "swarmdsl.codegen.xml",
     "swarmdsl.codegen.xml_tree",
+    "swarmdsl.execution.verify.compose",
+    "swarmdsl.execution.verify.composition",
     "swarmdsl.ir",
 }
 LAZY = ["swarmdsl.codegen", "swarmdsl.codegen.ros", "swarmdsl.codegen.shared", "swarmdsl.ir"]

@@ -28,10 +28,21 @@ BUILT_IN = {
     "fitness": "swarmdsl.codegen.exchange.fitness:generator",
     "composition": "swarmdsl.codegen.exchange.composition:generator",
     "frevo": "swarmdsl.codegen.exchange.frevo:generator",
+    "promela": "swarmdsl.codegen.bundled.promela:generator",
 }
 # Formats of other tools, built on request only.
 ON_REQUEST = frozenset(
-    {"skeleton", "yasmin", "amf", "swarmros", "parameters", "fitness", "composition", "frevo"}
+    {
+        "skeleton",
+        "yasmin",
+        "amf",
+        "swarmros",
+        "parameters",
+        "fitness",
+        "composition",
+        "frevo",
+        "promela",
+    }
 )
 GROUP = "swarmdsl.generators"
 

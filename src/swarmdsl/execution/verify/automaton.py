@@ -65,7 +65,8 @@ class Automaton:
         """Tasks of each state: what is over some time, however long it takes."""
         self._deferred: list[set[str]] = []
         """Names of the deferred events of each state."""
-        self._values: list[tuple[tuple[str, Any], ...]] = []
+        self.values: list[tuple[tuple[str, Any], ...]] = []
+        """For each state, the values of the variables that decide on anything."""
         has = conditions(self._data)
         self._tests = [
             ("in" if isinstance(fact, Count) else fact.act, test_of(_plain(fact), has))
@@ -117,7 +118,7 @@ class Automaton:
     def numbers_of_values(self) -> dict[str, int]:
         """Return how many values the variables have that decide on anything."""
         values: dict[str, set[Any]] = {}
-        for each in self._values:
+        for each in self.values:
             for name, value in each:
                 values.setdefault(name, set()).add(value)
         return {name: len(found) for name, found in values.items()}
@@ -275,7 +276,7 @@ class Automaton:
             holding = reduce(or_, held, 0)
             self.looks.append(Look(not body.running, holding, tuple(shown), quiet, held))
             self.tasks.append(frozenset(task for task, _ in body.tasks()))
-            self._values.append(self._kept(body))
+            self.values.append(self._kept(body))
         return self._keys[key]
 
     def _data(self, actor: Actor) -> Mapping[str, Any]:

@@ -10,6 +10,7 @@ from swarmdsl import ir
 from swarmdsl.execution.verify.monitor_table import MonitorTable
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Network, Step
+from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.terms import Terms, is_act
 from swarmdsl.ir import Count, Fact
 
@@ -37,9 +38,9 @@ class Observer:
         self.terms = Terms(property_, network)
         scope = property_.scope.claims if property_.scope is not None else ()
         self._claims = [self.terms.truth(each) for each in (*property_.claims, *scope)]
-        self._forgets = any(map(is_act, self.terms.facts))
+        self.forgets = any(map(is_act, self.terms.facts))
         """True if a fact holds for a moment: the next line, whatever it shows, ends it."""
-        self.others = others and self._forgets
+        self.others = others and self.forgets
         self._rows: dict[int, _Row] = {}
 
     def start(self, state: int) -> int:
@@ -216,15 +217,13 @@ class Observer:
 
         It differs only after a fact that held for a moment: this is over then.
         """
-        if not self._forgets:
+        if not self.forgets:
             return memory
         return self.table.step(memory, tuple(bool(each(*seen.counts)) for each in self._claims))
 
     def _is_silent(self, place: int, move: Move) -> bool:
-        """Return True if a move changes no fact."""
-        automaton = self.network.groups[self.network.places[place].group].automaton
-        lasting = self._lasting(place) & automaton.mask
-        return all(each.holding & automaton.mask == lasting for each in move.moments)
+        group, state, _ = self.network.places[place]
+        return is_silent(self.network.groups[group].automaton, state, move)
 
 
 class _Row(NamedTuple):
@@ -247,6 +246,12 @@ class _Sight:
     def counts(self) -> tuple[list[int], list[int]]:
         """For how many robots each fact holds, and if it does for me."""
         return self._observer.counts(self._present)
+
+
+def is_silent(automaton: Quotient, state: int, move: Move) -> bool:
+    """Return True if a move of a state changes no fact."""
+    lasting = automaton.look(state).holding & automaton.mask
+    return all(each.holding & automaton.mask == lasting for each in move.moments)
 
 
 def _momentary(facts: Sequence[Fact | Count]) -> int:

@@ -36,7 +36,7 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     """Look for a run that violates a property."""
     if property_.chance is not None and property_.chance.bound == "most":
         return Verdict(property_, "unknown", reason="a greatest probability is not covered")
-    reason = _not_covered(property_)
+    reason = not_covered(property_)
     if reason:
         return Verdict(property_, "unknown", reason=reason)
     if property_.each is None:
@@ -49,7 +49,7 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     return replace(worst, full=tuple(sorted({name for each in found for name in each.full})))
 
 
-def _not_covered(property_: ir.Property) -> str:
+def not_covered(property_: ir.Property) -> str:
     """Return the reason why a property cannot be decided here, or ""."""
     if property_.within is not None:
         return "it is about time"
@@ -103,12 +103,12 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     if property_.kind == "possible":
         place = groups.index(every[mine]) if mine is not None else None
         return prove_possible(property_, model, groups, place, me, budget)
-    observer = _observer(property_, model, groups, me, others=len(groups) < len(every))
+    observer = observer_of(property_, model, groups, me, others=len(groups) < len(every))
     graph = observe(observer.network, observer, budget)
     if graph.bad is not None and observer.others:
         # Whether others act at that moment is known only with all of them.
         groups = every
-        observer = _observer(property_, model, groups, me, others=False)
+        observer = observer_of(property_, model, groups, me, others=False)
         graph = observe(observer.network, observer, budget)
     if graph.bad is not None:
         return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
@@ -132,11 +132,11 @@ def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Bu
         about = set(_about(property_, model, every))
         about |= {number for number, group in enumerate(every) if group.robots == (me,)}
         groups = model.cone(every, about) or every
-        observer = _observer(property_, model, groups, me, others=len(groups) < len(every))
+        observer = observer_of(property_, model, groups, me, others=len(groups) < len(every))
         if observer.others:
             # What holds for a moment ends when any robot does something.
             groups = every
-            observer = _observer(property_, model, groups, me, others=False)
+            observer = observer_of(property_, model, groups, me, others=False)
         graph = observe(observer.network, observer, budget)
         if graph.bad is not None:
             return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
@@ -169,7 +169,7 @@ def _run(property_: ir.Property, observer: Observer, graph: Graph, bad: int) -> 
     return run if observer.is_bad(way[-1]) else replace(run, loop=0)
 
 
-def _observer(
+def observer_of(
     property_: ir.Property, model: Model, groups: Sequence[Group], me: str | None, *, others: bool
 ) -> Observer:
     """Return the observer of a property in some groups, of one robot if it is about each."""

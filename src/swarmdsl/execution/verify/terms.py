@@ -3,13 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from typing import Literal
 
 from swarmdsl import ir
+from swarmdsl.base.records import dataclass
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.ir import Claim, Count, Fact, Junction
-from swarmdsl.ir.operations import OPERATIONS
 from swarmdsl.ir.sentences import facts_in
 
+Whose = Literal["all", "others", "me"]
+
+
+@dataclass(frozen=True)
+class Number:
+    """Claim that a fact holds for some number of robots: of all, of the others, or for me."""
+
+    term: int
+    whose: Whose
+    least: int
+    most: int | None = None
+
+
+@dataclass(frozen=True)
+class Combined:
+    """Claims joined by `and` or `or`, or one that is negated by `not`."""
+
+    operator: str
+    parts: tuple[Reading, ...]
+
+
+Reading = Number | Combined
 Truth = Callable[[Sequence[int], Sequence[int]], bool]
 """Truth of a claim, given for each fact how many robots it holds for, and if it does for me."""
 
@@ -43,48 +66,38 @@ class Terms:
 
     def truth(self, claim: Claim) -> Truth:
         """Compile a claim."""
+        return _compiled(self.reading(claim))
+
+    def reading(self, claim: Claim) -> Reading:
+        """Return a claim as conditions on numbers of robots."""
         if isinstance(claim, Junction):
-            parts = [self.truth(each) for each in claim.claims]
-            if claim.operator == "not":
-                (part,) = parts
-                return lambda counts, mine: not part(counts, mine)
-            together = all if claim.operator == "and" else any
-            return lambda counts, mine: together(part(counts, mine) for part in parts)
+            return Combined(claim.operator, tuple(map(self.reading, claim.claims)))
         if isinstance(claim, Count):
-            term = self._term(claim, claim.role, None)
-            compare, number = OPERATIONS[claim.comparison], claim.number
-            return lambda counts, mine: bool(compare(counts[term], number))
+            return _compared(self._term(claim, claim.role, None), claim)
         robots = claim.robots
         if robots is None:
             each = self._property.each
             if each is not None and claim.act != "arrives":
-                term = self._term(claim, each, None)
-                return lambda counts, mine: bool(mine[term])
-            term = self._term(claim, None, None)
-            return lambda counts, mine: counts[term] > 0
+                return Number(self._term(claim, each, None), "me", 1)
+            return Number(self._term(claim, None, None), "all", 1)
         return self._of_robots(claim, robots)
 
-    def _of_robots(self, claim: Fact, robots: ir.Robots) -> Truth:
+    def _of_robots(self, claim: Fact, robots: ir.Robots) -> Reading:
         if robots.quantifier == "index":
             term = self._term(claim, robots.role, f"{robots.role}[{robots.index or 0}]")
-            return lambda counts, mine: counts[term] > 0
+            return Number(term, "all", 1)
         term = self._term(claim, robots.role, None)
+        whose: Whose = "others" if robots.other else "all"
         if robots.quantifier == "number":
             assert robots.number is not None
-            least, most = robots.number.lower, robots.number.upper
-            return lambda counts, mine: (
-                least <= counts[term] and (most is None or counts[term] <= most)
-            )
-        other = robots.other
+            return Number(term, "all", robots.number.lower, robots.number.upper)
         if robots.quantifier == "some":
-            return lambda counts, mine: counts[term] - (other and mine[term]) > 0
+            return Number(term, whose, 1)
         if robots.quantifier == "no":
-            return lambda counts, mine: counts[term] - (other and mine[term]) == 0
+            return Number(term, whose, 0, 0)
         size = sum(len(g.robots) for g in self._network.groups if g.role == robots.role)
-        mine_too = other and self._property.each == robots.role
-        return lambda counts, mine: (
-            counts[term] - (other and mine[term]) == size - (1 if mine_too else 0)
-        )
+        size -= robots.other and self._property.each == robots.role
+        return Number(term, whose, size, size)
 
     def _term(self, fact: Fact | Count, role: str | None, robot: str | None) -> int:
         key = (fact, role, robot)
@@ -98,6 +111,43 @@ class Terms:
                 bits.append(1 << next(same, -1) if meant and _has(facts, fact) else 0)
             self._bits.append(bits)
         return self._keys.index(key)
+
+
+def _compared(term: int, count: Count) -> Reading:
+    number = count.number
+    match count.comparison:
+        case "==":
+            return Number(term, "all", number, number)
+        case "!=":
+            return Combined("not", (Number(term, "all", number, number),))
+        case "<":
+            return Number(term, "all", 0, number - 1)
+        case "<=":
+            return Number(term, "all", 0, number)
+        case ">":
+            return Number(term, "all", number + 1)
+        case ">=":
+            return Number(term, "all", number)
+
+
+def _compiled(reading: Reading) -> Truth:
+    if isinstance(reading, Combined):
+        parts = [_compiled(each) for each in reading.parts]
+        if reading.operator == "not":
+            (part,) = parts
+            return lambda counts, mine: not part(counts, mine)
+        together = all if reading.operator == "and" else any
+        return lambda counts, mine: together(part(counts, mine) for part in parts)
+    term, least, most = reading.term, reading.least, reading.most
+    if reading.whose == "me":
+        return lambda counts, mine: mine[term] >= least
+    if reading.whose == "others":
+        if most is None:
+            return lambda counts, mine: counts[term] - mine[term] >= least
+        return lambda counts, mine: least <= counts[term] - mine[term] <= most
+    if most is None:
+        return lambda counts, mine: counts[term] >= least
+    return lambda counts, mine: least <= counts[term] <= most
 
 
 def _has(facts: Sequence[Fact | Count], fact: Fact | Count) -> bool:

@@ -1,0 +1,169 @@
+"""Other model checkers on the models that targets `promela` and the like write of a swarm."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator, Mapping
+from math import factorial
+from pathlib import Path
+from typing import NamedTuple
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config import find_settings
+from swarmdsl.execution.simulate.properties import watchable
+from swarmdsl.execution.verify.compose import subjects
+from swarmdsl.execution.verify.explore import Graph, explore
+from swarmdsl.execution.verify.limits import Budget, Limits
+from swarmdsl.execution.verify.model import Model, Options
+from swarmdsl.execution.verify.network import Network
+from swarmdsl.execution.verify.prove import prove
+from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.ir import System
+
+MOST = 20_000
+"""Number of states, without symmetry, up to which a swarm is compared."""
+
+
+class Found(NamedTuple):
+    """Result of another checker: how many states it saw, and a violation."""
+
+    states: int
+    violated: bool
+
+
+class Compared(NamedTuple):
+    """Numbers of what was compared: swarms by their states, properties by their verdicts."""
+
+    counts: int
+    holds: int
+    fails: int
+
+    def __add__(self, other: object) -> Compared:
+        assert isinstance(other, Compared)
+        return Compared(*map(sum, zip(self, other, strict=True)))
+
+
+Checker = Callable[[Path, Path], Found]
+
+
+def missing_for(*programs: str) -> str:
+    """Return the programs that are not installed, as the reason for a skip, or ""."""
+    missing = [each for each in programs if shutil.which(each) is None]
+    return f"not installed: {', '.join(missing)}" if missing else ""
+
+
+def spin(model: Path, folder: Path) -> Found:
+    """Look at all states of a file of target `promela`, breadth first and without reduction."""
+    _run(["spin", "-a", str(model)], folder)
+    _run(["gcc", "-O0", "-w", "-DBFS", "-DNOREDUCE", "-DSAFETY", "-o", "pan", "pan.c"], folder)
+    told = _run(["./pan"], folder)
+    errors = _number(r"errors: (\d+)", told)
+    assert errors or "Search not completed" not in told, told
+    return Found(_number(r"(\d+) states, stored", told), errors > 0)
+
+
+def compare(
+    source: Path,
+    target: str,
+    check: Checker,
+    folder: Path,
+    *,
+    counts: Mapping[str, int] | None = None,
+    options: Options | None = None,
+    orbits: bool = False,
+) -> Compared:
+    """Compare numbers of states and verdicts on a model with those of another checker.
+
+    With `orbits`, it counts states that differ in the order of robots once.
+    """
+    system = _system(source)
+    counts, options = counts or {}, options or Options()
+    files = _build(source, target, counts, options, folder / "out")
+    total = Compared(0, 0, 0)
+    for subject in subjects(system):
+        mine = {name: number for name, number in counts.items() if subject.swarm is not None}
+        budget, report = Budget(Limits()), Diagnostics()
+        model = Model(subject, mine, watchable(subject), options, budget, report)
+        if report.has_errors or not model.complete:
+            continue
+        network = Network(
+            model.groups(thorough=True), model.alphabet, options.capacity, lossy=options.lossy
+        )
+        graph = explore(network, Budget(Limits(states=MOST)))
+        every = sum(_alike(graph)) if graph.complete else MOST
+        if every >= MOST:
+            continue
+        suffix = next(iter(files)).suffix if files else ""
+        found = check(folder / "out" / target / f"{subject.name}{suffix}", folder)
+        wanted = len(graph.seen) if orbits else every
+        assert found == Found(wanted, violated=False), subject.name
+        total += Compared(1, 0, 0)
+        for property_ in watchable(subject):
+            made = [f for f in files if _is_of(f, f"{subject.name}_{property_.name}")]
+            if made:
+                violated = any(check(each, folder).violated for each in made)
+                total += _same(prove(property_, model, Budget(Limits())), violated)
+    return total
+
+
+def _same(verdict: Verdict, violated: bool) -> Compared:
+    """Check that a verdict is that of another checker, which knows neither times nor orders."""
+    match verdict.outcome:
+        case "holds":
+            assert not violated, verdict
+        case "fails":
+            assert violated, verdict
+        case "unknown":
+            assert violated or "cannot be" not in verdict.reason, verdict
+    return Compared(0, verdict.outcome == "holds", verdict.outcome == "fails")
+
+
+def _is_of(path: Path, name: str) -> bool:
+    return re.fullmatch(rf"{name}(_\w+_\d+)?", path.stem) is not None
+
+
+def _alike(graph: Graph) -> Iterator[int]:
+    """Yield for each state how many there are that differ in the order of equal robots."""
+    network = graph.network
+    orders = 1
+    for group in network.groups:
+        orders *= factorial(len(group.robots))
+    for state in graph.seen:
+        alike = orders
+        for _, count in network.present(state):
+            alike //= factorial(count)
+        yield alike
+
+
+def _system(source: Path) -> System:
+    checked = pipeline.check([source], find_settings([source], Diagnostics()))
+    assert checked.system is not None, [each.message for each in checked.report]
+    return checked.system
+
+
+def _build(
+    source: Path, target: str, counts: Mapping[str, int], options: Options, out: Path
+) -> list[Path]:
+    texts = {
+        "size": ", ".join(f"{role}={number}" for role, number in counts.items()),
+        "channel": str(options.capacity),
+        "lossy": str(options.lossy).lower(),
+    }
+    pipeline.build([source], [Request(target, texts)], out)
+    return sorted(path for path in (out / target).glob("*") if path.is_file())
+
+
+def _run(command: list[str], folder: Path) -> str:
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
+def _number(pattern: str, text: str) -> int:
+    found = re.search(pattern, text)
+    assert found is not None, text
+    return int(found[1])
