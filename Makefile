@@ -12,6 +12,7 @@ WORKERS := auto
 PARALLEL = $(BIN)/pytest -n $(WORKERS)
 MUTANTS ?= 10000
 WALKS ?= 1000
+SWARMS ?= 500
 CASES ?= 20000
 PAIRS ?= 10000
 BENCH_READY := benchmarks/node_modules/.ready
@@ -24,7 +25,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement w3c check fmt docs bench fuzz properties mutants bless parser dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement witnesses w3c check fmt docs bench fuzz properties mutants bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o build/demo
@@ -72,6 +73,9 @@ check: $(READY) ## Check format, style and types.
 
 agreement: $(VENV)/.agreement ## Run state machines in engines of others too, and show how far they agree.
 	$(BIN)/pytest tests/agreement --agreement $(ARGS)
+
+witnesses: $(READY) ## Compare `swarmc verify` with other model checkers on examples and random swarms: SWARMS=500.
+	$(PARALLEL) tests/agreement/test_witnesses.py --swarms $(SWARMS) $(ARGS)
 
 w3c: $(READY) ## Run the SCXML tests of the W3C in a folder: W3C=folder.
 	$(BIN)/python -m tests.scxml.suite $(W3C)

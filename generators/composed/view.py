@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from swarmdsl.codegen import Diagnostics, FreshNames, Span, dataclass, suggest
 from swarmdsl.codegen.python import source_place
@@ -85,6 +85,14 @@ class TurnView:
 
 
 @dataclass(frozen=True)
+class Loss:
+    """Loss of a letter on its way, but not in states in which it waits until it is not deferred."""
+
+    letter: LetterView
+    waits: tuple[str, ...]
+
+
+@dataclass(frozen=True)
 class TeamView:
     """Robots that nothing tells apart, with the numbers of the first and the last one.
 
@@ -100,7 +108,7 @@ class TeamView:
     states: tuple[StateView, ...]
     ended: tuple[str, ...]
     turns: tuple[TurnView, ...]
-    loses: tuple[LetterView, ...]
+    losses: tuple[Loss, ...]
 
     @property
     def size(self) -> int:
@@ -152,12 +160,8 @@ def views(
 ) -> Iterator[SwarmView]:
     """Yield the views of all swarms of a system, with and without their properties."""
     counts = counts_of(options.size) or {}
-    roles = {role.name for swarm in system.swarms for role in swarm.roles}
-    for name in counts:
-        if name not in roles:
-            fault = f"`size`: no swarm has a role `{name}`"
-            help_ = suggest(name, roles, "roles")
-            report.report("bad-option", target=target, fault=fault, help=help_)
+    for fault, help_ in _size_faults(system, counts):
+        report.report("bad-option", target=target, fault=f"`size`: {fault}", help=help_ or None)
     if report.has_errors:
         return
     network = Network(options.channel, options.lossy)
@@ -170,6 +174,20 @@ def views(
             continue
         for composition in compose(subject, mine, network, target, report):
             yield _Viewer(composition).view()
+
+
+def _size_faults(system: System, counts: Mapping[str, int]) -> Iterator[tuple[str, str]]:
+    """Yield what is wrong with numbers of members, with hints."""
+    known = {role.name for swarm in system.swarms for role in swarm.roles}
+    for name in sorted(counts.keys() - known):
+        yield f"no swarm has a role `{name}`", suggest(name, known, "roles")
+    for swarm in system.swarms:
+        for role in swarm.roles:
+            number, allowed = counts.get(role.name), role.multiplicity
+            if number is not None and not (
+                allowed.lower <= number and (allowed.upper is None or number <= allowed.upper)
+            ):
+                yield f"`{swarm.name}` has {allowed} `{role.name}`, not {number}", ""
 
 
 class _Viewer:
@@ -253,7 +271,7 @@ class _Viewer:
             ),
             tuple(self._turn_views(number, team)),
             tuple(
-                view
+                Loss(view, tuple(states[each].name for each in sorted(team.late[letter])))
                 for letter, view in enumerate(self._letters)
                 if letter in arriving and self._composition.lossy and not view.reliable
             ),

@@ -16,9 +16,16 @@ from ..verify.random_swarms import random_swarm
 from .witnesses import Checker, Compared, compare, missing_for, spin
 
 ROOT = Path(__file__).resolve().parents[2]
-MODELS = ROOT / "tests" / "verify" / "models"
-EXAMPLES = sorted(each.name for each in (ROOT / "examples").iterdir() if each.is_dir())
-GOLDEN = sorted(each.parent.name for each in (ROOT / "tests" / "golden").glob("*/model.swarm"))
+SOURCES = {
+    **{each.name: each for each in sorted((ROOT / "examples").iterdir()) if each.is_dir()},
+    **{
+        each.parent.name: each for each in sorted((ROOT / "tests" / "golden").glob("*/model.swarm"))
+    },
+}
+FEW = ("minimal", "operations")
+"""Models that are compared also if only few swarms are."""
+MANY = 10
+"""Number of random swarms from which on all models are compared, too."""
 _SPIN = pytest.mark.skipif(missing_for("spin", "gcc") != "", reason=missing_for("spin", "gcc"))
 WITNESSES = [pytest.param("promela", spin, id="spin", marks=_SPIN)]
 
@@ -32,27 +39,35 @@ def random(seed: int, target: str, check: Checker, folder: Path) -> Compared:
 
 @pytest.mark.parametrize(("target", "check"), WITNESSES)
 def test_robots_that_hear_each_other(target: str, check: Checker, tmp_path: Path) -> None:
-    source = ROOT / "examples" / "emergency_exit"
+    text = (ROOT / "examples" / "emergency_exit" / "emergency_exit.swarm").read_text("utf-8")
+    source = tmp_path / "model.swarm"
+    source.write_text(text.replace("Spiderino[8]", "Spiderino[2..8]"), encoding="utf-8")
 
     found = compare(source, target, check, tmp_path, counts={"robot": 3})
 
-    assert found.counts == 1
-    assert found.holds + found.fails > 0
+    assert (found.counts, found.holds, found.fails) == (1, 4, 0)
 
 
-@pytest.mark.parametrize(("target", "check"), WITNESSES)
-@pytest.mark.parametrize("seed", [3, 24])
-def test_random_swarms(seed: int, target: str, check: Checker, tmp_path: Path) -> None:
-    found = random(seed, target, check, tmp_path)
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    swarms = metafunc.config.getoption("--swarms")
+    if "seeds" in metafunc.fixturenames:
+        starts = range(0, swarms, MANY)
+        metafunc.parametrize("seeds", [range(n, min(n + MANY, swarms)) for n in starts], ids=str)
+    if "name" in metafunc.fixturenames:
+        metafunc.parametrize("name", FEW if swarms < MANY else list(SOURCES))
 
-    assert found.counts == 1
-    assert found.holds > 0
-    assert found.fails > 0
 
-
-@pytest.mark.long
 @pytest.mark.timeout(3000)
 @pytest.mark.parametrize(("target", "check"), WITNESSES)
-@pytest.mark.parametrize("name", EXAMPLES)
-def test_examples(name: str, target: str, check: Checker, tmp_path: Path) -> None:
-    compare(ROOT / "examples" / name, target, check, tmp_path)
+def test_random_swarms(seeds: range, target: str, check: Checker, tmp_path: Path) -> None:
+    found = Compared(0, 0, 0)
+    for seed in seeds:
+        found += random(seed, target, check, tmp_path)
+
+    assert min(found) > 0
+
+
+@pytest.mark.timeout(3000)
+@pytest.mark.parametrize(("target", "check"), WITNESSES)
+def test_models(name: str, target: str, check: Checker, tmp_path: Path) -> None:
+    compare(SOURCES[name], target, check, tmp_path)

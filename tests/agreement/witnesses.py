@@ -53,7 +53,7 @@ Checker = Callable[[Path, Path], Found]
 def missing_for(*programs: str) -> str:
     """Return the programs that are not installed, as the reason for a skip, or ""."""
     missing = [each for each in programs if shutil.which(each) is None]
-    return f"not installed: {', '.join(missing)}" if missing else ""
+    return f"no {' and '.join(missing)}: `.ci/run` installs them" if missing else ""
 
 
 def spin(model: Path, folder: Path) -> Found:

@@ -24,14 +24,15 @@ from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 from swarmdsl.syntax.formatter import format_source
 
+from ..targets import COMPOSED
+
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = sorted(
     [*(ROOT / "examples").rglob("*.swarm"), *(ROOT / "tests" / "golden").glob("*/model.swarm")]
 )
 SEEDS = 10
 PROFILES = [Request("scxml", {"profile": profile}) for profile in ("portable", "cpswarm")]
-# Those that run the machines in all states take long; tests/agreement has random swarms for them.
-OTHERS = [name for name in registry.BUILT_IN if name not in ("scxml", "promela")]
+OTHERS = [name for name in registry.BUILT_IN if name not in {"scxml", *COMPOSED}]
 REQUESTS = [*PROFILES, *map(Request, OTHERS)]
 _TOKEN = re.compile(r'"[^"\n]*"|\w+|->|=>|[^\w\s]|\s+')
 _CHARACTERS = "{}()[]\"/*\\'-><=.,:;#@0 \n\t\x00\ufeff\u00a0é€"

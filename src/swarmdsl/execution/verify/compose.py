@@ -186,6 +186,10 @@ def _team(
         inbox,
         tuple(_local(group, number, state, observer) for state in range(automaton.count)),
         tuple(turns.values()),
+        {
+            message: frozenset(s for s in range(automaton.count) if automaton.is_late(s, message))
+            for message in arriving
+        },
     )
 
 

@@ -75,7 +75,10 @@ class Turn:
 
 @dataclass(frozen=True)
 class Team:
-    """Robots that nothing tells apart; they start in the same state, with the same inbox."""
+    """Robots that nothing tells apart; they start in the same state, with the same inbox.
+
+    `late` has the states in which a letter stays in the inbox, because the robot defers one.
+    """
 
     role: str
     robots: tuple[str, ...]
@@ -83,6 +86,7 @@ class Team:
     inbox: tuple[int, ...]
     locals: tuple[Local, ...]
     turns: tuple[Turn, ...]
+    late: Mapping[int, frozenset[int]]
 
 
 @dataclass(frozen=True)
