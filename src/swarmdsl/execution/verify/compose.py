@@ -136,7 +136,7 @@ def _composed(
         {key: found for key, found in receivers.items() if found},
         options.capacity,
         options.lossy,
-        tuple(conditions(model, ())),
+        tuple(conditions(model, (), fair=False)),
         watch,
     )
 
