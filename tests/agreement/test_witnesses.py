@@ -70,4 +70,7 @@ def test_random_swarms(seeds: range, target: str, check: Checker, tmp_path: Path
 @pytest.mark.timeout(3000)
 @pytest.mark.parametrize(("target", "check"), WITNESSES)
 def test_models(name: str, target: str, check: Checker, tmp_path: Path) -> None:
-    compare(SOURCES[name], target, check, tmp_path)
+    found = compare(SOURCES[name], target, check, tmp_path)
+
+    # Others may have too many states.
+    assert found.counts or name not in FEW
