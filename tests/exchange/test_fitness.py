@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from rosbags.rosbag2 import Writer
+from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -161,10 +161,14 @@ def told(*values: Any, **more: Any) -> str:
     return json.dumps(line)
 
 
-def bag_of_ros2(path: Path, *messages: tuple[str, str, dict[str, Any]]) -> None:
+def bag_of_ros2(
+    path: Path,
+    *messages: tuple[str, str, dict[str, Any]],
+    plugin: StoragePlugin = StoragePlugin.MCAP,
+) -> None:
     """Write a bag with messages: their topic, their type, and their fields."""
     types = get_typestore(Stores.ROS2_JAZZY)
-    with Writer(path, version=9) as writer:
+    with Writer(path, version=9, storage_plugin=plugin) as writer:
         topics: dict[str, Any] = {}
         for number, (topic, kind, fields) in enumerate(messages):
             if topic not in topics:
@@ -181,7 +185,10 @@ def way(seconds: int) -> tuple[str, str, dict[str, Any]]:
     return "/way", "builtin_interfaces/msg/Duration", {"sec": seconds, "nanosec": 500_000_000}
 
 
-def test_what_a_monitor_tells_is_read_in_a_bag_of_ros2(run: Run, tmp_path: Path) -> None:
+@pytest.mark.parametrize("plugin", StoragePlugin)
+def test_what_a_monitor_tells_is_read_in_a_bag_of_ros2(
+    run: Run, tmp_path: Path, plugin: StoragePlugin
+) -> None:
     bag_of_ros2(
         tmp_path / "bag",
         way(1),
@@ -192,6 +199,7 @@ def test_what_a_monitor_tells_is_read_in_a_bag_of_ros2(run: Run, tmp_path: Path)
         line_in_bag("/found", "not read: the monitor tells it"),
         ("/pose", "geometry_msgs/msg/Point", {"x": 1.0, "y": 1.0, "z": 1.0}),
         way(89),
+        plugin=plugin,
     )
     ran = run(MEASURED, path="bag")
     assert (ran.returncode, ran.stdout) == (0, f"fitness={8 - 0.5 - 89.5 / 60}\n")

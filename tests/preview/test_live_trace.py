@@ -109,8 +109,9 @@ def test_growing_trace_is_followed(snapshot: Snapshot, tmp_path: Path) -> None:
     wrong: list[Diagnostics] = []
     follow([str(trace)], snapshot, wrong.append)
     page = Page(snapshot)
-    # A monitor writes its verdicts between lines.
+    # A monitor writes its verdicts and measures between lines.
     verdict = json.dumps({"t": 0, "property": "Calm", "verdict": "true"}) + "\n"
+    verdict += json.dumps({"t": 0, "fitness": "Most", "measures": [], "final": True}) + "\n"
     lines = step("dog[0]", "Lie") + verdict + step("dog[1]", "Lie")
     trace.write_text(lines, encoding="utf-8")
     assert page.told() == {"dog[0]": ["Lie"], "dog[1]": ["Lie"]}

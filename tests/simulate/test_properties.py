@@ -205,6 +205,7 @@ def test_lines_of_nodes_have_one_time(
         line(0, 4999, "fault.lost", "There", began=10_000),
         line(0, 0, None, "Here", began=15_000),
         json.dumps({"t": 9000, "began": 10_000, "property": "Order", "verdict": "true"}),
+        json.dumps({"t": 9000, "began": 10_000, "fitness": "Most", "measures": []}),
     )
     found = replayed(*lines, *again)
     assert found["Back"] == ("true", "")
