@@ -15,6 +15,7 @@ from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 
 if TYPE_CHECKING:
     from swarmdsl.execution.verify.limits import Limits
+    from swarmdsl.execution.verify.sizes import Size
 
 _NUMBER = re.compile(r"([0-9]+(?:\.[0-9]+)?) ?(k|M|MB|GB)?")
 _UNITS = {None: 1, "k": 10**3, "M": 10**6, "MB": 10**6, "GB": 10**9}
@@ -23,15 +24,17 @@ _MOST_CAPACITY = 100
 
 def _sizes(
     _context: click.Context, _param: click.Parameter, texts: tuple[str, ...]
-) -> tuple[tuple[str, range], ...]:
-    """Parse numbers of members: `robot=2..5`."""
+) -> tuple[Size, ...]:
+    """Parse numbers of members: `robot=2..5` or `robot=any`."""
     from swarmdsl.execution.verify.sizes import read_size
 
-    found: list[tuple[str, range]] = []
+    found: list[Size] = []
     for text in texts:
         size = read_size(text)
         if size is None:
-            raise click.BadParameter(f"`{text}` is not a size like `robot=8` or `robot=2..5`")
+            raise click.BadParameter(
+                f"`{text}` is not a size like `robot=8`, `robot=2..5` or `robot=any`"
+            )
         if any(name == size[0] for name, _ in found):
             raise click.BadParameter(f"the size of `{size[0]}` is given twice")
         found.append(size)
@@ -87,11 +90,11 @@ def _new_test(_context: click.Context, _param: click.Parameter, path: Path | Non
 @click.option(
     "--size",
     "sizes",
-    metavar="ROLE=N|ROLE=N..M",
+    metavar="ROLE=N|ROLE=N..M|ROLE=any",
     multiple=True,
     callback=_sizes,
-    help="Numbers of members of a role, within its multiplicity; may be repeated.  [default: the "
-    "smallest, at least 1]",
+    help="Numbers of members of a role, within its multiplicity; with `any`, properties are proved "
+    "for every number; may be repeated.  [default: the smallest, at least 1]",
 )
 @click.option(
     "--channel",
@@ -147,7 +150,7 @@ def verify(
     machine: str | None,
     swarm: str | None,
     properties: tuple[str, ...],
-    sizes: tuple[tuple[str, range], ...],
+    sizes: tuple[Size, ...],
     channel: int,
     lossy: bool,
     limits: Limits,
@@ -160,8 +163,8 @@ def verify(
     """Prove properties of a swarm, and find what can go wrong in it.
 
     All orders of events, outcomes of functions and losses are looked at, for a given number of
-    members. A verdict is `holds`, `fails` with a shortest run, `holds up to` a number of states,
-    or `unknown`, and is printed with its conditions.
+    members or for every number. A verdict is `holds`, `fails` with a shortest run, `holds up to` a
+    number of states, or `unknown`, and is printed with its conditions.
     """
     from swarmdsl.execution.verify.command import Request
     from swarmdsl.execution.verify.command import verify as run_verification

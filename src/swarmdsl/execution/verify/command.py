@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TextIO
 
@@ -19,6 +19,7 @@ from swarmdsl.driver.config import find_settings
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject, choose
 from swarmdsl.execution.verify import diagnostics
+from swarmdsl.execution.verify.any_size import enough, prove_any
 from swarmdsl.execution.verify.findings import Survey, survey
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model, Options
@@ -31,7 +32,7 @@ from swarmdsl.execution.verify.saved_test import (
     shown_by_verdict,
     tests_of,
 )
-from swarmdsl.execution.verify.sizes import shown, sizes, whole
+from swarmdsl.execution.verify.sizes import Size, bounds, shown, sizes, whole
 from swarmdsl.execution.verify.verdict import Verdict
 
 _PAUSE = 0.2
@@ -47,7 +48,7 @@ class Request:
     machine: str | None = None
     swarm: str | None = None
     properties: tuple[str, ...] = ()
-    sizes: tuple[tuple[str, range], ...] = ()
+    sizes: tuple[Size, ...] = ()
     capacity: int = 2
     lossy: bool = False
     limits: Limits = Limits()
@@ -102,9 +103,8 @@ class _Session:
         model: Model | None = None
         try:
             for counts in every:
-                options = Options(self._request.capacity, self._request.lossy)
-                made = Model(subject, counts, properties, options, self._budget, self._report)
-                if self._report.has_errors:
+                made = self._model(subject, counts, properties)
+                if made is None:
                     return False
                 model = made
                 looked.append(counts)
@@ -131,6 +131,7 @@ class _Session:
             tuple(verdicts.values()),
             findings,
             self._written,
+            tuple(bounds(subject, self._request.sizes)),
         )
         self._print(subject, self._found, left, surveys)
         self._save_test(subject)
@@ -146,6 +147,7 @@ class _Session:
     ) -> None:
         """Look at a swarm with given numbers of members."""
         size = shown(model.subject, [counts])
+        prove_it = self._prover(model, counts, properties)
         if not self._request.properties:
             found = survey(model, self._budget)
             surveys.append(found)
@@ -160,15 +162,52 @@ class _Session:
             if self._budget.interrupted:
                 verdict = Verdict(property_, "unknown", reason="the search was interrupted")
             else:
-                verdict = prove(property_, model, self._budget)
+                verdict = prove_it(property_)
             if known is None or _WORST.index(verdict.outcome) <= _WORST.index(known.outcome):
                 verdicts[property_.name] = verdict
             self._write(property_.name, verdict.run)
+            of = {**counts, **(verdict.size or {})}
             if verdict.outcome == "fails":
-                self._shown.append(shown_by_verdict(verdict, counts) or property_.name)
-            diagnostics.report_verdict(verdict, size, self._report)
+                self._shown.append(shown_by_verdict(verdict, of) or property_.name)
+            diagnostics.report_verdict(verdict, shown(model.subject, [of]), self._report)
+
+    def _prover(
+        self, model: Model, counts: Mapping[str, int], properties: Sequence[ir.Property]
+    ) -> Callable[[ir.Property], Verdict]:
+        """Return what proves a property, for every number of members of some roles if asked for."""
+        free = bounds(model.subject, self._request.sizes)
+        if not free:
+            return lambda property_: prove(property_, model, self._budget)
+        models = {_key(counts): model}
+
+        def sized(wanted: Mapping[str, int]) -> Model:
+            key = _key(wanted)
+            if key not in models:
+                made = self._model(model.subject, wanted, properties)
+                assert made is not None, "params have values whatever the number of robots"
+                models[key] = made
+            return models[key]
+
+        large = {**counts, **enough(free)}
+        return lambda property_: prove_any(
+            property_,
+            sized(large),
+            free,
+            self._budget,
+            lambda wanted: prove(property_, sized({**counts, **wanted}), self._budget),
+        )
 
     # ---- before
+
+    def _model(
+        self, subject: Subject, counts: Mapping[str, int], properties: Sequence[ir.Property]
+    ) -> Model | None:
+        """Return the automata of a swarm; None if that is reported to be impossible."""
+        options = Options(self._request.capacity, self._request.lossy)
+        report = Diagnostics()
+        made = Model(subject, counts, properties, options, self._budget, report)
+        self._report.include(report)
+        return None if report.has_errors else made
 
     def _subject(self) -> Subject | None:
         models = list(self._request.paths)
@@ -199,7 +238,9 @@ class _Session:
         left: int,
         surveys: Sequence[Survey],
     ) -> None:
-        self._say(f"{subject.name}: {shown(subject, results.sizes)}")
+        self._say(f"{subject.name}: {shown(subject, results.sizes, results.free)}")
+        if results.free and surveys:
+            self._say(f"  of {shown(subject, results.sizes)}:")
         for found in surveys:
             states = diagnostics.counted_in_thousands(found.states, "state")
             steps = diagnostics.counted_in_thousands(found.transitions, "step")
@@ -267,6 +308,10 @@ class _Session:
             self._report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
             return False
         return True
+
+
+def _key(counts: Mapping[str, int]) -> tuple[tuple[str, int], ...]:
+    return tuple(sorted(counts.items()))
 
 
 class _Progress:

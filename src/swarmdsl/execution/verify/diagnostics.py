@@ -126,7 +126,7 @@ def rows(verdicts: Sequence[Verdict]) -> Iterator[tuple[str, str, str]]:
         if each.outcome == "holds" and each.alone:
             reason = "whatever the other robots do"
         if each.outcome == "fails" and each.robot is not None:
-            reason = f"for {each.robot}"
+            reason = f"for {each.robot}" + (f", {reason}" if reason else "")
         yield each.property.name, outcome, reason
 
 

@@ -76,7 +76,7 @@ class Model:
         self.said: dict[str, None] = {}
         """Conditions on data, for the verdicts."""
         self._doubts: dict[int, list[Doubt]] = {}
-        self._named = set(self._addressed()) | {
+        self.named = set(self._addressed()) | {
             f"{each.robots.role}[{each.robots.index or 0}]"
             for property_ in properties
             for each in facts_of(property_)
@@ -111,7 +111,7 @@ class Model:
             quotient = self._quotient(number, mask, thorough=thorough, tasks=tasks)
             left = list(self._robots[number])
             for robot in self._robots[number]:
-                if single or robot in self._named or robot == me:
+                if single or robot in self.named or robot == me:
                     left.remove(robot)
                     made.append(Group(quotient, (robot,)))
             if left:
@@ -124,8 +124,8 @@ class Model:
         for number, automaton in enumerate(self.kinds):
             if automaton.kind.role == role:
                 robots = self._robots[number]
-                found += [robot for robot in robots if robot in self._named]
-                found += [robot for robot in robots if robot not in self._named][-1:]
+                found += [robot for robot in robots if robot in self.named]
+                found += [robot for robot in robots if robot not in self.named][-1:]
         return found
 
     def doubts(self, groups: Iterable[Group]) -> list[Doubt]:

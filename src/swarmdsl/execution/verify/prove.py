@@ -91,10 +91,10 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
         return _in_the_end(property_, model, me, budget)
     every = model.groups([property_], me=me)
     mine = next((n for n, g in enumerate(every) if me is not None and g.robots == (me,)), None)
-    about = set(_about(property_, model, every))
+    seen = set(about(property_, model, every))
     if mine is not None:
-        about.add(mine)
-    groups = model.cone(every, about) or every
+        seen.add(mine)
+    groups = model.cone(every, seen) or every
     is_sure = model.complete and not model.doubts(groups)
     if mine is not None and is_sure and _is_alone(property_):
         states = _alone(property_, every[mine].automaton)
@@ -129,9 +129,9 @@ def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Bu
     flaw = ""
     for single in (False, True):
         every = model.groups([property_], me=me, tasks=True, single=single)
-        about = set(_about(property_, model, every))
-        about |= {number for number, group in enumerate(every) if group.robots == (me,)}
-        groups = model.cone(every, about) or every
+        seen = set(about(property_, model, every))
+        seen |= {number for number, group in enumerate(every) if group.robots == (me,)}
+        groups = model.cone(every, seen) or every
         observer = observer_of(property_, model, groups, me, others=len(groups) < len(every))
         if observer.others:
             # What holds for a moment ends when any robot does something.
@@ -173,7 +173,7 @@ def observer_of(
     property_: ir.Property, model: Model, groups: Sequence[Group], me: str | None, *, others: bool
 ) -> Observer:
     """Return the observer of a property in some groups, of one robot if it is about each."""
-    table = _table(property_)
+    table = table_of(property_)
     network = Network(
         groups,
         model.alphabet,
@@ -185,7 +185,7 @@ def observer_of(
     return Observer(property_, table, network, mine, others=others)
 
 
-def _about(property_: ir.Property, model: Model, groups: Sequence[Group]) -> Iterator[int]:
+def about(property_: ir.Property, model: Model, groups: Sequence[Group]) -> Iterator[int]:
     """Yield the groups that the facts of a property are about."""
     for fact in facts_of(property_):
         roles = roles_of(fact, property_)
@@ -225,7 +225,8 @@ def _sentence(property_: ir.Property) -> Sentence:
     return Sentence(property_.kind, kind, None, property_.times, momentary=momentary)
 
 
-def _table(property_: ir.Property) -> MonitorTable:
+def table_of(property_: ir.Property) -> MonitorTable:
+    """Return the monitor of a property."""
     scope = property_.scope.claims if property_.scope is not None else ()
     return MonitorTable(_sentence(property_), len(property_.claims), len(scope))
 
@@ -246,7 +247,7 @@ def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
     Return the number of states that were looked at, or None if it may be violated so.
     """
     group = Group(automaton, ("",))
-    table = _table(property_)
+    table = table_of(property_)
     terms = Terms(property_, Network([group], automaton.whole.alphabet, 0, lossy=False))
     scope = property_.scope.claims if property_.scope is not None else ()
     claims = [terms.truth(each) for each in (*property_.claims, *scope)]

@@ -19,7 +19,10 @@ _REFUTED = "refuted-property"
 
 @dataclass(frozen=True)
 class Results:
-    """Results of the command; `runs` has the written files by the names of their runs."""
+    """Results of the command; `runs` has the written files by the names of their runs.
+
+    Properties are proved for any number of members of the roles `free`.
+    """
 
     subject: str
     sizes: tuple[Mapping[str, int], ...]
@@ -27,6 +30,7 @@ class Results:
     verdicts: tuple[Verdict, ...]
     findings: tuple[Finding, ...]
     runs: Mapping[str, Path]
+    free: tuple[str, ...] = ()
 
 
 def as_document(results: Results) -> str:
@@ -34,6 +38,7 @@ def as_document(results: Results) -> str:
     values = {
         "subject": results.subject,
         "sizes": [dict(each) for each in results.sizes],
+        **({"any": list(results.free)} if results.free else {}),
         "conditions": list(results.conditions),
         "properties": [_property(each, results.runs) for each in results.verdicts],
         "findings": [_finding(each, results.runs) for each in results.findings],
@@ -48,6 +53,7 @@ def _property(verdict: Verdict, runs: Mapping[str, Path]) -> dict[str, Any]:
         "verdict": "holds up to" if up_to else verdict.outcome,
         **({"states": verdict.states} if up_to else {}),
         **({"member": verdict.robot} if fails and verdict.robot is not None else {}),
+        **({"size": dict(verdict.size)} if fails and verdict.size is not None else {}),
         **({"reason": verdict.reason} if verdict.reason else {}),
         **_written(verdict.property.name, runs),
         **_loop(verdict),

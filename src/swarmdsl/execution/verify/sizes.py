@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import product
 
 from swarmdsl import ir
@@ -16,8 +16,14 @@ from swarmdsl.execution.simulate.subject import Subject
 _WRITTEN = re.compile(r"([^=]+)=([0-9]{1,5})(?:\.\.([0-9]{1,5}))?")
 
 
-def read_size(text: str) -> tuple[str, range] | None:
-    """Parse `robot=3` or `robot=2..5`; None if it is neither."""
+Size = tuple[str, range | None]
+"""Role with its numbers of members, None for any number."""
+
+
+def read_size(text: str) -> Size | None:
+    """Parse `robot=3`, `robot=2..5` or `robot=any`; None if it is none of these."""
+    if (role := text.removesuffix("=any")) != text and role and "=" not in role:
+        return role, None
     found = _WRITTEN.fullmatch(text)
     if found is None:
         return None
@@ -26,10 +32,11 @@ def read_size(text: str) -> tuple[str, range] | None:
     return (found[1], range(least, most + 1)) if least <= most else None
 
 
-def sizes(
-    subject: Subject, asked: Sequence[tuple[str, range]], report: Diagnostics
-) -> list[dict[str, int]]:
-    """Return the numbers of members to look at, the smallest first; report impossible ones."""
+def sizes(subject: Subject, asked: Sequence[Size], report: Diagnostics) -> list[dict[str, int]]:
+    """Return the numbers of members to look at, the smallest first; report impossible ones.
+
+    Of roles with any number there is the smallest one, but at least 1.
+    """
     roles = subject.swarm.roles if subject.swarm is not None else ()
     by_name = {role.name: role for role in roles}
     wanted: dict[str, range] = {}
@@ -40,8 +47,14 @@ def sizes(
             help_ = suggest(name, by_name, "roles")
             report.report("unresolved-name", place, kind="role", name=name, help=help_)
             continue
+        multiplicity = by_name[name].multiplicity
+        if numbers is None:
+            if multiplicity.lower == multiplicity.upper:
+                _report(by_name[name], "any number of", report)
+            least = max(multiplicity.lower, 1)
+            numbers = range(least, least + 1)
         for number in (numbers[0], numbers[-1]):
-            if not _allows(by_name[name].multiplicity, number):
+            if not _allows(multiplicity, number):
                 _report(by_name[name], number, report)
                 break
         wanted[name] = numbers
@@ -60,20 +73,32 @@ def _allows(multiplicity: ir.Multiplicity, number: int) -> bool:
     return multiplicity.lower <= number and (upper is None or number <= upper)
 
 
-def _report(role: ir.Role, number: int, report: Diagnostics) -> None:
+def bounds(subject: Subject, asked: Sequence[Size]) -> dict[str, tuple[int, int | None]]:
+    """Return the least and greatest numbers of members of roles with any number."""
+    roles = subject.swarm.roles if subject.swarm is not None else ()
+    free = {name for name, numbers in asked if numbers is None}
+    return {
+        role.name: (role.multiplicity.lower, role.multiplicity.upper)
+        for role in roles
+        if role.name in free
+    }
+
+
+def _report(role: ir.Role, number: int | str, report: Diagnostics) -> None:
+    example = number if isinstance(number, int) else "2..8"
     report.report(
         "size-not-allowed",
         role.origin,
         count=number,
         role=role.name,
         label=f"here there are {role.multiplicity}",
-        help=f"change the multiplicity, such as `{role.member}[{number}]` or `[1..*]`",
+        help=f"change the multiplicity, such as `{role.member}[{example}]` or `[1..*]`",
     )
 
 
-def shown(subject: Subject, every: Sequence[Mapping[str, int]]) -> str:
-    """Describe numbers of members: `2 to 5 robot, 1 base`."""
-    return ", ".join(_of_roles(subject, every)) or "one machine"
+def shown(subject: Subject, every: Sequence[Mapping[str, int]], free: Collection[str] = ()) -> str:
+    """Describe numbers of members: `2 to 5 robot, 1 base`; any number of some roles."""
+    return ", ".join(_of_roles(subject, every, free)) or "one machine"
 
 
 def whole(subject: Subject, counts: Mapping[str, int]) -> dict[str, int]:
@@ -82,8 +107,13 @@ def whole(subject: Subject, counts: Mapping[str, int]) -> dict[str, int]:
     return {each.name: counts.get(each.name, max(each.multiplicity.lower, 1)) for each in roles}
 
 
-def _of_roles(subject: Subject, every: Sequence[Mapping[str, int]]) -> Iterator[str]:
+def _of_roles(
+    subject: Subject, every: Sequence[Mapping[str, int]], free: Collection[str]
+) -> Iterator[str]:
     every = [whole(subject, each) for each in every]
     for name in every[0] if every else ():
         least, most = min(each[name] for each in every), max(each[name] for each in every)
-        yield f"{least} {name}" if least == most else f"{least} to {most} {name}"
+        if name in free:
+            yield f"any number of {name}"
+        else:
+            yield f"{least} {name}" if least == most else f"{least} to {most} {name}"

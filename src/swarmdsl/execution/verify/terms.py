@@ -73,20 +73,20 @@ class Terms:
         if isinstance(claim, Junction):
             return Combined(claim.operator, tuple(map(self.reading, claim.claims)))
         if isinstance(claim, Count):
-            return _compared(self._term(claim, claim.role, None), claim)
+            return _compared(self.term(claim, claim.role, None), claim)
         robots = claim.robots
         if robots is None:
             each = self._property.each
             if each is not None and claim.act != "arrives":
-                return Number(self._term(claim, each, None), "me", 1)
-            return Number(self._term(claim, None, None), "all", 1)
+                return Number(self.term(claim, each, None), "me", 1)
+            return Number(self.term(claim, None, None), "all", 1)
         return self._of_robots(claim, robots)
 
     def _of_robots(self, claim: Fact, robots: ir.Robots) -> Reading:
         if robots.quantifier == "index":
-            term = self._term(claim, robots.role, f"{robots.role}[{robots.index or 0}]")
+            term = self.term(claim, robots.role, f"{robots.role}[{robots.index or 0}]")
             return Number(term, "all", 1)
-        term = self._term(claim, robots.role, None)
+        term = self.term(claim, robots.role, None)
         whose: Whose = "others" if robots.other else "all"
         if robots.quantifier == "number":
             assert robots.number is not None
@@ -99,7 +99,8 @@ class Terms:
         size -= robots.other and self._property.each == robots.role
         return Number(term, whose, size, size)
 
-    def _term(self, fact: Fact | Count, role: str | None, robot: str | None) -> int:
+    def term(self, fact: Fact | Count, role: str | None, robot: str | None) -> int:
+        """Return the number of a fact, about robots of a role or one robot if they are given."""
         key = (fact, role, robot)
         if key not in self._keys:
             self._keys.append(key)

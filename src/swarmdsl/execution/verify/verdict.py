@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal
 
 from swarmdsl import ir
@@ -35,6 +36,8 @@ class Verdict:
     """Events of which messages were lost because there were too many."""
     alone: bool = False
     """True if the proof is about one robot, whatever the others do."""
+    size: Mapping[str, int] | None = None
+    """Numbers of members of a violation, of roles of which it is about every number."""
 
 
 def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> Verdict:
