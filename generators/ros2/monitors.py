@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl.codegen import Diagnostics, Span, code_cell, dataclass, fresh
 from swarmdsl.codegen.python import Call, Source, comments, layout, source_place
@@ -12,6 +12,7 @@ from swarmdsl.codegen.shared import (
     envelopes_of,
     facts_of,
     parts_text,
+    reads_envelope,
     sentence_text,
 )
 from swarmdsl.ir import (
@@ -29,6 +30,7 @@ from swarmdsl.ir import (
     StateMachine,
     System,
     bound_of_any,
+    reads_values,
     subexpressions,
 )
 from swarmdsl.ir.sentences import facts_in, measure
@@ -114,26 +116,54 @@ def watched_swarms(
     return tuple(found)
 
 
-def conditions(machine: StateMachine, system: System) -> dict[str, Expression]:
-    """Return the conditions that robots with a machine tell, by their text."""
-    guards = [
-        fact.guard
-        for swarm in system.swarms
-        for role in swarm.roles
-        if system.members_by_name[role.member].behavior == machine.name
-        for each, fact in _facts_about(swarm.name, system)
-        if isinstance(fact, Fact) and fact.guard is not None
-        if role.name == (fact.robots.role if fact.robots is not None else each)
-    ]
-    guards += [
-        fact.guard
+def conditions(machine: StateMachine, system: System) -> dict[str, Fact]:
+    """Return the facts with conditions that robots with a machine tell, by their text.
+
+    A machine of a part tells only conditions on messages alone: variables are those of the robot.
+    """
+    found: list[Fact] = []
+    for swarm in system.swarms:
+        members = {role.name: system.members_by_name[role.member] for role in swarm.roles}
+        own = {name for name, member in members.items() if member.behavior == machine.name}
+        parts = {
+            name
+            for name, member in members.items()
+            for part in member.parts
+            if system.components_by_name[part.component].behavior == machine.name
+        }
+        for each, fact in _facts_about(swarm.name, system):
+            if isinstance(fact, Fact) and fact.guard is not None:
+                of_message = fact.act != "has" and not reads_values(fact.guard)
+                roles = own | parts if of_message else own
+                role = fact.robots.role if fact.robots is not None else each
+                if role in roles or (fact.act == "arrives" and roles):
+                    found.append(fact)
+    found += [
+        fact
         for property_ in system.properties
         if property_.subject == machine.name
         for fact in facts_of(property_)
-        if isinstance(fact, Fact) and fact.guard is not None
+        if isinstance(fact, Fact)
     ]
-    known = (each for each in guards if _unknown_param(each, machine) is None)
-    return {condition_text(each): each for each in known}
+    return {
+        told_text(fact): fact
+        for fact in found
+        if fact.guard is not None
+        and _unknown_param(fact.guard, machine) is None
+        and not _needs_sender(fact, system)
+    }
+
+
+def told_text(fact: Fact) -> str:
+    """Return what nodes call a condition: `load > 3`, `hears Take [event.data > 3]`."""
+    assert fact.guard is not None
+    text = condition_text(fact.guard)
+    return text if fact.act == "has" else f"{heard_or_sent(fact)} {fact.name} [{text}]"
+
+
+def heard_or_sent(fact: Fact) -> str:
+    """Return the act by which a node knows the message of an event."""
+    return "sends" if fact.act == "sends" else "hears"
 
 
 def _facts_about(swarm: str, system: System) -> Iterator[tuple[str | None, Fact | Count]]:
@@ -172,12 +202,19 @@ def _subject(
             each
             for each in system.properties
             if each.subject == launch.swarm
-            and _is_told(f"property `{each.name}`", each.each, facts_of(each), behaviors, report)
+            and _is_told(
+                f"property `{each.name}`",
+                each.each,
+                [*facts_of(each)],
+                behaviors,
+                system,
+                report,
+            )
         ),
         {
             module: found
             for module, machine in run.items()
-            if (found := tuple(p for p in system.properties if p.subject == machine.name))
+            if (found := tuple(_of_machine(machine, system, report)))
         },
         fitness,
         tuple(
@@ -187,12 +224,21 @@ def _subject(
             and _is_told(
                 f"measure `{each.name}`",
                 each.measure.each,
-                _facts_of_input(each),
+                [*_facts_of_input(each)],
                 behaviors,
+                system,
                 report,
             )
         ),
     )
+
+
+def _of_machine(machine: StateMachine, system: System, report: Diagnostics) -> Iterator[Property]:
+    """Yield the properties of a machine that its nodes can tell."""
+    for each in system.properties:
+        what = f"property `{each.name}`"
+        if each.subject == machine.name and _tells_senders(what, facts_of(each), system, report):
+            yield each
 
 
 def _report_unwatched(
@@ -326,8 +372,9 @@ def _machines(
 def _is_told(
     what: str,
     each: str | None,
-    facts: Iterable[Fact | Count],
+    facts: Sequence[Fact | Count],
     machines: Mapping[str, StateMachine],
+    system: System,
     report: Diagnostics,
 ) -> bool:
     """Return True if nodes know what facts ask for, with the machine of each role.
@@ -343,7 +390,29 @@ def _is_told(
                 help_ = "declare a param of this name in the state machine"
                 report.report("no-place", fact.origin, target=TARGET, what=what, help=help_)
                 return False
+    return _tells_senders(what, facts, system, report)
+
+
+def _tells_senders(
+    what: str, facts: Iterable[Fact | Count], system: System, report: Diagnostics
+) -> bool:
+    """Return True if messages have the senders that conditions ask for; report it otherwise."""
+    for fact in facts:
+        if isinstance(fact, Fact) and _needs_sender(fact, system):
+            what += f": robots do not tell who sent `{fact.name}`"
+            help_ = f"let a transition on `{fact.name}` use `event.sender`"
+            report.report("no-place", fact.origin, target=TARGET, what=what, help=help_)
+            return False
     return True
+
+
+def _needs_sender(fact: Fact, system: System) -> bool:
+    """Return True if a condition asks who sent an event, or when, and its message does not tell."""
+    return (
+        fact.guard is not None
+        and reads_envelope([fact.guard])
+        and fact.name not in envelopes_of(system)
+    )
 
 
 def _unknown_param(condition: Expression, machine: StateMachine | None) -> str | None:
@@ -447,7 +516,7 @@ class _Writer:
         if robots is not None:
             keywords.append(("robots", robots))
         if fact.guard is not None:
-            keywords.append(("condition", condition_text(fact.guard)))
+            keywords.append(("condition", told_text(fact)))
         name = (fact.name,) if fact.name else ()
         return self._call("Fact", (fact.act, *name), keywords)
 

@@ -23,7 +23,7 @@ from .imports import WIDTH, Imports
 from .launch import Launch, launches
 from .machine import Row, Table
 from .module import BOTH, STEP, Function, Module
-from .monitors import Entry, WatchedSwarm, conditions, watched_swarms
+from .monitors import Entry, WatchedSwarm, conditions, heard_or_sent, watched_swarms
 from .names import NAMES
 from .options import Options
 from .params import parameters
@@ -230,10 +230,15 @@ def _functions(
 def _conditions(machine: StateMachine, system: System, made: Module) -> tuple[Entry, ...]:
     """Return the entries of the conditions that the trace of a machine tells."""
     found = []
-    for text, condition in conditions(machine, system).items():
-        lines = [f"{STEP}return {python_expression(condition, made.imports)}"]
-        function = made.function("holds", machine.name, BOTH, lines, condition.origin)
-        found.append(Entry((), layout(function, 1, f"{STEP}{text!r}: ", ",", WIDTH)))
+    for text, fact in conditions(machine, system).items():
+        assert fact.guard is not None
+        lines = [f"{STEP}return {python_expression(fact.guard, made.imports)}"]
+        origin = fact.guard.origin
+        told: Source | Call = made.function("holds", machine.name, BOTH, lines, origin)
+        if fact.act != "has":
+            class_ = made.imports.own("tracing", "OfMessage")
+            told = Call(class_, (heard_or_sent(fact), fact.name, told))
+        found.append(Entry((), layout(told, 1, f"{STEP}{text!r}: ", ",", WIDTH)))
     return tuple(found)
 
 

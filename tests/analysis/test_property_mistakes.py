@@ -11,6 +11,8 @@ from swarmdsl.driver import pipeline
 MODEL = """package crew
 swarm event Start : std_msgs/Empty
 swarm event Home : std_msgs/Empty
+message Spot { x : float64 }
+swarm event Seen : Spot
 event Low : std_msgs/Bool on "low"
 event Other : std_msgs/Bool
 function carry : abstraction { service "carry" : std_srvs/Trigger }
@@ -24,7 +26,8 @@ endless statemachine Carrying {
   }
   state Fetch {
     do carry
-    on succeeded / box = box + 1, send Home -> Waiting
+    on succeeded / box = box + 1, send Home, send Seen(x = box) -> Waiting
+    on Seen -> Fetch
     on aborted -> Waiting
   }
 }
@@ -91,6 +94,30 @@ HELPS = {
         "put what is joined in parentheses"
     ),
     "Crew { never some robot in Fetch }": "write `:` and one sentence",
+    "Crew : never some robot sends Seen (x > 3)": "write `sends Seen [event.x > 3]`",
+    "Crew : never some robot sends Seen with x = 3": "write `sends Seen [event.x == 3]`",
+    "Crew : never some robot hears Seen where event.x < 3": "write `hears Seen [event.x < 3]`",
+    "Crew : never some robot hears Seen has [event.x < 3]": "write `hears Seen [event.x < 3]`",
+    "Crew : never some robot hears Seen.x > 3": "write `hears Seen [event.x > 3]`",
+    "Crew : never some robot hears Seen [x > 3]": "write `event.x`",
+    "Crew : never some robot hears Seen [y > 3]": "",
+    'Crew : never some robot hears Seen [sender == "scout"]': "write `event.sender`",
+    "Crew : never some robot sends Seen [event.y > 3]": "it has `x`",
+    'Crew : never some robot sends Seen [event.sender == "scout"]': (
+        "leave it out: the fact names the robot that sends the event"
+    ),
+    'Crew : never Seen [event.sender == "scout"]': (
+        "write `hears`: an event from outside comes from no robot"
+    ),
+    'Crew : never some robot hears Seen [event.sender == "scout"]': (
+        "this is a role; its robots are `scout[0]` and so on"
+    ),
+    "Crew : never some robot has [event.x > 3]": (
+        "write it after an event: `hears Found [event.x > 3]`"
+    ),
+    "Crew : never some robot in Fetch [box > 3]": (
+        "only an event has a condition: write `and`, and a fact with `has [x > 3]`"
+    ),
     "Crew : each robot in Fetch leads to in Waiting": "write `:` before `in`",
     "Crew : each robot : in Fetsh leads to in Waiting": "did you mean `Fetch`?",
     "Crew : never in Fetch": (
@@ -130,6 +157,7 @@ IMPOSSIBLE = {
     "scout starts carry": "role `scout` never calls `carry`",
     "some robot cancels other": "role `robot` never calls `other`",
     "Other": "`Crew` never waits for `Other`",
+    "some robot sends Seen [event.x > 3 and event.x < 2]": "its condition is always false",
     "some robot has [box > 255]": "its condition is always false",
     "some robot has [box > 3 and box < 2]": "its condition is always false",
     "some robot has [false]": "its condition is always false",
@@ -151,6 +179,9 @@ def test_a_fact_that_never_holds(fact: str, tmp_path: Path) -> None:
         "some robot hears Low",  # by its topic
         "some robot has [box > 254]",
         "some robot cancels carry",
+        "some robot sends Seen [event.x > box and event.x < 300]",
+        "some robot hears Seen [event.sent > 3 s]",
+        "Seen [event.x != 3]",
     ],
 )
 def test_a_fact_that_can_hold(fact: str, tmp_path: Path) -> None:

@@ -12,12 +12,18 @@ from swarmdsl.syntax.ast import Property
 
 MODEL = """package crew
 swarm event Start : std_msgs/Empty
+swarm event Found : std_msgs/Int32
 function carry : abstraction { service "carry" : std_srvs/Trigger }
 statemachine Carrying {
   var box : uint8 = 0
   initial Waiting
   state Waiting { on Start -> Work }
-  state Work { do carry; on aborted -> Over; on succeeded / box = box + 1, send Start -> Over }
+  state Work {
+    do carry
+    on aborted -> Over
+    on succeeded / box = box + 1, send Start, send Found(data = box) -> Over
+    on Found -> Over
+  }
   final Over
 }
 member Carrier { behavior Carrying }
@@ -48,6 +54,14 @@ SENTENCES = {
         "In at most 0.5 % of all runs of swarm `Crew`: before the first time that (`Start` "
         "arrives from outside or exactly 2 `robot` are in `Over`), if that comes, it is true at "
         "all times that no `robot` is in `Work`."
+    ),
+    "of Crew : all robot hears Found [event.data > 3] leads to Found [event.data == 0]": (
+        "In each run of swarm `Crew`: whenever all `robot` hear `Found` with `event.data > 3`, "
+        "then or later `Found` with `event.data == 0` arrives from outside."
+    ),
+    "of Crew : each robot : never sends Found [event.data > box]": (
+        "In each run of swarm `Crew`, for each `robot` by itself: it never happens that it sends "
+        "`Found` with `event.data > box`."
     ),
     "of Carrying : between hears Start and in Over, starts carry at most 1 times": (
         "In each run of state machine `Carrying`: between each time that it hears `Start` and the "

@@ -93,6 +93,17 @@ CHANGES = {
             ),
         ],
     ),
+    "a property about fewer messages": (
+        "each robot : hears Alarm leads",
+        "each robot : hears Alarm [event.x > 2] leads",
+        [
+            "~ property Finds",
+            (
+                "    ~ says is `each robot : hears Alarm [event.x > 2] leads to in Found within "
+                "1 min`, was `each robot : hears Alarm leads to in Found within 1 min`, weaker"
+            ),
+        ],
+    ),
     "a property of others": (
         "hears Alarm leads",
         "in Idle leads",
@@ -456,7 +467,7 @@ def test_variables_of_states_have_their_names_in_the_model(tmp_path: Path) -> No
         "~ property Few (14)",
         (
             "    ~ says is `never robot has [Up.tries > 6]`, "
-            "was `never robot has [Up.tries > 5]` (14)"
+            "was `never robot has [Up.tries > 5]`, weaker (14)"
         ),
     ]
 

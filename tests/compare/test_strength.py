@@ -9,17 +9,34 @@ from dataclasses import replace
 
 import pytest
 
+from swarmdsl.execution.engine import Event
 from swarmdsl.execution.monitor import FALSE, Monitor, Sentence
-from swarmdsl.ir import Claim, Count, Fact, Junction, Property, Robots, Scope
+from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.ir import (
+    Binary,
+    Claim,
+    Count,
+    EventData,
+    Expression,
+    Fact,
+    FieldAccess,
+    Junction,
+    Named,
+    Property,
+    Robots,
+    Scope,
+)
 from swarmdsl.ir import Literal as Constant
 from swarmdsl.ir.architecture import Multiplicity
 from swarmdsl.ir.operations import OPERATIONS
 from swarmdsl.ir.properties import Chance
-from swarmdsl.syntax.types import DURATION
+from swarmdsl.syntax.types import BOOL, DURATION, INT
 from swarmdsl.tools.compare.strength import strength
 
 A, B, C = (Fact("arrives", name) for name in "ABC")
 NEVER = Property("One", "Crew", "never", (A,))
+NONE = Robots("robot", "no")
+ONE = Robots("robot", "number", Multiplicity(1, 1))
 LEADS = Property("One", "Crew", "leads", (A, B), within=Constant(5, DURATION))
 
 
@@ -29,6 +46,19 @@ def both(*claims: Claim) -> Junction:
 
 def chance(bound: str, probability: float) -> Property:
     return replace(LEADS, chance=Chance(bound, probability))  # type: ignore[arg-type]
+
+
+def compared(operator: str, number: int) -> Binary:
+    field = FieldAccess(EventData(Named("m", "C")), "x", INT)
+    return Binary(operator, field, Constant(number, INT), BOOL)
+
+
+def sent(*limits: tuple[str, int], robots: Robots | None = None) -> Property:
+    """Return that no `C` is sent whose field `x` is in these limits."""
+    guard: Expression | None = None
+    for limit in limits:
+        guard = compared(*limit) if guard is None else Binary("and", guard, compared(*limit), BOOL)
+    return replace(NEVER, claims=(Fact("sends", "C", robots, guard),))
 
 
 def more(number: int) -> Property:
@@ -47,6 +77,14 @@ def more(number: int) -> Property:
         # The later it may come, the more often it comes: the more is forbidden.
         (chance("most", 0.1), replace(chance("most", 0.1), within=None), "stronger"),
         (more(2), more(3), "weaker"),
+        (sent(), sent((">", 3)), "weaker"),
+        (sent((">", 3)), sent((">", 5)), "weaker"),
+        (sent((">", 3)), sent((">=", 3)), "stronger"),
+        (sent((">", 3)), sent(("<", 5)), None),
+        (sent((">", 3)), sent((">", 3), ("<", 9)), "weaker"),
+        (sent(("<=", 3)), sent(("==", 3)), "weaker"),
+        (sent((">", 3), robots=NONE), sent((">", 5), robots=NONE), "stronger"),
+        (sent((">", 3), robots=ONE), sent((">", 5), robots=ONE), None),
         (replace(NEVER, claims=(both(A, B),)), NEVER, "stronger"),
         (replace(LEADS, claims=(A, both(B, C))), LEADS, "weaker"),
         (replace(LEADS, claims=(both(A, C), B)), LEADS, "stronger"),
@@ -71,10 +109,14 @@ KINDS = {"never": 1, "always": 1, "eventually": 1, "leads": 2, "only": 2, "times
 KINDS |= {"again": 1, "possible": 1}
 SCOPES = {"after": 1, "before": 1, "between": 2, "until": 2}
 Facts = Mapping[str, int]
-"""A moment of a run: whether each of some facts holds, or how many robots it holds for."""
+"""A moment of a run: whether each of some facts holds, or how many robots it holds for; for `C`,
+field `x` of its message, or a negative number if it is not sent."""
 
 
 def random_claim(dice: random.Random, depth: int = 2) -> Claim:
+    if dice.random() < 0.2:
+        robots = dice.choice((None, Robots("robot", "some"), Robots("robot", "no")))
+        return Fact("sends", "C", robots, random_condition(dice))
     if depth and dice.random() < 0.4:
         operator = dice.choice(("and", "or", "not"))
         count = 1 if operator == "not" else 2
@@ -87,6 +129,17 @@ def random_claim(dice: random.Random, depth: int = 2) -> Claim:
         robots = dice.choice((number, Robots("robot", "some"), Robots("robot", "no")))
         return Fact("in", "N", robots)
     return dice.choice((A, B))
+
+
+def random_condition(dice: random.Random) -> Expression | None:
+    """Make a condition on field `x` of a message, which is a small number."""
+    if dice.random() < 0.2:
+        return None
+    found = compared(dice.choice(("<", "<=", ">", ">=", "==", "!=")), dice.randrange(4))
+    if dice.random() < 0.3:
+        other = compared(dice.choice(("<", ">")), dice.randrange(4))
+        found = Binary(dice.choice(("and", "or")), found, other, BOOL)
+    return found
 
 
 def random_change(claim: Claim, dice: random.Random) -> Claim:
@@ -102,6 +155,8 @@ def random_change(claim: Claim, dice: random.Random) -> Claim:
         return replace(claim, claims=tuple(claims))
     if isinstance(claim, Count):
         return replace(claim, number=dice.randrange(3))
+    if isinstance(claim, Fact) and claim.act == "sends":
+        return replace(claim, guard=random_condition(dice))
     if dice.random() < 0.2:
         return random_claim(dice)
     return Junction(dice.choice(("and", "or")), (claim, random_claim(dice, 1)))
@@ -155,6 +210,12 @@ def holds(claim: Claim, facts: Facts) -> bool:
         return {"and": all(found), "or": any(found), "not": not found[0]}[claim.operator]
     if isinstance(claim, Count):
         return bool(OPERATIONS[claim.comparison](facts["N"], claim.number))
+    if claim.act == "sends":
+        guard = function_of(claim.guard) if claim.guard is not None else None
+        is_sent = facts["C"] >= 0 and (
+            guard is None or bool(guard({}, Event("C", {"x": facts["C"]})))
+        )
+        return is_sent != (claim.robots is not None and claim.robots.quantifier == "no")
     if claim.robots is None:
         return bool(facts[claim.name])
     if claim.robots.number is None:
@@ -174,6 +235,11 @@ def is_violated(by: Sequence[tuple[int, Facts]], one: Property, *, ended: bool) 
     return monitor.finish(by[-1][0] + 3, ended=ended) == FALSE
 
 
+def random_moment(dice: random.Random) -> Facts:
+    happen = {"A": dice.random() < 0.4, "B": dice.random() < 0.4}
+    return {**happen, "C": dice.randrange(-2, 4), "N": dice.randrange(4)}
+
+
 def test_no_run_contradicts_what_is_said() -> None:
     dice = random.Random(1)
     counts: Counter[str | None] = Counter()
@@ -188,8 +254,7 @@ def test_no_run_contradicts_what_is_said() -> None:
         weak, strong = (other, one) if said == "weaker" else (one, other)
         for _ in range(8):
             times = sorted(dice.randrange(20) for _ in range(dice.randrange(1, 8)))
-            run = [(time, {"A": dice.random() < 0.4, "B": dice.random() < 0.4,
-                           "N": dice.randrange(4)}) for time in times]  # fmt: skip
+            run = [(time, random_moment(dice)) for time in times]
             ended = dice.random() < 0.5
             breaks = is_violated(run, strong, ended=ended)
             if is_violated(run, weak, ended=ended):

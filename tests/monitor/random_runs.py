@@ -8,6 +8,7 @@ from collections import Counter
 
 from swarmdsl.execution.monitor import FALSE, Monitor, Sentence, Verdict
 
+from .random_lines import check_lines
 from .slow import Step, verdict
 
 KINDS = {
@@ -73,6 +74,7 @@ def check_many(count: int, seed: int = 0) -> Counter[Verdict]:
 
 if __name__ == "__main__":
     many = int(sys.argv[1])
-    verdicts = check_many(many, seed=1)
+    # Half of the runs are lines of robots, and the claims are about messages.
+    verdicts = check_many(many - many // 2, seed=1) + check_lines(many // 2, seed=1)
     counts = ", ".join(f"{number} {name}" for name, number in sorted(verdicts.items()))
     sys.stdout.write(f"{many} pairs of a property and a run: all verdicts agree ({counts})\n")

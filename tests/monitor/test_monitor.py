@@ -11,6 +11,7 @@ import pytest
 from swarmdsl.execution import monitor
 from swarmdsl.execution.monitor import FALSE, OPEN, TRUE, Monitor, Sentence
 
+from .random_lines import check_lines
 from .random_runs import check_many
 
 FOLDER = Path(monitor.__file__).parent
@@ -19,6 +20,12 @@ FOLDER = Path(monitor.__file__).parent
 @pytest.mark.parametrize("seed", range(4))
 def test_random_properties_and_runs(seed: int) -> None:
     counts = check_many(500, seed)
+    assert min(counts[FALSE], counts[OPEN], counts[TRUE]) > 25
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_random_properties_of_messages_and_lines(seed: int) -> None:
+    counts = check_lines(500, seed)
     assert min(counts[FALSE], counts[OPEN], counts[TRUE]) > 25
 
 

@@ -422,6 +422,8 @@ swarm Yard {
   heartbeat 1 s lost after 5 s
   cart : Cart[2]
 }
+
+property Stays of Yard : each cart : never hears member_lost [event.id == "cart[1]"]
 """
 
 
@@ -430,7 +432,7 @@ def test_a_role_in_comparisons(swarmc, yard) -> None:
     (yard / "yard.swarm").write_text(IDENTIFIED)
     ran = swarmc("rename", "Yard.cart", "van")
     lines = IDENTIFIED.splitlines()
-    for number in (4, 5, 14):
+    for number in (4, 5, 14, 17):
         lines[number] = lines[number].replace("cart", "van")
     assert (yard / "yard.swarm").read_text().splitlines() == lines
     assert [line for line in ran.err.splitlines() if "-->" in line] == [

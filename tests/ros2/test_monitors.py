@@ -188,6 +188,7 @@ def test_verdicts_and_measures_are_those_of_a_replay(
     assert {"key": "verdict", "value": "false"} in status["values"]
     assert status["hardware_id"] == "/depot"
     depot.status("Light", ERROR, "false by carrier[0] at ")
+    depot.status("Small", ERROR, "false by carrier[0] at ")
 
     # The second one is silent, so time alone breaks a promise.
     depot.status("Brought", ERROR, "by carrier[1] at ")
@@ -203,6 +204,8 @@ def test_verdicts_and_measures_are_those_of_a_replay(
     alone = of_machines(found)
     assert {name: verdict for name, (verdict, _) in found.items()} == {
         "Light": "false",
+        "Small": "false",
+        "Little": "false",
         "OneLoaded": "false",
         "Brought": "false",
         "OnlyTaken": "true",
@@ -244,7 +247,7 @@ def test_verdicts_and_measures_are_those_of_a_replay(
     ran = compute(tmp_path, bag(tmp_path / "shorter", messages[:-1]))
     assert "note: the monitor had not ended" in ran.stderr
     assert "property Light is violated by carrier[0] at " in monitor.log
-    assert "each carrier : never has [load > 3] (depot.swarm:30)" in monitor.log
+    assert "each carrier : never has [load > 3] (depot.swarm:31)" in monitor.log
     assert "OnlyTaken: true" in monitor.log
     assert not any(line["conditions"] for line in monitor.trace if "property" in line)
 

@@ -95,6 +95,7 @@ member Car { param speed : float64 = 1.0; behavior Other }
 swarm S { car : Car[2]; fitness F }
 fitness F {
   """
+FOUND = HEAD + "message Seen { x : float64, mode : Mode }\nswarm event Found : Seen\n"
 DO = "do sweep(speed = 1.0, area = nothing)"
 PLACES = {
     "param of a role": (
@@ -261,6 +262,22 @@ PLACES = {
     "role of a property": (HEAD + FITNESS + "} property P : no |", {"car"}, {"Only"}),
     "state of a property": (
         HEAD + FITNESS + "} property P : each car : never in |", {"Only", "End"}, {"car"},
+    ),
+    "condition on a message": (
+        FOUND + FITNESS + "} property P : each car : hears Found [|", {"event", "speed", "MOST"},
+        {"Only", "Found"},
+    ),
+    "field of a message in a property": (
+        FOUND + FITNESS + "} property P : some car sends Found [event.|",
+        {"x", "mode"}, {"car", "sender", "MOST"},
+    ),
+    "field of a heard message": (
+        FOUND + FITNESS + "} property P : each car : never hears Found [event.x > 3 and event.|",
+        {"x", "mode", "sender", "sent"}, {"car", "speed"},
+    ),
+    "field of a message in a measure": (
+        FOUND + FITNESS + "in x : uint32 = total(car hears Found [event.|]) }",
+        {"x", "mode", "sender"}, {"car", "Low"},
     ),
     "below a mistake": (state("on on on\n    |"), ITEMS, {"event", "statemachine"}),
     "field behind a mistake": (

@@ -327,6 +327,28 @@ async def test_hover_shows_who_sent_an_event(client, editor):
     assert "one member" in found
 
 
+async def test_hover_shows_who_sent_what_a_property_is_about(client, editor):
+    text = """
+      message Spot { x : float64 }
+      swarm event Go : Spot
+      statemachine M {
+        var far : float64 = 3.0
+        initial A
+        state A { on Go / send Go(x = far) -> B }
+        final B
+      }
+      member Rover { behavior M }
+      swarm S { base : Rover[2] }
+      property P of S : each base : never hears Go [event.sender == "base[1]" and event.x > far]
+    """
+    place = EXAMPLE / "new.swarm"
+    assert "event.sender : string" in await hovered(client, editor, place, "sender", text)
+    assert "base : Rover" in await hovered(client, editor, place, "base[1]", text)
+    assert "var far : float64" in await hovered(client, editor, place, "far]", text)
+    found = await hovered(client, editor, place, "P of", text)
+    assert 'it hears `Go` with `event.sender == "base[1]" and event.x > far`' in found
+
+
 async def test_hover_shows_which_robot_was_lost(client, editor):
     text = """
       statemachine M {

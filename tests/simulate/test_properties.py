@@ -124,6 +124,45 @@ def test_properties_can_be_left_out(simulate: Simulate) -> None:
     assert ran.code == 2
 
 
+MESSAGES = {
+    "never some robot sends Found [event.level > 2]": ("false", "at 12.5 s"),
+    "never some robot sends Found [event.level > 3]": ("true", ""),
+    'robot[0] hears Found [event.sender == "robot[1]"] at most 2 times': ("false", "at 12.5 s"),
+    'never robot[0] hears Found [event.sender == "robot[0]"]': ("true", ""),
+    "each robot : never hears Found [event.level > tries]": ("false", ""),
+    'each robot : sends Found [event.level == tries and event.id == "a"] at most 3 times': (
+        "true",
+        "",
+    ),
+    "never some robot hears Found [event.level / (tries - tries) > 0]": ("true", ""),
+    "after robot[0] hears Found [event.sent > 7 s], never robot[0] sends Found [event.level < 2]": (
+        *("true", ""),
+    ),
+    "Found [event.level == 9] at most 0 times": ("false", "at 1.6 s"),
+    "never Found [event.level < 9]": ("true", ""),
+}
+
+
+@pytest.mark.parametrize("sentence", MESSAGES)
+def test_conditions_on_messages(
+    simulate: Simulate, sentence: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Verdicts are the same with a trace, without one, and in a replay."""
+    model = f"{MODEL}\nproperty P of Crew : {sentence}\n"
+    until = ("--until", "20s")
+    events = [*EVENTS, {"event": "Found", "data": {"level": 9}, "after": 100}]
+    alone = simulate(model, *until, "--trace", "none", events=events)
+    traced = simulate(model, *until, events=events)
+    Path("t.jsonl").write_text(traced.out, encoding="utf-8")
+    code = run(["simulate", "model.swarm", "--replay", "t.jsonl"])
+    replayed = Ran(code, "", capsys.readouterr().err)
+    found = [verdicts(ran)["P"] for ran in (alone, traced, replayed)]
+    verdict, where = MESSAGES[sentence]
+    assert {each[0] for each in found} == {verdict}, (alone.err, replayed.err)
+    assert len({each[1] for each in found}) == 1
+    assert where in found[0][1], alone.err
+
+
 def test_a_property_is_watched_in_runs_of_its_subject_only(simulate: Simulate) -> None:
     model = f"""{MODEL}
 property P of Work : never in Busy

@@ -44,9 +44,19 @@ def random_swarm(seed: int) -> str:
         text += _machine(chance, "Two") + "member B { behavior Two }\n"
         roles = "a : A[1]\n b : B[1]\n"
     text += f"swarm S {{ {roles} }}\n"
+    messages = Random(seed)
     for number in range(6):
-        text += f"property P{number} of S : {_sentence(chance)}\n"
+        text += f"property P{number} of S : {_about_messages(_sentence(chance), messages)}\n"
     return text
+
+
+def _about_messages(sentence: str, chance: Random) -> str:
+    """Add conditions on messages to some facts."""
+    for event in ("sends Ask", "hears Tell"):
+        if chance.random() < 0.4:
+            limit = chance.choice(("> 0", "== 0", "> n"))
+            sentence = sentence.replace(event, f"{event} [event.word {limit}]")
+    return sentence
 
 
 def _machine(chance: Random, name: str) -> str:

@@ -27,6 +27,10 @@ swarm event Ask : Word
 swarm event Tell : Word
 swarm event Sign : Signed
 """
+_SENDS = (
+    "endless statemachine M {\n initial S0\n state S0 { on Go -> S0 }\n}\n"
+    "endless statemachine N {\n initial S0\n state S0 { on Go / send Ask(word = 7) -> S0 }\n}\n"
+)
 _ONE = "member A { behavior M }\nswarm S { a : A[%s] }\n"
 _TWO = "member A { behavior M }\nmember B { behavior N }\nswarm S {\n a : A\n b : B\n}\n"
 
@@ -79,6 +83,45 @@ REFUTED: dict[str, tuple[str, Sequence[dict[str, Any]], str]] = {
         " state S0 { on Measure [event.metres > 20000000000000000000.0] -> Bad }\n"
         " state Bad { on Tick -> S0 }\n}\n" + _ONE % 1 + "property P of S : each a : never in Bad",
         [{"event": "Measure", "data": {"metres": 1e20}}],
+        "fails",
+    ),
+    "a_message_from_outside_is_compared_in_a_property": (
+        "endless statemachine M {\n initial S0\n state S0 { on Measure -> S0 }\n}\n"
+        + _ONE % 1
+        + "property P of S : each a : never hears Measure [event.metres > 5]",
+        [{"event": "Measure", "data": {"metres": 6.0}}],
+        "fails",
+    ),
+    "a_message_has_what_a_variable_has": (
+        "endless statemachine M {\n var n : uint8 = 0\n initial S0\n state S0 {\n"
+        " on Go [n < 9] / n = n + 1, send Ask(word = n) -> S0\n}\n}\n"
+        + _ONE % 1
+        + "property P of S : never some a sends Ask [event.word > 4 and n < 8]",
+        [{"event": "Go"}] * 5,
+        "fails",
+    ),
+    "a_message_that_is_heard_is_compared_with_a_variable": (
+        "endless statemachine M {\n var n : uint8 = 0\n initial S0\n state S0 {\n"
+        " on Go [n < 3] / n = n + 1, send Ask(word = n) -> S0\n on Ask -> S0\n}\n}\n"
+        + _ONE % 2
+        + "property P of S : each a : hears Ask [event.word <= n] at most 0 times",
+        [{"event": "Go"}],
+        "fails",
+    ),
+    # `a` does not hear it: whatever arrives at `b`, both facts can be true at that moment.
+    "two_facts_about_an_event_of_another_robot": (
+        "endless statemachine M {\n initial S0\n state S0 { on Tick -> S0 }\n}\n"
+        "endless statemachine N {\n initial S0\n state S0 { on Measure -> S0 }\n}\n"
+        + _TWO
+        + "property P of S : each a : never (Measure [event.metres > 5] and Measure)",
+        [{"event": "Measure", "member": "b[0]", "data": {"metres": 6.0}}],
+        "fails",
+    ),
+    "a_part_sends_such_a_message": (
+        _SENDS
+        + "sensor Part { behavior N }\nmember A { behavior M; part : Part }\nswarm S { a : A[1] }\n"
+        "property P of S : each a : never sends Ask [event.word > 5]",
+        [{"event": "Go"}],
         "fails",
     ),
     # What `a` sends after its 20th state is not known; `b` hears it.
@@ -168,6 +211,34 @@ def test_what_a_run_refutes_does_not_hold(
     run(["simulate", str(tmp_path / "model.swarm"), "--events", str(path), "--until", "10s"])
     assert "property `P` is violated" in capsys.readouterr().err
     assert verdicts_of(model)["P"].outcome == outcome
+
+
+_COUNTS = "on Go [n < 2] / n = n + 1, send Ask(word = n) -> S0"
+_MEASURES = "on Measure / send Ask(word = round(event.metres * 2)) -> S0"
+
+
+@pytest.mark.parametrize(
+    ("transition", "condition", "outcome", "reason"),
+    [
+        (_COUNTS, "event.word > 2", "holds", ""),
+        (_COUNTS, "event.word > 0 and n == 0", "fails", ""),
+        (_COUNTS, 'event.sender == "a[0]" and event.word == 1', "fails", ""),
+        (_COUNTS, "event.sent > 3 s", "unknown", "the model reads the time"),
+        (_MEASURES, "event.word > 4", "unknown", "only some values of `Measure.metres`"),
+    ],
+)
+def test_conditions_on_messages_are_proved(
+    transition: str, condition: str, outcome: str, reason: str, modelled: Callable[..., Model]
+) -> None:
+    model = modelled(
+        _PRELUDE + "endless statemachine M {\n var n : uint8 = 0\n initial S0\n state S0 {\n"
+        f" {transition}\n on Ask -> S0\n}}\n}}\n"
+        + _ONE % 2
+        + f"property P of S : never some a hears Ask [{condition}]"
+    )
+    verdict = verdicts_of(model)["P"]
+    assert verdict.outcome == outcome
+    assert verdict.reason.startswith(reason)
 
 
 def test_what_is_possible_only_by_overtaking_is_unknown(modelled: Callable[..., Model]) -> None:

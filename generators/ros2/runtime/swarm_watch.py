@@ -146,5 +146,5 @@ def _worst_of(verdicts):
     return next((each for each in (FALSE, OPEN) if each in verdicts), TRUE)
 
 
-def _has(line, condition):
-    return line.values.get(condition) is True
+def _has(line, fact):
+    return line.values.get(fact.condition) is True

@@ -2,6 +2,7 @@
 
 from itertools import count
 import json
+from typing import Any, NamedTuple
 
 from rclpy.logging import LoggingSeverity
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -18,12 +19,21 @@ _LAST = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 _HISTORY = QoSProfile(depth=HISTORY, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
+class OfMessage(NamedTuple):
+    """Condition on the message of an event that is heard, or sent; the name is that of the act."""
+
+    act: str
+    event: str
+    holds: Any
+
+
 class Trace(Observer):
     """
     Passes each line to a listener, with the transitions that were taken.
 
     Each line has the time since the start, and when that was: `began`, in milliseconds since 1970.
-    `conditions` are watched functions of the machine, by their text in the model.
+    `conditions` are watched functions of the machine, or conditions on messages, by their text in
+    the model.
     """
 
     def __init__(self, member, clock, conditions, listener):
@@ -36,6 +46,8 @@ class Trace(Observer):
         self._line = None
         self._taken = []
         self._addresses = []
+        self._heard = None
+        self._sent = []
         self._instance = None
         self.on_end = lambda event: None
         """Called with the event of each activity that has ended."""
@@ -45,6 +57,8 @@ class Trace(Observer):
         self.flush()
         self._instance = instance
         self._taken = []
+        self._heard = event
+        self._sent = []
         self._line = {
             't': (self._clock() - self._began) // MILLISECOND,
             'began': self._began // MILLISECOND,
@@ -77,15 +91,24 @@ class Trace(Observer):
         if final:
             line['ended'] = True
         if self._conditions:
-            line['values'] = {
-                text: self._holds(condition) for text, condition in self._conditions.items()
-            }
+            line['values'] = dict(self._values())
         self._listener(line, self._taken, final)
 
-    def _holds(self, condition):
+    def _values(self):
+        """Yield the conditions with their truth, those on messages if there is such a message."""
+        for text, condition in self._conditions.items():
+            if not isinstance(condition, OfMessage):
+                yield text, self._holds(condition, None)
+                continue
+            events = self._sent if condition.act == 'sends' else [self._heard]
+            named = [event for event in events if event and event.name == condition.event]
+            if named:
+                yield text, any(self._holds(condition.holds, event) for event in named)
+
+    def _holds(self, condition, event):
         """Return the truth of a condition; one without a value does not hold."""
         try:
-            return bool(condition(self._instance, None))
+            return bool(condition(self._instance, event))
         except engine.FAILURES:
             return False
 
@@ -155,6 +178,7 @@ class Trace(Observer):
     def sent(self, instance, event):
         """Note a sent event, and the addresses of all if one has an address."""
         self._note('sent', event.name)
+        self._sent.append(event)
         self._addresses.append(event.envelope.to)
         if self._line is not None and any(each is not None for each in self._addresses):
             self._line['to'] = self._addresses

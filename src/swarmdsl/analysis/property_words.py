@@ -118,18 +118,21 @@ def _fact(fact: Fact) -> str:
     if fact.counted is not None and fact.state is not None:
         number = f"{_COMPARED[fact.comparison]} {fact.number}"
         return f"{number} `{fact.counted.name}` are in `{fact.state.name}`"
+    message = ""
+    if fact.event is not None and fact.guard is not None:
+        message = f" with `{fact.guard.span.text}`"
     if fact.who is None and not fact.act and fact.event is not None:
-        return f"`{fact.event.name}` arrives from outside"
+        return f"`{fact.event.name}`{message} arrives from outside"
     who, several = _who(fact.who) if fact.who is not None else ("it", False)
     if fact.state is not None:
         return f"{who} {'are' if several else 'is'} in `{fact.state.name}`"
-    if fact.guard is not None and not fact.act:
+    if fact.guard is not None and fact.event is None:
         return f"{who} {'have' if several else 'has'} `{fact.guard.span.text}`"
     ref = fact.event if fact.event is not None else fact.function
     done = _DONE[fact.act]
     if several:
         done = "cancel their call of" if fact.act == "cancels" else done.removesuffix("s")
-    return f"{who} {done} `{ref.name if ref is not None else ''}`"
+    return f"{who} {done} `{ref.name if ref is not None else ''}`{message}"
 
 
 def _who(who: Who) -> tuple[str, bool]:

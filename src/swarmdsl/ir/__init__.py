@@ -46,6 +46,7 @@ if TYPE_CHECKING:
         VariableRef,
         mapped,
         reads,
+        reads_values,
         subexpressions,
     )
     from swarmdsl.ir.integer_ranges import (
@@ -138,7 +139,7 @@ else:
             "swarmdsl.ir.expressions": (
                 "Binary Call Construction Elapsed EnvelopeField EventData Expression FieldAccess "
                 "InState ItemRef Literal ParamRef Query SelfField Unary VariableRef mapped reads "
-                "subexpressions"
+                "reads_values subexpressions"
             ),
             "swarmdsl.ir.integer_ranges": "bound_of bound_of_any",
             "swarmdsl.ir.interfaces": (
@@ -259,5 +260,6 @@ __all__ = [
     "doc_of",
     "mapped",
     "reads",
+    "reads_values",
     "subexpressions",
 ]

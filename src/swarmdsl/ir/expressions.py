@@ -231,6 +231,11 @@ def subexpressions(expression: Expression) -> Iterator[Expression]:
                 yield from subexpressions(value)
 
 
+def reads_values(expression: Expression) -> bool:
+    """Return True if an expression reads variables or params of a robot."""
+    return any(isinstance(part, (VariableRef, ParamRef)) for part in subexpressions(expression))
+
+
 def mapped(expression: Expression, change: Callable[[Expression], Expression]) -> Expression:
     """Return an expression with each of its direct parts changed."""
     match expression:

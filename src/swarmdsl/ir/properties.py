@@ -33,7 +33,8 @@ class Fact:
     """State or act of robots: the name is that of a state, an event or a function.
 
     Without `robots`, the fact is about the robot of `each` or the only machine; an event that
-    `arrives` comes from outside.
+    `arrives` comes from outside. The `guard` of an event is about its message; of one that is
+    sent, it is evaluated with the variables after the step.
     """
 
     act: Act

@@ -23,7 +23,7 @@ class Named:
 
 @dataclass(frozen=True, slots=True)
 class Condition:
-    """Condition on the values of such robots."""
+    """Condition on the values of such robots, or on a message."""
 
     expression: Expression
     role: str | None
@@ -142,6 +142,10 @@ def _fact(fact: Fact) -> Iterator[Part]:
         yield Named("state", fact.name, role)
     else:
         yield Named("event" if fact.act in _EVENTS else "function", fact.name)
+    if fact.guard is not None:
+        yield " ["
+        yield Condition(fact.guard, role)
+        yield "]"
 
 
 def robots(each: Robots) -> str:

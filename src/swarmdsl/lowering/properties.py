@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Literal, cast
 
 from swarmdsl import ir
+from swarmdsl.base.records import replace
 from swarmdsl.ir.properties import Act, Kind
 from swarmdsl.lowering.context import Context
-from swarmdsl.lowering.expressions import lower_expression, lower_optional
+from swarmdsl.lowering.expressions import lower_optional
 from swarmdsl.syntax.ast import (
     Claim,
     Conjunction,
@@ -109,12 +110,14 @@ def _fact(fact: Fact, context: Context) -> ir.Fact | ir.Count:
     robots = _robots(fact.who) if fact.who is not None else None
     if fact.state is not None:
         return ir.Fact("in", fact.state.name, robots, None, fact.span)
-    if fact.guard is not None:
-        return ir.Fact("has", "", robots, lower_expression(fact.guard, context), fact.span)
+    if fact.event is not None:
+        context = replace(context, typing=context.typing.in_fact(fact))
+    guard = lower_optional(fact.guard, context)
     ref = fact.event if fact.event is not None else fact.function
-    assert ref is not None
+    if ref is None:
+        return ir.Fact("has", "", robots, guard, fact.span)
     act = cast("Act", fact.act or "arrives")
-    return ir.Fact(act, context.name(ref), robots, None, fact.span)
+    return ir.Fact(act, context.name(ref), robots, guard, fact.span)
 
 
 def _robots(who: Who) -> ir.Robots:

@@ -6,12 +6,15 @@ from collections.abc import Sequence
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.resolve.addresses import Crew, crews_of
-from swarmdsl.analysis.resolve.identities import Comparison, comparisons, robot_named
+from swarmdsl.analysis.resolve.identities import Comparison, comparisons, is_about, robot_named
+from swarmdsl.analysis.resolve.membership import is_member_event
 from swarmdsl.analysis.resolve.multiplicity import greatest
 from swarmdsl.base.diagnostics.collector import listed
 from swarmdsl.base.suggest import closest, suggest
 from swarmdsl.project.loader import Project
-from swarmdsl.syntax.ast import EventTrigger, StateMachine, Swarm
+from swarmdsl.syntax.ast import EventTrigger, Fitness, Property, StateMachine, Swarm
+
+_WITH_IDENTITIES = (StateMachine, Property, Fitness)
 
 
 def check_identities(project: Project, context: Context) -> None:
@@ -19,12 +22,12 @@ def check_identities(project: Project, context: Context) -> None:
     used = [node for _, node in context.used]
     crews: list[Crew] | None = None
     for node in used:
-        found = list(comparisons(node)) if isinstance(node, StateMachine) else ()
+        found = list(comparisons(node)) if isinstance(node, _WITH_IDENTITIES) else ()
         if not found:
             continue
         if crews is None:
             crews = crews_of(each for each in used if isinstance(each, Swarm))
-        running = [crew for crew in crews if node in crew.machines]
+        running = [crew for crew in crews if is_about(node, crew)]
         if not context.incomplete.isdisjoint({node, *(crew.swarm for crew in running)}):
             continue
         for each in found if running else ():
@@ -36,6 +39,10 @@ def check_identities(project: Project, context: Context) -> None:
 
 def _is_fact(comparison: Comparison, context: Context) -> bool:
     """Return False for a field of the message with the name of a fact about the event."""
+    if comparison.around is not None:
+        heard = comparison.around.event
+        of_member = heard is not None and is_member_event(heard.target)
+        return of_member or context.typing.in_fact(comparison.around).is_envelope("sender")
     events = [each for each in comparison.triggers if isinstance(each, EventTrigger)]
     if not events or comparison.fact.name != "sender":
         return True

@@ -19,7 +19,8 @@ from swarmdsl.analysis.resolve.properties import (
     role_of_fact,
     subjects_of,
 )
-from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.records import replace
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     Activity,
@@ -91,8 +92,7 @@ def check_facts(sentence: Sentence, owner: TopLevel, context: Context) -> None:
             if not isinstance(sentence, Measure) or fact is not each_robot_of(sentence):
                 _check_robots(fact, sentence, context)
     for fact in facts:
-        if fact.guard is not None:
-            context.expect(fact.guard, BOOL, context.typing)
+        context.expect(fact.guard, BOOL, context.typing.in_fact(fact))
         if sentence.about is not None and not context.incomplete:
             _check_possible(fact, sentence, context)
 
@@ -224,9 +224,10 @@ def _never_done(fact: Fact, owner: Sentence) -> str | None:
 def _never_true(fact: Fact, context: Context) -> str | None:
     """Describe why a condition never holds; None if it can, or has an error."""
     tree = fact.guard.tree if fact.guard is not None else None
-    if tree is None or context.typing.infer(tree) != BOOL:
+    typing = replace(context.typing.in_fact(fact), report=Diagnostics())
+    if tree is None or typing.infer(tree) != BOOL:
         return None
-    if satisfiable(guard_condition(tree, context.typing)):
+    if satisfiable(guard_condition(tree, typing)):
         return None
     return "its condition is always false"
 

@@ -5,7 +5,7 @@ Only a model with mistakes imports this module.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 from swarmdsl.analysis.resolve.identity_tests import identity_tests
 from swarmdsl.analysis.resolve.missing_variable import type_of
@@ -14,8 +14,10 @@ from swarmdsl.analysis.resolve.states import variables_of
 from swarmdsl.syntax.ast import (
     Assignment,
     Element,
+    Event,
     EventTrigger,
     Expression,
+    Fact,
     IndexUse,
     NameUse,
     Parallel,
@@ -33,7 +35,11 @@ from swarmdsl.syntax.types import ENVELOPE_FIELDS, Array, Named
 
 
 def meaning_elsewhere(
-    use: NameUse, within: Expression, machines: Iterable[StateMachine], scope: FileScope
+    use: NameUse,
+    within: Expression,
+    owner: TopLevel,
+    machines: Iterable[StateMachine],
+    scope: FileScope,
 ) -> str | None:
     """Hint for a field without its item or event, or a variable of a state of the machines."""
     for query in walk(within) if within.tree is not None else ():
@@ -41,6 +47,11 @@ def meaning_elsewhere(
             parts = [part for part in (query.condition, query.key) if part is not None]
             if any(use is node for part in parts for node in walk(part)):
                 return f"write `{query.element.name}.{use.name}`"
+    facts = (fact for fact in nodes_of(owner, Fact) if fact.guard is within)
+    for fact in facts:
+        heard = fact.act == "hears"
+        if fact.event is not None and _have_field(use.name, [fact.event.target], heard, scope):
+            return f"write `event.{use.name}`"
     for machine in machines:
         if _is_field_of_event(use.name, within, machine, scope):
             return f"write `event.{use.name}`"
@@ -82,12 +93,18 @@ def _is_field_of_event(
     events = []
     for trigger in transition.triggers if transition is not None else ():
         events.append(trigger.event.target if isinstance(trigger, EventTrigger) else None)
+    return _have_field(name, events, True, scope)
+
+
+def _have_field(name: str, events: Sequence[Event | None], heard: bool, scope: FileScope) -> bool:
+    """Return True if all events have a field, or a fact about what is heard of other robots."""
     types = {event.type.type for event in events if event is not None}
     if None in events or len(types) != 1:
         return False
     (type_,) = types
     fields = scope.interfaces.fields(type_) if isinstance(type_, Named) else None
-    facts = ENVELOPE_FIELDS if all(event is not None and event.swarm for event in events) else ()
+    of_swarm = heard and all(event is not None and event.swarm for event in events)
+    facts = ENVELOPE_FIELDS if of_swarm else ()
     return name in facts or any(each.name == name for each in fields or ())
 
 

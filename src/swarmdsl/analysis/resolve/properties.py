@@ -165,8 +165,15 @@ def _link_facts(
             _link_state(fact.state, machines, scope, report)
         if fact.guard is not None:
             guards.add(fact.guard)
+            if is_from_outside(fact):
+                machines = []
             values.link_only([fact.guard], owner, values_of_fact(fact, sentence), machines)
     return guards
+
+
+def is_from_outside(fact: Fact) -> bool:
+    """Return True for the fact that an event arrives from outside, which is about no robot."""
+    return fact.event is not None and not fact.act
 
 
 def _hint_for_role(name: str) -> str | None:
@@ -216,8 +223,11 @@ def machines_of_fact(fact: Fact, owner: Sentence) -> list[StateMachine]:
 def values_of_fact(fact: Fact, owner: Sentence) -> dict[str, Variable | Param]:
     """Return the variables and params of the robots of a fact, without those of parts.
 
-    A variable of a state is among them if no other value of the robots has its name.
+    A variable of a state is among them if no other value of the robots has its name. An event from
+    outside is about no robot.
     """
+    if is_from_outside(fact):
+        return {}
     role = role_of_fact(fact, owner)
     member = role.member.target if role is not None else None
     machines = [owner.about] if isinstance(owner.about, StateMachine) else []

@@ -300,7 +300,7 @@ def report_value(
         help_ = value_hint(name, scope, report)
         wanted = report.wants_hint("unresolved-name") and not _may_be_skipped(name, scope)
         if help_ is None and wanted:
-            help_ = meaning_elsewhere(base, within, machines, scope)
+            help_ = meaning_elsewhere(base, within, owner, machines, scope)
     if help_ is not None:
         report.report("unresolved-name", at, kind="value", name=name, help=help_)
         return

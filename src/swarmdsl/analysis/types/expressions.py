@@ -41,6 +41,7 @@ from swarmdsl.syntax.ast import (
     Element,
     EnumType,
     ExpressionTree,
+    Fact,
     Field,
     FieldUse,
     IndexUse,
@@ -84,7 +85,8 @@ class Typing:
 
     `event` is the message type of the triggering event: None if it is unknown. `has_event` is
     False outside of transitions on events, `of_swarm` also if an event of the robot itself can
-    trigger the transition. `folding` computes constant values.
+    trigger the transition. `folding` computes constant values. `event_help` says where `event` has
+    a message, `sender_help` where it has a sender.
     """
 
     interfaces: Interfaces
@@ -93,10 +95,32 @@ class Typing:
     event: Type | None = None
     folding: Folding = field(default_factory=Folding)
     of_swarm: bool = False
+    event_help: str = "use it in a guard or effect of a transition on one event"
+    sender_help: str = "declare the event with `swarm event` if other robots send it"
 
     def on_event(self, type_: Type | None, *, known: bool = True, of_swarm: bool) -> Typing:
         """Return a typing with an event of this message type, if all events have the same one."""
         return Typing(self.interfaces, self.report, known, type_, self.folding, of_swarm)
+
+    def in_fact(self, fact: Fact) -> Typing:
+        """Return a typing for the condition of a fact; if an event happens, it has a message.
+
+        Only the robot that hears it can ask who sent it, and when.
+        """
+        if fact.event is None:
+            return replace(self, event_help="write it after an event: `hears Found [event.x > 3]`")
+        event = fact.event.target
+        of_swarm = event is None or event.swarm
+        typing = self.on_event(
+            event.type.type if event is not None else None,
+            of_swarm=of_swarm and fact.act == "hears",
+        )
+        if not of_swarm or fact.act == "hears":
+            return typing
+        help_ = "write `hears`: an event from outside comes from no robot"
+        if fact.act == "sends":
+            help_ = "leave it out: the fact names the robot that sends the event"
+        return replace(typing, sender_help=help_)
 
     def infer(self, tree: ExpressionTree) -> Type | None:
         """Return the type of an expression and report its errors."""
@@ -140,7 +164,7 @@ class Typing:
                 self.report.report(
                     "no-event-data",
                     use.span,
-                    help="use it in a guard or effect of a transition on one event",
+                    help=self.event_help,
                 )
                 return None
             return self.event
@@ -354,7 +378,7 @@ class Typing:
                 name=name,
                 help="the robot that joined or was lost is `event.id`"
                 if self.event == MEMBER
-                else "declare the event with `swarm event` if other robots send it",
+                else self.sender_help,
             )
         return ENVELOPE_FIELDS[name]
 

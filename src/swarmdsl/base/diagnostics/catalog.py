@@ -207,7 +207,7 @@ CODES: dict[str, Code] = {
     "constant-cycle": Code("SW0706", "error", "constant `{name}` is defined in terms of itself"),
     "no-result": Code("SW0707", "error", "`{operator}` has no result: {fault}"),
     "no-self": Code("SW0708", "error", "`self` has no value here"),
-    "no-sender": Code("SW0709", "error", "only a swarm event has `{name}`"),
+    "no-sender": Code("SW0709", "error", "only a swarm event that is heard has `{name}`"),
     "hidden-sender": Code(
         "SW0710", "warning", "`event.{name}` is a field of `{type}`, not of the event"
     ),

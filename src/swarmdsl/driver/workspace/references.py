@@ -17,9 +17,11 @@ from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     EnumType,
     FieldUse,
+    Fitness,
     NameUse,
     Node,
     Param,
+    Property,
     Region,
     State,
     StateMachine,
@@ -96,7 +98,7 @@ def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
     for use in nodes_of(owner, NameUse):
         if use.target is not None:
             yield _last_segment(use.span, use.name, use.target)
-    if isinstance(owner, StateMachine):
+    if isinstance(owner, (StateMachine, Property, Fitness)):
         for span, role in role_uses(owner, scope.project):
             yield Occurrence(span.absolute, role)
     for type_ in nodes_of(owner, TypeRef):

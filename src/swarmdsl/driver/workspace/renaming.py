@@ -23,7 +23,16 @@ from swarmdsl.driver.workspace.references import (
     owners,
 )
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Field, Node, Parameter, Port, Role, StateMachine
+from swarmdsl.syntax.ast import (
+    Field,
+    Fitness,
+    Node,
+    Parameter,
+    Port,
+    Property,
+    Role,
+    StateMachine,
+)
 from swarmdsl.syntax.parser.keywords import RESERVED
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -99,12 +108,12 @@ def _shared(workspace: Workspace, found: Occurrence, spans: list[Span]) -> str |
     if not isinstance(found.node, Role):
         return None
     for file in workspace.project.files:
-        for machine in owners(file):
-            if not isinstance(machine, StateMachine):
+        for owner in owners(file):
+            if not isinstance(owner, (StateMachine, Property, Fitness)):
                 continue
-            for span, role in role_uses(machine, workspace.project):
+            for span, role in role_uses(owner, workspace.project):
                 if role is not found.node and span.absolute in spans:
-                    return f"it is also a role of another swarm that runs `{machine.name}`"
+                    return f"it is also a role of another swarm that runs `{owner.name}`"
     return None
 
 

@@ -27,8 +27,9 @@ class Robots(NamedTuple):
 class Fact(NamedTuple):
     """Act of robots: `in`, `has`, `sends`, `hears`, `starts`, `cancels` or `arrives`.
 
-    The name is that of a state, an event or a function; `condition` is what robots have. Without
-    `robots`, the fact is about the robot of `each` or the only machine.
+    The name is that of a state, an event or a function; `condition` is what robots have, or what
+    the message of an event is like. Without `robots`, the fact is about the robot of `each` or the
+    only machine.
     """
 
     act: str

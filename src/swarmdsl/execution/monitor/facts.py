@@ -86,8 +86,9 @@ class LineLike(Protocol):
         """Events that it sends."""
 
 
-Has = Callable[[Any, Any], bool]
-"""Truth of a condition for the robot of a line, after the line."""
+Has = Callable[[Any, Fact], bool]
+"""Truth of the condition of a fact for the robot of a line, after the line; that of a fact that an
+event happens is about a message of the line."""
 Test = Callable[[LineLike], bool]
 
 
@@ -158,12 +159,13 @@ def test_of(fact: Fact | Count, has: Has) -> Test:
     if isinstance(fact, Count):
         return _in(fact.state)
     if fact.act == "has":
-        return _has(fact.condition, has)
-    return _in(fact.name) if fact.act == "in" else _ACTS[fact.act](fact.name)
-
-
-def _has(condition: Hashable, has: Has) -> Test:
-    return lambda line: has(line, condition)
+        return lambda line: has(line, fact)
+    if fact.act == "in":
+        return _in(fact.name)
+    happens = _ACTS[fact.act](fact.name)
+    if fact.condition is None:
+        return happens
+    return lambda line: happens(line) and has(line, fact)
 
 
 def _in(name: str) -> Test:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.execution import monitor
-from swarmdsl.execution.engine import ExecutionError
+from swarmdsl.execution.engine import Event, ExecutionError
 from swarmdsl.execution.monitor import Verdict, Watch
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.expressions import Value, function_of
@@ -46,20 +46,43 @@ def watch(
 
 
 def conditions(data: Data) -> Callable[[Any, Any], bool]:
-    """Return the function that evaluates conditions for the machine of a line."""
-    functions: dict[ir.Expression, Value] = {}
+    """Return the function that evaluates the conditions of facts for the machine of a line."""
+    functions: dict[ir.Expression, tuple[Value, bool]] = {}
 
-    def has(line: Line, condition: ir.Expression) -> bool:
+    def has(line: Line, fact: monitor.Fact) -> bool:
+        condition: Any = fact.condition
         if condition not in functions:
-            functions[condition] = function_of(condition)
-        try:
-            params, values = line.actor.params, data(line.actor)
-            # The robot may have params that its machine does not have.
-            return bool(functions[condition]({**params, **values} if params else values, None))
-        except (ArithmeticError, ValueError, ExecutionError):
-            return False
+            functions[condition] = function_of(condition), ir.reads_values(condition)
+        holds, reads = functions[condition]
+        actor = line.actor
+        if reads and actor.name != actor.robot.name:
+            return False  # the values are those of the robot, not of its part
+        params, values = actor.params, data(actor)
+        if params:
+            values = {**params, **values}  # the robot may have some that its machine does not have
+        return any(_is_true(holds, values, event) for event in _events(line, fact))
 
     return has
+
+
+def _events(line: Line, fact: monitor.Fact) -> Iterator[Event | None]:
+    """Yield the events of a line that a condition is about; None if it is about the robot."""
+    if fact.act == "has":
+        yield None
+    elif fact.act == "sends":
+        for name, message in zip(line.sent, line.messages, strict=True):
+            if name == fact.name:
+                yield Event(name, message)
+    else:
+        yield Event(line.event or "", line.data, envelope=line.envelope)
+
+
+def _is_true(condition: Value, values: Mapping[str, Any], event: Event | None) -> bool:
+    """Return the truth of a condition; one without a value does not hold."""
+    try:
+        return bool(condition(values, event))
+    except (ArithmeticError, ValueError, ExecutionError):
+        return False
 
 
 def _measure(name: str, measure: ir.Measure) -> monitor.Measure:

@@ -282,9 +282,9 @@ class _Replay:
             elif name.startswith("do."):
                 return self._end_run(name, record.data)
             else:
-                self._trace.begin(instance, name)
                 envelope = Envelope(**record.done.get("envelope", {}))
                 data = self._message(name, record.data)
+                self._trace.begin(instance, name, data, envelope)
                 self._roster.note(name, data)
                 instance.receive(Event(name, data, envelope=envelope))
         except LoopError as error:

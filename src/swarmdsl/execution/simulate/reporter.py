@@ -46,9 +46,11 @@ class Reporter(ReportingObserver):
         "_trace",
         "_was_inside",
         "_watch",
+        "data",
         "envelope",
         "event",
         "heard",
+        "messages",
         "noted",
         "taken",
     )
@@ -64,8 +66,11 @@ class Reporter(ReportingObserver):
         heard = interest.heard | {None, LOST}
         self.heard: Container[str | None] = _Everything() if interest.values else heard
         self.event: str | None = None
+        self.data: object = None
         self.envelope = NO_ENVELOPE
         self.noted: list[tuple[str, object]] = []
+        self.messages: list[object] = []
+        """Messages of the events in `noted` that were sent."""
         # Millions of transitions need no call more than that of the statistics.
         self.taken = life.taken  # type: ignore[method-assign]
 
@@ -73,16 +78,16 @@ class Reporter(ReportingObserver):
         """Let the instance process an event from others, which may be one of millions."""
         life, name = self._life, event.name
         life.arrives()
-        self.event, self.envelope = name, event.envelope
+        self.event, self.data, self.envelope = name, event.data, event.envelope
         self._trace.reporting = self
         life.instance.receive(event)
         # If none of this is so, it ends when the next one begins.
         if self.noted or name in self.heard or self._watch.happened:
             self._trace.flush()
 
-    def begin(self, event: str | None, envelope: Envelope) -> None:
+    def begin(self, event: str | None, data: object, envelope: Envelope) -> None:
         """Begin with an event from outside, or with the start of the instance."""
-        self.event, self.envelope = event, envelope
+        self.event, self.data, self.envelope = event, data, envelope
         if event is None:
             self._inside = 0  # a robot that was lost has left no state
 
@@ -100,10 +105,18 @@ class Reporter(ReportingObserver):
         elif watch.late_after is not None and self._clock.now > watch.late_after:
             watch.advance(self._clock.now)
         noted.clear()
+        self.messages.clear()
 
     def _line(self) -> Line:
         instance = self._life.instance
-        line = Line(self._clock.now, self._life.actor, self.event, envelope=self.envelope)
+        line = Line(
+            self._clock.now,
+            self._life.actor,
+            self.event,
+            data=self.data,
+            messages=[*self.messages],
+            envelope=self.envelope,
+        )
         line.configuration = (
             [instance.final] if instance.final else instance.configuration.innermost
         )
@@ -123,7 +136,7 @@ class Reporter(ReportingObserver):
             if trace.reporting is not None:
                 trace.flush()
             self._life.arrives()
-            self.event, self.envelope = event.name, NO_ENVELOPE
+            self.event, self.data, self.envelope = event.name, event.data, NO_ENVELOPE
             trace.reporting = self
 
     def ignored(self, instance: InstanceLike, event: Event) -> None:
@@ -181,6 +194,7 @@ class Reporter(ReportingObserver):
         """Note it."""
         self._life.sent(instance, event)
         self.noted += (("sent", event.name), ("addresses", event.envelope.to))
+        self.messages.append(event.data)
 
     def reaches_nobody(self) -> None:
         """Note that no other robot has the address of the last sent event."""

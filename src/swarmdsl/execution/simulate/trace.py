@@ -66,7 +66,7 @@ class ReportingObserver(Observer):
 
     __slots__ = ()
 
-    def begin(self, event: str | None, envelope: Envelope) -> None:
+    def begin(self, event: str | None, data: Any, envelope: Envelope) -> None:
         """Begin with an event from outside."""
 
     def end(self) -> None:
@@ -138,7 +138,7 @@ class Trace(Observer):
             self._line = Line(self._clock.now, life.actor, event, data=data, envelope=envelope)
         elif self.reporters:
             self.reporting = self.reporters[instance]
-            self.reporting.begin(event, envelope)
+            self.reporting.begin(event, data, envelope)
 
     @property
     def actor(self) -> Actor:

@@ -32,14 +32,14 @@ class Demands:
     """Data that decide on the behaviour of some machines.
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
-    conditions of properties, each with the machine that it is about.
+    conditions of properties, each with the machine and the events that it is about.
     """
 
     def __init__(
         self,
         system: ir.System,
         data: Mapping[str, Sequence[Mapping[str, Any]]],
-        extra: Iterable[tuple[str, ir.Expression]] = (),
+        extra: Iterable[tuple[str, ir.Expression, tuple[str, ...]]] = (),
     ) -> None:
         self._system = system
         self._slice = Slice(system, data, extra)

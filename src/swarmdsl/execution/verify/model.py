@@ -219,13 +219,17 @@ class Model:
 
     def _conditions(
         self, facts: Mapping[str, Sequence[ir.Fact | ir.Count]]
-    ) -> Iterator[tuple[str, ir.Expression]]:
+    ) -> Iterator[tuple[str, ir.Expression, tuple[str, ...]]]:
+        """Yield the conditions of facts, with machines that can make them true and their events."""
         for role, about in facts.items():
             for fact in about:
                 if isinstance(fact, ir.Fact) and fact.guard is not None:
+                    events = (fact.name,) if fact.name else ()
+                    of_robot = not events or ir.reads_values(fact.guard)
                     for actor in self.cast:
-                        if actor.robot.role == role and actor.name == actor.robot.name:
-                            yield actor.machine.name, fact.guard
+                        is_part = actor.name != actor.robot.name
+                        if actor.robot.role == role and not (of_robot and is_part):
+                            yield actor.machine.name, fact.guard, events
 
     def sends(self, names: Iterable[str]) -> Iterator[ir.Send]:
         """Yield the sends of some machines."""

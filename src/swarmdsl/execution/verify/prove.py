@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import islice
+from itertools import combinations, islice
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
@@ -241,6 +241,23 @@ def _is_alone(property_: ir.Property) -> bool:
     return all(isinstance(f, ir.Fact) and f.robots is None for f in facts_of(property_))
 
 
+def _arriving(facts: Sequence[ir.Fact | ir.Count]) -> Iterator[frozenset[int]]:
+    """Yield the facts that can hold when another robot acts: none, or those about one event.
+
+    Whether a condition on its message holds is not known.
+    """
+    yield frozenset()
+    events: dict[str, dict[int, bool]] = {}
+    for number, fact in enumerate(facts):
+        if isinstance(fact, ir.Fact) and fact.act == "arrives":
+            events.setdefault(fact.name, {})[number] = fact.guard is None
+    for numbers in events.values():
+        sure = {number for number, holds in numbers.items() if holds}
+        perhaps = [number for number, holds in numbers.items() if not holds]
+        for count in range(len(perhaps) + 1):
+            yield from (frozenset((*sure, *each)) for each in combinations(perhaps, count))
+
+
 def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
     """Prove a property of one robot that hears all messages at any time.
 
@@ -251,14 +268,10 @@ def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
     terms = Terms(property_, Network([group], automaton.whole.alphabet, 0, lossy=False))
     scope = property_.scope.claims if property_.scope is not None else ()
     claims = [terms.truth(each) for each in (*property_.claims, *scope)]
-    arriving = [
-        term
-        for term, fact in enumerate(terms.facts)
-        if isinstance(fact, ir.Fact) and fact.act == "arrives"
-    ]
+    arriving = list(_arriving(terms.facts))
 
-    def step(memory: int, bits: int, others: int = -1) -> int:
-        holding = [terms.holds(t, 0, bits) or int(t == others) for t in range(len(terms))]
+    def step(memory: int, bits: int, others: frozenset[int] = frozenset()) -> int:
+        holding = [terms.holds(t, 0, bits) or int(t in others) for t in range(len(terms))]
         return table.step(memory, tuple(bool(each(holding, holding)) for each in claims))
 
     def after(memory: int, move: Move) -> int:
@@ -280,7 +293,7 @@ def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
             continue
         # A line of another robot, on which an event may arrive from outside.
         holding = automaton.look(state).holding
-        found = {(state, step(memory, holding, term)) for term in (-1, *arriving)}
+        found = {(state, step(memory, holding, others)) for others in arriving}
         moves = list(automaton.moves(state) or ())
         for message in range(len(automaton.whole.alphabet.messages)):
             heard = automaton.move_on(state, message)

@@ -34,14 +34,14 @@ class Slice:
     """Places of data that decide on the behaviour of some machines.
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
-    conditions of properties, each with the machine that it is about.
+    conditions of properties, each with the machine and the events that it is about.
     """
 
     def __init__(
         self,
         system: ir.System,
         data: Mapping[str, Sequence[Mapping[str, Any]]],
-        extra: Iterable[tuple[str, ir.Expression]] = (),
+        extra: Iterable[tuple[str, ir.Expression, tuple[str, ...]]] = (),
     ) -> None:
         self._system = system
         self._data = data
@@ -57,8 +57,8 @@ class Slice:
         """Places of data with the first expressions that compare or need them."""
         for name in data:
             self._machine(system.machines_by_name[name])
-        for name, expression in extra:
-            self._decide(expression, name, ())
+        for name, expression, events in extra:
+            self._decide(expression, name, events)
         for event in system.events:
             for here in system.events:
                 if here.incoming_topic == event.topic and here is not event:

@@ -15,6 +15,7 @@ from swarmdsl.analysis.resolve.properties import (
     matches,
     state_paths,
     subjects_of,
+    values_of_fact,
 )
 from swarmdsl.analysis.resolve.properties import roles_of as property_roles
 from swarmdsl.analysis.resolve.scopes import FileScope
@@ -99,7 +100,10 @@ class Candidates:
         for use in nodes_of(owner, NameUse):
             if PLACEHOLDER in use.name and use not in counted:
                 kinds = (Variable, Param, FitnessInput)
-                own = [node for kind in kinds for node in nodes_of(self._around, kind)]
+                own: list[Node] = [n for kind in kinds for n in nodes_of(self._around, kind)]
+                if isinstance(owner, (Property, Fitness)):
+                    read = self._of_robots(use, owner)
+                    own = own if read is None else read
                 if isinstance(self._around, StateMachine):
                     seen = {each for around in self._containers() for each in around.items}
                     own = [node for node in own if node in seen]
@@ -162,30 +166,43 @@ class Candidates:
         self, holder: Node, ref: Ref[Node], owner: Property | Fitness, path: list[str]
     ) -> Iterable[Node]:
         """Return the roles or the states that a property or a measure can name."""
-        about = self._about(owner)
-        roles = property_roles(about)
+        roles = property_roles(self._about(owner))
         if ref.kind == "Role" or not isinstance(holder, Fact):
             return list(roles.values())
+        sentence = self._sentence(holder, owner)
+        machines = machines_of_fact(holder, sentence) if sentence is not None else []
+        paths = [found for machine in machines for found in state_paths(machine)]
+        states = {names for names, _ in paths}
+        return [
+            v
+            for names, v in paths
+            if path == [""] or any(matches(around, path) for around in _around(names, states))
+        ]
+
+    def _of_robots(self, use: NameUse, owner: Property | Fitness) -> list[Node] | None:
+        """Return the values of robots that a condition of a fact can read; None elsewhere."""
+        for fact in nodes_of(owner, Fact):
+            if fact.guard is not None and any(node is use for node in walk(fact.guard)):
+                sentence = self._sentence(fact, owner)
+                return [*values_of_fact(fact, sentence).values()] if sentence is not None else []
+        return None
+
+    def _sentence(self, fact: Fact, owner: Property | Fitness) -> Sentence | None:
+        """Return the sentence of a fact, with its roles resolved."""
         sentences: list[Sentence] = [owner] if isinstance(owner, Property) else []
         sentences += nodes_of(owner, Measure)
+        about = self._about(owner)
+        roles = property_roles(about)
         for sentence in sentences:
-            if holder in facts_in(sentence):
+            if fact in facts_in(sentence):
                 sentence.about = about
                 named = [sentence.each.role] if sentence.each is not None else []
-                named += [holder.who.role] if holder.who is not None else []
-                named += [holder.counted] if holder.counted is not None else []
+                named += [fact.who.role] if fact.who is not None else []
+                named += [fact.counted] if fact.counted is not None else []
                 for role in named:
                     role.target = roles.get(role.name)
-                machines = machines_of_fact(holder, sentence)
-                paths = [found for machine in machines for found in state_paths(machine)]
-                states = {names for names, _ in paths}
-                return [
-                    v
-                    for names, v in paths
-                    if path == [""]
-                    or any(matches(around, path) for around in _around(names, states))
-                ]
-        return ()
+                return sentence
+        return None
 
     def _about(self, owner: Property | Fitness) -> PropertySubject | None:
         """Return what a property or the measures of a fitness are about."""

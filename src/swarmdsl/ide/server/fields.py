@@ -19,6 +19,7 @@ from swarmdsl.syntax.ast import (
     Communication,
     Event,
     EventTrigger,
+    Fact,
     Field,
     FieldUse,
     Function,
@@ -138,7 +139,10 @@ def is_of_member(use: FieldUse, owner: TopLevel, project: Project) -> bool:
 
 
 def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:
-    """Return the typing at a field access, which may be in a transition with an event trigger."""
+    """Return the typing at a field access, which may be about an event that triggers or happens."""
+    for fact in nodes_of(owner, Fact):
+        if fact.guard is not None and any(node is use for node in walk(fact.guard)):
+            return typing.in_fact(fact)
     for transition in nodes_of(owner, Transition):
         if any(node is use for node in walk(transition)):
             triggers = [

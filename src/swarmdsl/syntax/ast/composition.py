@@ -85,7 +85,7 @@ class Who(Node):
 class Fact(Node):
     """`who in State`, `who sends Event`, `count(role in State) > 1`, or an event from outside.
 
-    `act` and `comparison` are as written, or empty.
+    `act` and `comparison` are as written, or empty. The `guard` of an event is about its message.
     """
 
     counted: Ref[Role] | None

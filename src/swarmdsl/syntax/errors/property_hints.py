@@ -48,6 +48,15 @@ _TOKEN = re.compile(r"[A-Za-z_]\w*|[=\-]+>|\S")
 _SOON = re.compile(r"(?:in|for|by)\s+(\d[\d.]*\s*[A-Za-z]+)")
 _CHANCE = re.compile(r"with\s+(?:a\s+)?(?:probability|chance)(?:\s+of)?\s+([\d.]+)")
 _COMPARED = re.compile(r"[\w.]+\s*(?:[=!<>]=|[<>])\s*[\w.]+")
+_EVENT = re.compile(r"\b(?:sends|hears)\s+\w+\Z")
+_FIELD_OF_EVENT = re.compile(r"\b((?:sends|hears)\s+\w+)\.(\w+)\Z")
+_TEST = re.compile(
+    r"""(?:with|where|if|when|has|[({])[\s(\[{]*(?:event\.)?
+    ([A-Za-z_][\w.]*)\s*([=!<>]?=|[<>:])\s*("[^"\n]*"|[\w.]+)""",
+    re.VERBOSE,
+)
+_COMPARED_TO = re.compile(r"([=!<>]?=|[<>])\s*(\"[^\"\n]*\"|[\w.]+)")
+_NO_EVENT = re.compile(r"\b(?:in|starts|cancels)\s+[\w.]+\Z")
 _WHO = re.compile(r"\w+(?:\[\d+\])?\Z")
 
 
@@ -73,6 +82,8 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
         return _BEFORE[last[0]]
     if re.search(r"\bthen\s+eventually\Z", said):
         return _LEADS
+    if about_message := _message_hint(said, found, text, at):
+        return about_message
     if "`[`" in expected and re.search(r"\bhas\Z", said) and (test := _COMPARED.match(text, at)):
         return f"write `has [{test[0]}]`"
     if found == "," and (each := re.search(r"\beach\s+\w+\Z", said)):
@@ -96,6 +107,21 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
     if found == "or" and re.search(r"\bbetween\b[^,]*\Z", said):
         return "put what is joined in parentheses"
     return _FOUND.get(found)
+
+
+def _message_hint(said: str, found: str, text: str, at: int) -> str | None:
+    """Return a hint for a condition after a fact that is written in another way."""
+    if (event := _EVENT.search(said)) and (test := _TEST.match(text, at)):
+        return f"write `{event[0]} [event.{test[1]} {_operator(test[2])} {test[3]}]`"
+    if (event := _FIELD_OF_EVENT.search(said)) and (test := _COMPARED_TO.match(text, at)):
+        return f"write `{event[1]} [event.{event[2]} {_operator(test[1])} {test[2]}]`"
+    if found == "[" and _NO_EVENT.search(said):
+        return "only an event has a condition: write `and`, and a fact with `has [x > 3]`"
+    return None
+
+
+def _operator(written: str) -> str:
+    return "==" if written in ("=", ":") else written
 
 
 def fact_hint(expected: set[str], text: str, at: int) -> str | None:

@@ -11,7 +11,7 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Append, Argument, Assignment, BehaviorUse, Branch, Cancel, Chance, Choice, Claim, Clear, Communication, CommunicationSettings, Component, Conjunction, Connector, Constant, CountRange, Defer, DeferredEvent, DeliverySetting, DoneTrigger, Each, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Fact, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, Heartbeat, History, ImportFile, ImportLibrary, ImportRos, Initial, Measure, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Pattern, Port, PortRef, Property, PropertyScope, Region, Remove, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, Term, TimeTrigger, Transition, TypeRef, Variable, Who, World
 from swarmdsl.syntax.parser.lexer import Lexer
 
-GRAMMAR = 3149924732
+GRAMMAR = 2191199609
 new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
@@ -1236,7 +1236,7 @@ PROGRAM = (
     (2, 898),
     (3, 1118),
     (4, 0),
-    (3, 1167),
+    (3, 1182),
     (4, 0),
     (0, 100),
     (4, 0),
@@ -1260,9 +1260,9 @@ PROGRAM = (
     (0, 107),
     (4, 0),
     (1, 925),
-    (3, 1173),
+    (3, 1188),
     (2, 922),
-    (3, 1178),
+    (3, 1193),
     (4, 0),
     (1, 930),
     (0, 49),
@@ -1292,7 +1292,7 @@ PROGRAM = (
     (0, 114),
     (2, 964),
     (1, 957),
-    (3, 1209),
+    (3, 1224),
     (2, 964),
     (1, 960),
     (0, 115),
@@ -1320,7 +1320,7 @@ PROGRAM = (
     (2, 982),
     (0, 118),
     (4, 0),
-    (3, 1211),
+    (3, 1226),
     (4, 0),
     (1, 989),
     (3, 970),
@@ -1338,7 +1338,7 @@ PROGRAM = (
     (3, 640),
     (0, 67),
     (2, 1001),
-    (3, 1211),
+    (3, 1226),
     (4, 0),
     (0, 120),
     (3, 424),
@@ -1348,10 +1348,10 @@ PROGRAM = (
     (1, 1019),
     (0, 83),
     (1, 1017),
-    (3, 1216),
+    (3, 1231),
     (1, 1016),
     (0, 9),
-    (3, 1216),
+    (3, 1231),
     (2, 1012),
     (2, 1017),
     (0, 84),
@@ -1360,7 +1360,7 @@ PROGRAM = (
     (1, 1030),
     (0, 4),
     (1, 1028),
-    (3, 1220),
+    (3, 1235),
     (1, 1027),
     (0, 1),
     (2, 1027),
@@ -1373,7 +1373,7 @@ PROGRAM = (
     (3, 424),
     (0, 4),
     (1, 1041),
-    (3, 1243),
+    (3, 1258),
     (1, 1040),
     (0, 1),
     (2, 1040),
@@ -1384,7 +1384,7 @@ PROGRAM = (
     (3, 424),
     (0, 4),
     (1, 1052),
-    (3, 1260),
+    (3, 1275),
     (1, 1051),
     (0, 1),
     (2, 1051),
@@ -1404,16 +1404,16 @@ PROGRAM = (
     (0, 125),
     (3, 424),
     (4, 0),
-    (3, 1277),
+    (3, 1292),
     (1, 1072),
     (0, 66),
-    (3, 1277),
+    (3, 1292),
     (2, 1072),
     (4, 0),
     (0, 126),
     (4, 0),
     (1, 1079),
-    (3, 1279),
+    (3, 1294),
     (3, 552),
     (2, 1079),
     (1, 1085),
@@ -1438,7 +1438,7 @@ PROGRAM = (
     (3, 883),
     (0, 84),
     (2, 1106),
-    (3, 1290),
+    (3, 1305),
     (0, 65),
     (0, 83),
     (3, 883),
@@ -1462,237 +1462,252 @@ PROGRAM = (
     (0, 37),
     (3, 408),
     (0, 84),
-    (3, 1298),
+    (3, 1313),
     (3, 901),
-    (2, 1166),
+    (2, 1181),
     (1, 1132),
     (0, 37),
     (3, 408),
-    (2, 1166),
+    (2, 1181),
     (1, 1138),
     (0, 131),
     (0, 93),
     (3, 448),
     (0, 94),
-    (2, 1166),
-    (1, 1142),
-    (3, 1315),
+    (2, 1181),
+    (1, 1147),
+    (3, 1330),
     (3, 408),
-    (2, 1166),
     (1, 1146),
-    (3, 1320),
+    (0, 93),
+    (3, 448),
+    (0, 94),
+    (2, 1146),
+    (2, 1181),
+    (1, 1151),
+    (3, 1335),
     (3, 408),
-    (2, 1166),
-    (1, 1165),
-    (3, 1325),
-    (1, 1152),
+    (2, 1181),
+    (1, 1175),
+    (3, 1340),
+    (1, 1157),
     (0, 37),
-    (3, 1347),
-    (2, 1164),
-    (1, 1158),
+    (3, 1362),
+    (2, 1174),
+    (1, 1163),
     (0, 131),
     (0, 93),
     (3, 448),
     (0, 94),
-    (2, 1164),
-    (1, 1162),
-    (3, 1315),
-    (3, 408),
-    (2, 1164),
-    (3, 1320),
-    (3, 408),
-    (2, 1166),
-    (3, 408),
-    (4, 0),
-    (3, 922),
+    (2, 1174),
     (1, 1172),
-    (3, 1350),
-    (3, 922),
-    (2, 1168),
-    (4, 0),
-    (1, 1176),
-    (0, 99),
-    (2, 1177),
-    (3, 1209),
-    (4, 0),
+    (3, 1330),
+    (3, 408),
+    (1, 1171),
+    (0, 93),
+    (3, 448),
+    (0, 94),
+    (2, 1171),
+    (2, 1174),
+    (3, 1335),
+    (3, 408),
+    (2, 1181),
+    (3, 408),
     (1, 1181),
-    (3, 1358),
-    (2, 1208),
-    (1, 1184),
-    (3, 665),
-    (2, 1208),
+    (0, 93),
+    (3, 448),
+    (0, 94),
+    (2, 1181),
+    (4, 0),
+    (3, 922),
     (1, 1187),
-    (0, 132),
-    (2, 1208),
-    (1, 1190),
-    (0, 133),
-    (2, 1208),
-    (1, 1193),
-    (3, 1360),
-    (2, 1208),
+    (3, 1365),
+    (3, 922),
+    (2, 1183),
+    (4, 0),
+    (1, 1191),
+    (0, 99),
+    (2, 1192),
+    (3, 1224),
+    (4, 0),
     (1, 1196),
-    (3, 1368),
-    (2, 1208),
+    (3, 1373),
+    (2, 1223),
     (1, 1199),
-    (3, 1383),
-    (2, 1208),
+    (3, 665),
+    (2, 1223),
     (1, 1202),
-    (3, 1395),
-    (2, 1208),
+    (0, 132),
+    (2, 1223),
     (1, 1205),
-    (3, 1406),
-    (2, 1208),
+    (0, 133),
+    (2, 1223),
+    (1, 1208),
+    (3, 1375),
+    (2, 1223),
+    (1, 1211),
+    (3, 1383),
+    (2, 1223),
+    (1, 1214),
+    (3, 1398),
+    (2, 1223),
+    (1, 1217),
+    (3, 1410),
+    (2, 1223),
+    (1, 1220),
+    (3, 1421),
+    (2, 1223),
     (0, 83),
     (3, 680),
     (0, 84),
     (4, 0),
     (0, 134),
     (4, 0),
-    (1, 1214),
+    (1, 1229),
     (3, 640),
-    (2, 1215),
-    (3, 1415),
+    (2, 1230),
+    (3, 1430),
     (4, 0),
     (3, 667),
     (0, 13),
     (3, 448),
     (4, 0),
-    (1, 1223),
-    (3, 783),
-    (2, 1242),
-    (1, 1226),
-    (3, 1417),
-    (2, 1242),
-    (1, 1229),
-    (3, 1449),
-    (2, 1242),
-    (1, 1232),
-    (3, 1456),
-    (2, 1242),
-    (1, 1235),
-    (3, 1464),
-    (2, 1242),
     (1, 1238),
-    (3, 1472),
-    (2, 1242),
+    (3, 783),
+    (2, 1257),
     (1, 1241),
+    (3, 1432),
+    (2, 1257),
+    (1, 1244),
+    (3, 1464),
+    (2, 1257),
+    (1, 1247),
+    (3, 1471),
+    (2, 1257),
+    (1, 1250),
+    (3, 1479),
+    (2, 1257),
+    (1, 1253),
+    (3, 1487),
+    (2, 1257),
+    (1, 1256),
     (3, 792),
-    (2, 1242),
+    (2, 1257),
     (3, 795),
     (4, 0),
-    (1, 1246),
+    (1, 1261),
     (3, 783),
-    (2, 1259),
-    (1, 1249),
-    (3, 1538),
-    (2, 1259),
-    (1, 1252),
-    (3, 1449),
-    (2, 1259),
-    (1, 1255),
-    (3, 1456),
-    (2, 1259),
-    (1, 1258),
+    (2, 1274),
+    (1, 1264),
+    (3, 1553),
+    (2, 1274),
+    (1, 1267),
     (3, 1464),
-    (2, 1259),
-    (3, 1472),
+    (2, 1274),
+    (1, 1270),
+    (3, 1471),
+    (2, 1274),
+    (1, 1273),
+    (3, 1479),
+    (2, 1274),
+    (3, 1487),
     (4, 0),
-    (1, 1265),
+    (1, 1280),
     (0, 93),
     (3, 448),
     (0, 94),
-    (2, 1266),
+    (2, 1281),
     (0, 135),
-    (1, 1274),
+    (1, 1289),
     (0, 116),
-    (3, 1549),
-    (1, 1273),
+    (3, 1564),
+    (1, 1288),
     (0, 9),
-    (3, 1549),
-    (2, 1269),
-    (2, 1274),
+    (3, 1564),
+    (2, 1284),
+    (2, 1289),
     (0, 88),
     (3, 408),
     (4, 0),
     (0, 136),
     (4, 0),
-    (1, 1282),
+    (1, 1297),
     (0, 137),
-    (2, 1289),
-    (1, 1285),
+    (2, 1304),
+    (1, 1300),
     (0, 138),
-    (2, 1289),
-    (1, 1288),
+    (2, 1304),
+    (1, 1303),
     (0, 139),
-    (2, 1289),
+    (2, 1304),
     (0, 140),
     (4, 0),
-    (1, 1293),
+    (1, 1308),
     (0, 138),
-    (2, 1297),
-    (1, 1296),
+    (2, 1312),
+    (1, 1311),
     (0, 139),
-    (2, 1297),
+    (2, 1312),
     (0, 140),
     (4, 0),
-    (1, 1301),
+    (1, 1316),
     (0, 108),
-    (2, 1314),
-    (1, 1304),
+    (2, 1329),
+    (1, 1319),
     (0, 109),
-    (2, 1314),
-    (1, 1307),
+    (2, 1329),
+    (1, 1322),
     (0, 110),
-    (2, 1314),
-    (1, 1310),
+    (2, 1329),
+    (1, 1325),
     (0, 111),
-    (2, 1314),
-    (1, 1313),
+    (2, 1329),
+    (1, 1328),
     (0, 112),
-    (2, 1314),
+    (2, 1329),
     (0, 113),
     (4, 0),
-    (1, 1318),
+    (1, 1333),
     (0, 141),
-    (2, 1319),
+    (2, 1334),
     (0, 142),
     (4, 0),
-    (1, 1323),
+    (1, 1338),
     (0, 143),
-    (2, 1324),
+    (2, 1339),
     (0, 144),
     (4, 0),
-    (1, 1332),
-    (3, 1566),
-    (1, 1330),
+    (1, 1347),
+    (3, 1581),
+    (1, 1345),
     (0, 145),
-    (2, 1330),
+    (2, 1345),
     (3, 640),
-    (2, 1346),
-    (1, 1340),
-    (3, 1277),
-    (1, 1338),
+    (2, 1361),
+    (1, 1355),
+    (3, 1292),
+    (1, 1353),
     (0, 66),
-    (3, 1277),
-    (2, 1338),
+    (3, 1292),
+    (2, 1353),
     (3, 640),
-    (2, 1346),
+    (2, 1361),
     (3, 640),
-    (1, 1346),
+    (1, 1361),
     (0, 93),
     (3, 901),
     (0, 94),
-    (2, 1346),
+    (2, 1361),
     (4, 0),
     (3, 408),
-    (3, 1574),
+    (3, 1589),
     (4, 0),
-    (1, 1353),
+    (1, 1368),
     (0, 114),
-    (2, 1357),
-    (1, 1356),
-    (3, 1209),
-    (2, 1357),
+    (2, 1372),
+    (1, 1371),
+    (3, 1224),
+    (2, 1372),
     (0, 115),
     (4, 0),
     (0, 146),
@@ -1700,9 +1715,9 @@ PROGRAM = (
     (0, 37),
     (0, 83),
     (3, 640),
-    (1, 1366),
-    (3, 1576),
-    (2, 1366),
+    (1, 1381),
+    (3, 1591),
+    (2, 1381),
     (0, 84),
     (4, 0),
     (3, 640),
@@ -1710,242 +1725,242 @@ PROGRAM = (
     (3, 640),
     (0, 37),
     (3, 680),
-    (1, 1377),
+    (1, 1392),
     (0, 147),
     (3, 680),
-    (2, 1377),
-    (1, 1381),
+    (2, 1392),
+    (1, 1396),
     (0, 148),
     (3, 680),
-    (2, 1381),
+    (2, 1396),
     (0, 84),
     (4, 0),
     (3, 640),
-    (1, 1387),
-    (3, 1576),
-    (2, 1387),
+    (1, 1402),
+    (3, 1591),
+    (2, 1402),
     (0, 83),
-    (3, 1579),
-    (1, 1393),
+    (3, 1594),
+    (1, 1408),
     (0, 9),
-    (3, 1579),
-    (2, 1389),
-    (0, 84),
-    (4, 0),
-    (3, 640),
-    (0, 83),
-    (1, 1404),
-    (3, 680),
-    (1, 1403),
-    (0, 9),
-    (3, 680),
-    (2, 1399),
+    (3, 1594),
     (2, 1404),
     (0, 84),
     (4, 0),
-    (3, 1583),
-    (1, 1414),
-    (1, 1412),
+    (3, 640),
+    (0, 83),
+    (1, 1419),
+    (3, 680),
+    (1, 1418),
+    (0, 9),
+    (3, 680),
+    (2, 1414),
+    (2, 1419),
+    (0, 84),
+    (4, 0),
+    (3, 1598),
+    (1, 1429),
+    (1, 1427),
     (0, 67),
     (3, 918),
-    (2, 1413),
-    (3, 1591),
-    (2, 1407),
+    (2, 1428),
+    (3, 1606),
+    (2, 1422),
     (4, 0),
     (0, 149),
     (4, 0),
     (0, 150),
     (3, 408),
-    (1, 1434),
+    (1, 1449),
     (0, 83),
-    (1, 1425),
-    (0, 148),
-    (3, 424),
-    (2, 1432),
-    (1, 1432),
-    (3, 1216),
-    (1, 1431),
-    (0, 9),
-    (3, 1216),
-    (2, 1427),
-    (2, 1432),
-    (0, 84),
-    (2, 1434),
-    (1, 1448),
-    (0, 151),
     (1, 1440),
     (0, 148),
     (3, 424),
     (2, 1447),
-    (0, 83),
-    (3, 1596),
+    (1, 1447),
+    (3, 1231),
     (1, 1446),
     (0, 9),
-    (3, 1596),
+    (3, 1231),
     (2, 1442),
+    (2, 1447),
     (0, 84),
-    (2, 1448),
+    (2, 1449),
+    (1, 1463),
+    (0, 151),
+    (1, 1455),
+    (0, 148),
+    (3, 424),
+    (2, 1462),
+    (0, 83),
+    (3, 1611),
+    (1, 1461),
+    (0, 9),
+    (3, 1611),
+    (2, 1457),
+    (0, 84),
+    (2, 1463),
     (4, 0),
     (0, 152),
-    (3, 1600),
-    (1, 1455),
+    (3, 1615),
+    (1, 1470),
     (0, 9),
-    (3, 1600),
-    (2, 1451),
+    (3, 1615),
+    (2, 1466),
     (4, 0),
     (0, 153),
     (0, 116),
-    (3, 1549),
-    (1, 1463),
+    (3, 1564),
+    (1, 1478),
     (0, 9),
-    (3, 1549),
-    (2, 1459),
+    (3, 1564),
+    (2, 1474),
     (4, 0),
     (0, 154),
     (0, 116),
-    (3, 1549),
-    (1, 1471),
+    (3, 1564),
+    (1, 1486),
     (0, 9),
-    (3, 1549),
-    (2, 1467),
+    (3, 1564),
+    (2, 1482),
     (4, 0),
-    (1, 1475),
-    (0, 155),
-    (2, 1475),
-    (1, 1516),
-    (1, 1484),
-    (0, 25),
-    (3, 1602),
-    (1, 1483),
-    (0, 9),
-    (3, 1602),
-    (2, 1479),
-    (2, 1496),
-    (1, 1491),
-    (3, 1610),
     (1, 1490),
+    (0, 155),
+    (2, 1490),
+    (1, 1531),
+    (1, 1499),
+    (0, 25),
+    (3, 1617),
+    (1, 1498),
     (0, 9),
-    (3, 1610),
-    (2, 1486),
-    (2, 1496),
-    (3, 1613),
-    (1, 1496),
+    (3, 1617),
+    (2, 1494),
+    (2, 1511),
+    (1, 1506),
+    (3, 1625),
+    (1, 1505),
     (0, 9),
-    (3, 1613),
-    (2, 1492),
-    (1, 1501),
+    (3, 1625),
+    (2, 1501),
+    (2, 1511),
+    (3, 1628),
+    (1, 1511),
+    (0, 9),
+    (3, 1628),
+    (2, 1507),
+    (1, 1516),
     (0, 93),
     (3, 448),
     (0, 94),
-    (2, 1501),
-    (1, 1513),
+    (2, 1516),
+    (1, 1528),
     (0, 116),
-    (3, 1549),
-    (1, 1508),
-    (0, 9),
-    (3, 1549),
-    (2, 1504),
-    (1, 1512),
-    (0, 88),
-    (3, 408),
-    (2, 1512),
-    (2, 1515),
-    (0, 88),
-    (3, 408),
-    (2, 1537),
-    (1, 1524),
-    (0, 25),
-    (3, 1622),
+    (3, 1564),
     (1, 1523),
     (0, 9),
-    (3, 1622),
+    (3, 1564),
     (2, 1519),
-    (2, 1537),
+    (1, 1527),
+    (0, 88),
+    (3, 408),
+    (2, 1527),
+    (2, 1530),
+    (0, 88),
+    (3, 408),
+    (2, 1552),
+    (1, 1539),
+    (0, 25),
+    (3, 1637),
+    (1, 1538),
+    (0, 9),
+    (3, 1637),
+    (2, 1534),
+    (2, 1552),
     (0, 93),
     (3, 448),
     (0, 94),
-    (1, 1535),
+    (1, 1550),
     (0, 116),
-    (3, 1549),
-    (1, 1534),
+    (3, 1564),
+    (1, 1549),
     (0, 9),
-    (3, 1549),
-    (2, 1530),
-    (2, 1535),
+    (3, 1564),
+    (2, 1545),
+    (2, 1550),
     (0, 88),
     (3, 408),
     (4, 0),
     (0, 156),
     (3, 424),
     (0, 4),
-    (1, 1547),
-    (3, 1624),
-    (1, 1546),
+    (1, 1562),
+    (3, 1639),
+    (1, 1561),
     (0, 1),
-    (2, 1546),
-    (2, 1541),
+    (2, 1561),
+    (2, 1556),
     (0, 5),
     (4, 0),
-    (1, 1552),
-    (3, 1632),
-    (2, 1565),
-    (1, 1555),
-    (3, 1654),
-    (2, 1565),
-    (1, 1558),
-    (3, 1657),
-    (2, 1565),
-    (1, 1561),
-    (3, 1662),
-    (2, 1565),
-    (1, 1564),
-    (3, 1665),
-    (2, 1565),
-    (3, 1668),
+    (1, 1567),
+    (3, 1647),
+    (2, 1580),
+    (1, 1570),
+    (3, 1669),
+    (2, 1580),
+    (1, 1573),
+    (3, 1672),
+    (2, 1580),
+    (1, 1576),
+    (3, 1677),
+    (2, 1580),
+    (1, 1579),
+    (3, 1680),
+    (2, 1580),
+    (3, 1683),
     (4, 0),
-    (1, 1569),
+    (1, 1584),
     (0, 57),
-    (2, 1573),
-    (1, 1572),
+    (2, 1588),
+    (1, 1587),
     (0, 157),
-    (2, 1573),
+    (2, 1588),
     (0, 158),
     (4, 0),
     (0, 159),
     (4, 0),
-    (3, 1672),
-    (3, 1674),
+    (3, 1687),
+    (3, 1689),
     (4, 0),
     (3, 918),
     (0, 13),
     (3, 680),
     (4, 0),
-    (1, 1586),
+    (1, 1601),
     (0, 24),
-    (2, 1590),
-    (1, 1589),
+    (2, 1605),
+    (1, 1604),
     (0, 160),
-    (2, 1590),
+    (2, 1605),
     (3, 640),
     (4, 0),
-    (3, 1676),
+    (3, 1691),
     (0, 93),
     (3, 680),
     (0, 94),
     (4, 0),
     (3, 667),
     (0, 161),
-    (3, 1678),
+    (3, 1693),
     (4, 0),
     (3, 408),
     (4, 0),
-    (1, 1605),
-    (3, 1622),
-    (2, 1609),
-    (1, 1608),
-    (3, 1680),
-    (2, 1609),
-    (3, 1690),
+    (1, 1620),
+    (3, 1637),
+    (2, 1624),
+    (1, 1623),
+    (3, 1695),
+    (2, 1624),
+    (3, 1705),
     (4, 0),
     (0, 45),
     (3, 899),
@@ -1954,42 +1969,42 @@ PROGRAM = (
     (3, 419),
     (0, 11),
     (3, 430),
-    (1, 1621),
+    (1, 1636),
     (0, 163),
     (3, 424),
-    (2, 1621),
+    (2, 1636),
     (4, 0),
-    (3, 1692),
+    (3, 1707),
     (4, 0),
-    (1, 1627),
+    (1, 1642),
     (3, 783),
-    (2, 1631),
-    (1, 1630),
+    (2, 1646),
+    (1, 1645),
     (3, 792),
-    (2, 1631),
+    (2, 1646),
     (3, 795),
     (4, 0),
     (0, 164),
     (3, 408),
-    (1, 1645),
+    (1, 1660),
     (0, 83),
-    (1, 1643),
-    (3, 1216),
-    (1, 1642),
+    (1, 1658),
+    (3, 1231),
+    (1, 1657),
     (0, 9),
-    (3, 1216),
-    (2, 1638),
-    (2, 1643),
-    (0, 84),
-    (2, 1645),
-    (1, 1649),
-    (0, 61),
-    (3, 1700),
-    (2, 1649),
-    (1, 1653),
-    (3, 1702),
-    (3, 899),
+    (3, 1231),
     (2, 1653),
+    (2, 1658),
+    (0, 84),
+    (2, 1660),
+    (1, 1664),
+    (0, 61),
+    (3, 1715),
+    (2, 1664),
+    (1, 1668),
+    (3, 1717),
+    (3, 899),
+    (2, 1668),
     (4, 0),
     (0, 165),
     (3, 408),
@@ -1997,15 +2012,15 @@ PROGRAM = (
     (0, 166),
     (3, 448),
     (0, 61),
-    (3, 1678),
+    (3, 1693),
     (4, 0),
     (0, 167),
-    (3, 1678),
+    (3, 1693),
     (4, 0),
     (0, 168),
-    (3, 1678),
+    (3, 1693),
     (4, 0),
-    (3, 1678),
+    (3, 1693),
     (0, 13),
     (3, 448),
     (4, 0),
@@ -2017,24 +2032,24 @@ PROGRAM = (
     (4, 0),
     (3, 922),
     (4, 0),
-    (1, 1684),
+    (1, 1699),
     (3, 640),
     (0, 67),
-    (2, 1684),
+    (2, 1699),
     (0, 172),
-    (1, 1689),
+    (1, 1704),
     (0, 67),
     (3, 640),
-    (2, 1689),
+    (2, 1704),
     (4, 0),
     (3, 408),
     (4, 0),
-    (1, 1695),
+    (1, 1710),
     (0, 173),
-    (2, 1699),
-    (1, 1698),
+    (2, 1714),
+    (1, 1713),
     (0, 174),
-    (2, 1699),
+    (2, 1714),
     (0, 175),
     (4, 0),
     (3, 448),
@@ -5029,165 +5044,204 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             before20 = at
             before21 = act_
             before22 = event_
+            before23 = guard_
             while True:
-                taken23 = token; at += 1; token = tokens[at]
-                act_ = taken23
+                taken24 = token; at += 1; token = tokens[at]
+                act_ = taken24
                 first = ends[at + 1] - len(token)
-                if not (token >= 'A' and token not in SET2): at = before20; token = tokens[at]; act_ = before21; event_ = before22; break
-                taken25 = token; at += 1; token = tokens[at]
-                text24 = taken25
+                if not (token >= 'A' and token not in SET2): at = before20; token = tokens[at]; act_ = before21; event_ = before22; guard_ = before23; break
+                taken26 = token; at += 1; token = tokens[at]
+                text25 = taken26
                 if token == '.':
-                    match26 = REGEX0(text, ends[at + 1] - len(token))
-                    if match26[0]:
-                        text24 += match26[0]
-                        end = match26.end()
+                    match27 = REGEX0(text, ends[at + 1] - len(token))
+                    if match27[0]:
+                        text25 += match27[0]
+                        end = match27.end()
                         while ends[at] < end: at += 1
-                        if ends[at] > end: at = before20; token = tokens[at]; act_ = before21; event_ = before22; break
+                        if ends[at] > end: at = before20; token = tokens[at]; act_ = before21; event_ = before22; guard_ = before23; break
                         token = tokens[at]
                 value = new_node(Ref)
-                value.name = text24
+                value.name = text25
                 value.kind = 'Event'
-                value.span = new_span(Span, (source, first, first + len(text24)))
+                value.span = new_span(Span, (source, first, first + len(text25)))
                 value.target = None
                 event_ = value
+                if token == '[':
+                    before28 = at
+                    before29 = guard_
+                    while True:
+                        at += 1; token = tokens[at]
+                        found = expression(at)
+                        if found is None: at = before28; token = tokens[at]; guard_ = before29; break
+                        value, at = found; token = tokens[at]
+                        guard_ = value
+                        if not (token == ']'): at = before28; token = tokens[at]; guard_ = before29; break
+                        at += 1; token = tokens[at]
+                        break
                 chosen1 = True
                 break
         if not chosen1 and token in SET29:
-            before27 = at
-            before28 = act_
-            before29 = function_
+            before30 = at
+            before31 = act_
+            before32 = function_
             while True:
-                taken30 = token; at += 1; token = tokens[at]
-                act_ = taken30
+                taken33 = token; at += 1; token = tokens[at]
+                act_ = taken33
                 first = ends[at + 1] - len(token)
-                if not (token >= 'A' and token not in SET2): at = before27; token = tokens[at]; act_ = before28; function_ = before29; break
-                taken32 = token; at += 1; token = tokens[at]
-                text31 = taken32
+                if not (token >= 'A' and token not in SET2): at = before30; token = tokens[at]; act_ = before31; function_ = before32; break
+                taken35 = token; at += 1; token = tokens[at]
+                text34 = taken35
                 if token == '.':
-                    match33 = REGEX0(text, ends[at + 1] - len(token))
-                    if match33[0]:
-                        text31 += match33[0]
-                        end = match33.end()
+                    match36 = REGEX0(text, ends[at + 1] - len(token))
+                    if match36[0]:
+                        text34 += match36[0]
+                        end = match36.end()
                         while ends[at] < end: at += 1
-                        if ends[at] > end: at = before27; token = tokens[at]; act_ = before28; function_ = before29; break
+                        if ends[at] > end: at = before30; token = tokens[at]; act_ = before31; function_ = before32; break
                         token = tokens[at]
                 value = new_node(Ref)
-                value.name = text31
+                value.name = text34
                 value.kind = 'Function'
-                value.span = new_span(Span, (source, first, first + len(text31)))
+                value.span = new_span(Span, (source, first, first + len(text34)))
                 value.target = None
                 function_ = value
                 chosen1 = True
                 break
         if not chosen1 and token not in SET30:
-            before34 = at
-            before35 = who_
-            before36 = state_
-            before37 = guard_
-            before38 = act_
-            before39 = event_
-            before40 = function_
+            before37 = at
+            before38 = who_
+            before39 = state_
+            before40 = guard_
+            before41 = act_
+            before42 = event_
+            before43 = function_
             while True:
                 value = r_Who()
-                if value is None: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                if value is None: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                 who_ = value
                 if token == 'in':
                     at += 1; token = tokens[at]
                     first = ends[at + 1] - len(token)
-                    if not (token >= 'A' and token not in SET2): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
-                    taken43 = token; at += 1; token = tokens[at]
-                    text42 = taken43
+                    if not (token >= 'A' and token not in SET2): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                    taken46 = token; at += 1; token = tokens[at]
+                    text45 = taken46
                     if token == '.':
-                        match44 = REGEX0(text, ends[at + 1] - len(token))
-                        if match44[0]:
-                            text42 += match44[0]
-                            end = match44.end()
+                        match47 = REGEX0(text, ends[at + 1] - len(token))
+                        if match47[0]:
+                            text45 += match47[0]
+                            end = match47.end()
                             while ends[at] < end: at += 1
-                            if ends[at] > end: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                            if ends[at] > end: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                             token = tokens[at]
-                    text41 = text42
-                    if REGEX15(text, ends[at + 1] - len(token)) is None: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    text44 = text45
+                    if REGEX15(text, ends[at + 1] - len(token)) is None: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                     value = new_node(Ref)
-                    value.name = text41
+                    value.name = text44
                     value.kind = 'Vertex'
-                    value.span = new_span(Span, (source, first, first + len(text41)))
+                    value.span = new_span(Span, (source, first, first + len(text44)))
                     value.target = None
                     state_ = value
                 elif token == 'has':
                     at += 1; token = tokens[at]
-                    if not (token == '['): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    if not (token == '['): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                     at += 1; token = tokens[at]
                     found = expression(at)
-                    if found is None: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    if found is None: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                     value, at = found; token = tokens[at]
                     guard_ = value
-                    if not (token == ']'): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                    if not (token == ']'): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                     at += 1; token = tokens[at]
                 elif token in SET28:
-                    taken45 = token; at += 1; token = tokens[at]
-                    act_ = taken45
+                    taken48 = token; at += 1; token = tokens[at]
+                    act_ = taken48
                     first = ends[at + 1] - len(token)
-                    if not (token >= 'A' and token not in SET2): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
-                    taken47 = token; at += 1; token = tokens[at]
-                    text46 = taken47
+                    if not (token >= 'A' and token not in SET2): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                    taken50 = token; at += 1; token = tokens[at]
+                    text49 = taken50
                     if token == '.':
-                        match48 = REGEX0(text, ends[at + 1] - len(token))
-                        if match48[0]:
-                            text46 += match48[0]
-                            end = match48.end()
+                        match51 = REGEX0(text, ends[at + 1] - len(token))
+                        if match51[0]:
+                            text49 += match51[0]
+                            end = match51.end()
                             while ends[at] < end: at += 1
-                            if ends[at] > end: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                            if ends[at] > end: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                             token = tokens[at]
                     value = new_node(Ref)
-                    value.name = text46
+                    value.name = text49
                     value.kind = 'Event'
-                    value.span = new_span(Span, (source, first, first + len(text46)))
+                    value.span = new_span(Span, (source, first, first + len(text49)))
                     value.target = None
                     event_ = value
+                    if token == '[':
+                        before52 = at
+                        before53 = guard_
+                        while True:
+                            at += 1; token = tokens[at]
+                            found = expression(at)
+                            if found is None: at = before52; token = tokens[at]; guard_ = before53; break
+                            value, at = found; token = tokens[at]
+                            guard_ = value
+                            if not (token == ']'): at = before52; token = tokens[at]; guard_ = before53; break
+                            at += 1; token = tokens[at]
+                            break
                 elif token in SET29:
-                    taken49 = token; at += 1; token = tokens[at]
-                    act_ = taken49
+                    taken54 = token; at += 1; token = tokens[at]
+                    act_ = taken54
                     first = ends[at + 1] - len(token)
-                    if not (token >= 'A' and token not in SET2): at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
-                    taken51 = token; at += 1; token = tokens[at]
-                    text50 = taken51
+                    if not (token >= 'A' and token not in SET2): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                    taken56 = token; at += 1; token = tokens[at]
+                    text55 = taken56
                     if token == '.':
-                        match52 = REGEX0(text, ends[at + 1] - len(token))
-                        if match52[0]:
-                            text50 += match52[0]
-                            end = match52.end()
+                        match57 = REGEX0(text, ends[at + 1] - len(token))
+                        if match57[0]:
+                            text55 += match57[0]
+                            end = match57.end()
                             while ends[at] < end: at += 1
-                            if ends[at] > end: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                            if ends[at] > end: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                             token = tokens[at]
                     value = new_node(Ref)
-                    value.name = text50
+                    value.name = text55
                     value.kind = 'Function'
-                    value.span = new_span(Span, (source, first, first + len(text50)))
+                    value.span = new_span(Span, (source, first, first + len(text55)))
                     value.target = None
                     function_ = value
-                else: at = before34; token = tokens[at]; who_ = before35; state_ = before36; guard_ = before37; act_ = before38; event_ = before39; function_ = before40; break
+                else: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
                 chosen1 = True
                 break
         if not chosen1 and token >= 'A' and token not in SET2:
-            before53 = at
+            before58 = at
+            before59 = event_
+            before60 = guard_
             while True:
                 first = ends[at + 1] - len(token)
-                taken55 = token; at += 1; token = tokens[at]
-                text54 = taken55
+                taken62 = token; at += 1; token = tokens[at]
+                text61 = taken62
                 if token == '.':
-                    match56 = REGEX0(text, ends[at + 1] - len(token))
-                    if match56[0]:
-                        text54 += match56[0]
-                        end = match56.end()
+                    match63 = REGEX0(text, ends[at + 1] - len(token))
+                    if match63[0]:
+                        text61 += match63[0]
+                        end = match63.end()
                         while ends[at] < end: at += 1
-                        if ends[at] > end: at = before53; token = tokens[at]; break
+                        if ends[at] > end: at = before58; token = tokens[at]; event_ = before59; guard_ = before60; break
                         token = tokens[at]
                 value = new_node(Ref)
-                value.name = text54
+                value.name = text61
                 value.kind = 'Event'
-                value.span = new_span(Span, (source, first, first + len(text54)))
+                value.span = new_span(Span, (source, first, first + len(text61)))
                 value.target = None
                 event_ = value
+                if token == '[':
+                    before64 = at
+                    before65 = guard_
+                    while True:
+                        at += 1; token = tokens[at]
+                        found = expression(at)
+                        if found is None: at = before64; token = tokens[at]; guard_ = before65; break
+                        value, at = found; token = tokens[at]
+                        guard_ = value
+                        if not (token == ']'): at = before64; token = tokens[at]; guard_ = before65; break
+                        at += 1; token = tokens[at]
+                        break
                 chosen1 = True
                 break
         if not chosen1: return None

@@ -7,9 +7,10 @@ Names mean the same in both versions.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from math import inf
 from typing import Literal
 
-from swarmdsl.ir import Claim, Count, Fact, Junction, Property, Robots
+from swarmdsl.ir import Binary, Claim, Count, Expression, Fact, Junction, Property, Robots
 from swarmdsl.ir.expressions import Literal as Constant
 from swarmdsl.ir.operations import OPERATIONS
 
@@ -27,6 +28,8 @@ _POLARITIES = {
     "leads": (-1, 1),
     "only": (-1, 1),
 }
+_UPWARD = ("all", "some", "index")
+"""Quantifiers of robots with which a fact still holds if it holds for more of them."""
 _FOR_ALL_STEPS = ("never", "always", "times")
 
 
@@ -75,7 +78,7 @@ def _of_limits(before: Property, after: Property) -> Order:
     lengths = []
     for each in (was, now):
         if each is None:
-            lengths.append(float("inf"))
+            lengths.append(inf)
         elif isinstance(each, Constant):
             lengths.append(float(each.value))
         else:
@@ -164,14 +167,49 @@ def _compares(number: int, count: Count) -> bool:
 
 
 def _says_more(one: Fact, other: Fact) -> bool:
-    """Return True for two facts of which the first names fewer numbers of robots."""
-    about = (one.act, one.name, one.guard) == (other.act, other.name, other.guard)
-    if not about or one.robots is None or other.robots is None:
+    """Return True if the first fact names fewer numbers of robots, or more of a condition."""
+    if (one.act, one.name) != (other.act, other.name):
+        return False
+    if one.robots == other.robots and (one.robots is None or one.robots.quantifier in _UPWARD):
+        return _requires(one.guard, other.guard)
+    if one.robots is None or other.robots is None:
         return False
     ours, theirs = _range(one.robots), _range(other.robots)
     if one.robots.role != other.robots.role or ours is None or theirs is None:
         return False
+    # A weaker condition holds for more robots, a stronger one for fewer.
+    more = theirs[1] == inf and _requires(one.guard, other.guard)
+    fewer = theirs[0] == 0 and _requires(other.guard, one.guard)
+    if not (one.guard == other.guard or more or fewer):
+        return False
     return theirs[0] <= ours[0] and ours[1] <= theirs[1]
+
+
+def _requires(one: Expression | None, other: Expression | None) -> bool:
+    """Return True if the second condition certainly holds whenever the first one does."""
+    if other is None or one == other:
+        return True
+    if isinstance(other, Binary) and other.operator == "and":
+        return _requires(one, other.left) and _requires(one, other.right)
+    if isinstance(one, Binary) and one.operator == "and":
+        return _requires(one.left, other) or _requires(one.right, other)
+    if not (isinstance(one, Binary) and isinstance(other, Binary) and one.left == other.left):
+        return False
+    ours, theirs = _number(one.right), _number(other.right)
+    if ours is None or theirs is None:
+        return False
+    for strict, closed in (("<", "<="), (">", ">=")):
+        if one.operator in (strict, closed, "==") and other.operator in (strict, closed):
+            bound = closed if one.operator == strict else other.operator
+            return bool(OPERATIONS[bound](ours, theirs))
+    return False
+
+
+def _number(value: Expression) -> int | float | None:
+    number = value.value if isinstance(value, Constant) else None
+    if isinstance(number, (int, float)) and not isinstance(number, bool):
+        return number
+    return None
 
 
 def _range(robots: Robots) -> tuple[float, float] | None:
@@ -179,10 +217,10 @@ def _range(robots: Robots) -> tuple[float, float] | None:
     if robots.other:
         return None
     if robots.quantifier == "some":
-        return 1, float("inf")
+        return 1, inf
     if robots.quantifier == "no":
         return 0, 0
     if robots.quantifier == "number" and robots.number is not None:
         most = robots.number.upper
-        return robots.number.lower, float("inf") if most is None else most
+        return robots.number.lower, inf if most is None else most
     return None

@@ -21,13 +21,13 @@ def build():
     """Build state machine Market."""
     machine = Machine(CHART, ['Gone', 'preempted'])
     with machine:
-        # model.swarm:163
+        # model.swarm:167
         StateMachine.add(
             'Open',
             State(CHART, 'Open', ['F', 'preempted']),
             transitions={'F': 'Shut', 'preempted': 'preempted'},
         )
-        # model.swarm:170
+        # model.swarm:174
         StateMachine.add(
             'Shut',
             State(CHART, 'Shut', ['Gone', 'F', 'preempted']),
