@@ -265,6 +265,14 @@ CHANGES = {
         "/// Looks out.\nstatemachine Watch {",
         ["~ statemachine Watch", "    ~ documentation `Looks out.` added"],
     ),
+    "a comment on a call": (
+        "do look(",
+        "/// Once around.\n      do look(",
+        [
+            "~ statemachine Watch",
+            "    ~ state `Search.Look`: documentation of activity `Once around.` added",
+        ],
+    ),
     "a state moved out": (
         "    state Pause { after 5 s / tries = tries + 1 -> Look }\n    on Reset -> Idle\n  }",
         "    on Reset -> Idle\n  }\n  state Pause { after 5 s / tries = tries + 1 -> Search.Look }",

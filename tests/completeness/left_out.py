@@ -21,7 +21,7 @@ _REASONS: dict[str, dict[str, str]] = {
         "follows from the parts of the expression": (
             "Binary.type Call.type Elapsed.type EnvelopeField.header EnvelopeField.type "
             "EventData.type FieldAccess.type ParamRef.type ItemRef.type Query.type SelfField.type "
-            "InState.type Unary.type"
+            "InState.type Unary.type VariableRef.type"
         ),
         "a name that nothing declares reads as another name of the swarm": ("Optimization.swarm"),
         "the name of the file where there is no package": ("System.name"),

@@ -148,10 +148,11 @@ class _Machine:
             *map(self.element, inner),
         )
         ref = Ref(state_kind(self.name), state.id)
+        activity = state.activity
         return with_doc(
             Element(VERTEX_KIND, (state.name,), values, children, ref, state.origin),
             state.doc,
-            state.docs,
+            (*state.docs, *((("activity", activity.doc),) if activity is not None else ())),
         )
 
     def _transition(self, transition: Transition, state: State) -> Element:
