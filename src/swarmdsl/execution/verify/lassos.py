@@ -69,8 +69,10 @@ class Lassos:
                 if not self._fairness.running(state):
                     yield Lasso(self._stem(number), [])
             for component in self._components():
-                yield from self._fair_lassos(component)
-                for delay in self._delays(component):
+                found = self._fair_lassos(component)
+                yield from found
+                # The parts of an unfair component are unfair, too.
+                for delay in self._delays(component) if found else ():
                     # Loops without the end of a delay, which may end too early in others.
                     for part in self._components(component, delay):
                         yield from self._fair_lassos(part, delay)

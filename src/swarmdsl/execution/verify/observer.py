@@ -42,6 +42,7 @@ class Observer:
         """True if a fact holds for a moment: the next line, whatever it shows, ends it."""
         self.others = others and self.forgets
         self._rows: dict[int, _Row] = {}
+        self._singles: dict[int, list[tuple[Step, int, tuple[int, ...], bool]]] = {}
 
     def start(self, state: int) -> int:
         """Return the first state: all robots have started, which is one moment."""
@@ -86,15 +87,34 @@ class Observer:
         seen = _Sight(self, present)
         silent = [self._silence(memory, seen)]
         for place, _ in present:
-            for step in network.row(place):
-                after = network.after(state, step)
+            group = network.places[place].group
+            for step, change, heard, is_silent in self._single_steps(place):
+                after = state + change
+                if heard:
+                    shift = network.shift_of(place, heard, group)
+                    after += network.cast(state, heard, group) - shift
                 passed = [memory]
-                if step.move is not None:
-                    if self._is_silent(place, step.move):
-                        passed = silent
-                    else:
-                        passed = self._memories(memory, place, step.move, seen) or passed
+                if is_silent:
+                    passed = silent
+                elif step.move is not None:
+                    passed = self._memories(memory, place, step.move, seen) or passed
                 yield after + passed[-1] - memory, step, passed
+
+    def _single_steps(self, place: int) -> list[tuple[Step, int, tuple[int, ...], bool]]:
+        """Return the steps of a place: differences, messages, and True for silent moves."""
+        found = self._singles.get(place)
+        if found is None:
+            ones = self.network.ones
+            found = self._singles[place] = [
+                (
+                    step,
+                    ones[step.target] - ones[place],
+                    self.network.heard(step),
+                    step.move is not None and self._is_silent(place, step.move),
+                )
+                for step in self.network.row(place)
+            ]
+        return found
 
     def following(self, state: int) -> Iterator[int]:
         """Yield the same states, each at least once."""
