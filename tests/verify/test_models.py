@@ -20,6 +20,7 @@ FOUND = {
     "SW1706": "unhandled",
     "SW1707": "loops",
     "SW1708": "computes",
+    "SW1710": "answers",
 }
 
 

@@ -380,4 +380,5 @@ CODES: dict[str, Code] = {
     "endless-reaction": Code("SW1707", "error", "`{name}` does not come to rest"),
     "failed-computation": Code("SW1708", "warning", "evaluation fails in `{name}`: {reason}"),
     "size-not-allowed": Code("SW1709", "error", "this swarm cannot have {count} `{role}`"),
+    "endless-answers": Code("SW1710", "warning", "robots can answer `{name}` without end"),
 }

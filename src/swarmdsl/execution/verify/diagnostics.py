@@ -25,11 +25,13 @@ _CODES: Mapping[Fault, str] = {
     "unreachable": "absent-state",
     "untaken": "untaken-transition",
     "lost": "unhandled-message",
+    "answers": "endless-answers",
 }
 _HELP: Mapping[Fault, str] = {
     "loops": "add an event or a delay to one of the transitions",
     "stuck": "let something go on by itself: a delay, or an activity that ends",
     "waits": "let a robot send what it waits for, or add a transition `after` a time",
+    "answers": "let a delay or an activity pass before an answer, or answer only once",
     "lost": "handle it in the states in which it arrives, or `defer` it there",
 }
 
@@ -56,7 +58,7 @@ def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
 def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
     """Report what is wrong with a swarm."""
     run = finding.run
-    notes = (f"a shortest run, of {size}:", *_lines(run)) if run is not None else (f"in {size}",)
+    notes = (_head(run, size), *_lines(run)) if run is not None else (f"in {size}",)
     report.report(
         _CODES[finding.fault],
         finding.place,

@@ -11,13 +11,14 @@ from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.verify.explore import Graph, explore
 from swarmdsl.execution.verify.limits import Budget
+from swarmdsl.execution.verify.livelock import livelock
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network, Step
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.runs import Run, play, steps_between
 
-Fault = Literal["loops", "fails", "stuck", "waits", "unreachable", "untaken", "lost"]
+Fault = Literal["loops", "fails", "stuck", "waits", "unreachable", "untaken", "lost", "answers"]
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ def survey(model: Model, budget: Budget) -> Survey:
         complete &= graph.complete
         full |= network.full
         part = _Part(model, graph)
-        found = list(part.findings(sure=sure))
+        found = list(part.findings(sure=sure, budget=budget))
         findings += found
         # What ends or waits too early explains what does not happen after it.
         early = any(each.fault in ("loops", "waits", "stuck") for each in found)
@@ -95,9 +96,10 @@ class _Part:
         for group in self._network.groups:
             self._sent.update(group.automaton.first.sends)
 
-    def findings(self, *, sure: bool) -> Iterator[Finding]:
+    def findings(self, *, sure: bool, budget: Budget) -> Iterator[Finding]:
         """Yield what is wrong; what is missing only if the search has seen all."""
         yield from self._failures()
+        yield from self._answers(budget)
         trapped = list(self._trapped()) if sure else []
         yield from (finding for _, finding in trapped)
         if sure:
@@ -149,6 +151,23 @@ class _Part:
                         place = self._place(machine, moment.taken)
                         if not run.flaw:
                             yield Finding("fails", machine.name, group.role, place, reason, run)
+
+    def _answers(self, budget: Budget) -> Iterator[Finding]:
+        """Find robots that answer each other without end."""
+        if self._model.doubts(self._network.groups):
+            # What is not covered may end the loop.
+            return
+        found = livelock(self._graph, budget)
+        if found is None:
+            return
+        run, step = found
+        assert step.move is not None
+        group = self._network.groups[self._network.places[step.place].group]
+        place = None
+        for moment in step.move.moments:
+            machine = group.automaton.whole.kind.cast[moment.actor].machine
+            place = place or self._place(machine, moment.taken)
+        yield Finding("answers", step.move.given.name, group.role, place, run=run)
 
     def _trapped(self) -> Iterator[tuple[tuple[int, int], Finding]]:
         """Find states that nothing leads on from, whatever comes."""

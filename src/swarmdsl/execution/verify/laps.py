@@ -31,7 +31,7 @@ def endless(network: Network, lasso: Lasso, property_: Property, robot: str | No
     """Run a lasso on the engine: it violates a property, of one robot if it is about each."""
     if not lasso.loop:
         return replace(play(network, lasso.stem, property_, is_whole=True), loop=0)
-    found = _repeated(network, lasso)
+    found = repeated(network, lasso)
     if isinstance(found, str):
         return Run((), flaw=found)
     for extra in range(_MOST_EXTRA):
@@ -44,8 +44,11 @@ def endless(network: Network, lasso: Lasso, property_: Property, robot: str | No
     return Run((), flaw="no times of its loop fit all delays")
 
 
-def _repeated(network: Network, lasso: Lasso) -> Lasso | str:
-    """Return a lasso after whose loop each robot is where it was, or why there is none."""
+def repeated(network: Network, lasso: Lasso, *, fair: bool = True) -> Lasso | str:
+    """Return a lasso after whose loop each robot is where it was, or why there is none.
+
+    If it must be `fair`, all that was running before the loop is over after it.
+    """
     stem, loop = list(lasso.stem), list(lasso.loop)
     laps = _Laps(network, [0] * (len(stem) + _MOST_LAPS * len(loop) + 1))
     laps.run(stem)
@@ -60,7 +63,7 @@ def _repeated(network: Network, lasso: Lasso) -> Lasso | str:
             return f"an event overtakes an earlier one on `{laps.overtakes}`"
         marks.append(laps.mark())
         for first in range(last):
-            if marks[last].follows(marks[first]):
+            if marks[last].follows(marks[first], fair=fair):
                 return Lasso(stem + loop * first, loop * (last - first))
     return _UNFAIR
 
@@ -107,9 +110,12 @@ class _Mark:
     places: tuple[Any, ...]
     tasks: tuple[object, ...]
 
-    def follows(self, other: _Mark) -> bool:
-        """Return True if all are where they were, and nothing is left of what was running."""
-        old = {id(each) for each in other.tasks}
+    def follows(self, other: _Mark, *, fair: bool) -> bool:
+        """Return True if all are where they were.
+
+        If it must be `fair`, nothing is left of what was running.
+        """
+        old = {id(each) for each in other.tasks} if fair else set()
         return self.places == other.places and not any(id(each) in old for each in self.tasks)
 
 
