@@ -1,6 +1,6 @@
-"""Other model checkers see the same states of a swarm as `swarmc verify`, and agree on properties.
+"""SPIN and rumur see the same states of a swarm as `swarmc verify`, and agree on properties.
 
-They read the files of targets `promela` and the like, and have their own searches. Numbers of
+They read the files of targets `promela` and `murphi`, and have their own searches. Numbers of
 states are compared, and verdicts on all properties that the languages can express.
 """
 
@@ -13,7 +13,7 @@ import pytest
 from swarmdsl.execution.verify.model import Options
 
 from ..verify.random_swarms import random_swarm
-from .witnesses import Checker, Compared, compare, missing_for, spin
+from .witnesses import Compared, compare, missing_for
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = {
@@ -26,24 +26,27 @@ FEW = ("minimal", "operations")
 """Models that are compared also if only few swarms are."""
 MANY = 10
 """Number of random swarms from which on all models are compared, too."""
-_SPIN = pytest.mark.skipif(missing_for("spin", "gcc") != "", reason=missing_for("spin", "gcc"))
-WITNESSES = [pytest.param("promela", spin, id="spin", marks=_SPIN)]
+_REASONS = {"promela": missing_for("spin", "gcc"), "murphi": missing_for("rumur", "gcc")}
+WITNESSES = [
+    pytest.param(target, id=target, marks=pytest.mark.skipif(reason != "", reason=reason))
+    for target, reason in _REASONS.items()
+]
 
 
-def random(seed: int, target: str, check: Checker, folder: Path) -> Compared:
+def random(seed: int, target: str, folder: Path) -> Compared:
     """Compare a random swarm."""
     source = folder / "random.swarm"
     source.write_text(random_swarm(seed), encoding="utf-8")
-    return compare(source, target, check, folder, options=Options(1, seed % 3 == 0))
+    return compare(source, target, folder, options=Options(1, seed % 3 == 0))
 
 
-@pytest.mark.parametrize(("target", "check"), WITNESSES)
-def test_robots_that_hear_each_other(target: str, check: Checker, tmp_path: Path) -> None:
+@pytest.mark.parametrize("target", WITNESSES)
+def test_robots_that_hear_each_other(target: str, tmp_path: Path) -> None:
     text = (ROOT / "examples" / "emergency_exit" / "emergency_exit.swarm").read_text("utf-8")
     source = tmp_path / "model.swarm"
     source.write_text(text.replace("Spiderino[8]", "Spiderino[2..8]"), encoding="utf-8")
 
-    found = compare(source, target, check, tmp_path, counts={"robot": 3})
+    found = compare(source, target, tmp_path, counts={"robot": 3})
 
     assert (found.counts, found.holds, found.fails) == (1, 4, 0)
 
@@ -58,19 +61,19 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 
 @pytest.mark.timeout(3000)
-@pytest.mark.parametrize(("target", "check"), WITNESSES)
-def test_random_swarms(seeds: range, target: str, check: Checker, tmp_path: Path) -> None:
+@pytest.mark.parametrize("target", WITNESSES)
+def test_random_swarms(seeds: range, target: str, tmp_path: Path) -> None:
     found = Compared(0, 0, 0)
     for seed in seeds:
-        found += random(seed, target, check, tmp_path)
+        found += random(seed, target, tmp_path)
 
     assert min(found) > 0
 
 
 @pytest.mark.timeout(3000)
-@pytest.mark.parametrize(("target", "check"), WITNESSES)
-def test_models(name: str, target: str, check: Checker, tmp_path: Path) -> None:
-    found = compare(SOURCES[name], target, check, tmp_path)
+@pytest.mark.parametrize("target", WITNESSES)
+def test_models(name: str, target: str, tmp_path: Path) -> None:
+    found = compare(SOURCES[name], target, tmp_path)
 
     # Others may have too many states.
     assert found.counts or name not in FEW

@@ -112,3 +112,4 @@ fitness = _generator("fitness", "Python scripts that compute the fitness of a ru
 composition = _generator("composition", "Members of a swarm as XML, and launch files")
 frevo = _generator("frevo", "Problem and configuration of a search with FREVO")
 promela = _generator("promela", "Composed swarms and their properties for the model checker SPIN")
+murphi = _generator("murphi", "Composed swarms and their properties for the model checker rumur")

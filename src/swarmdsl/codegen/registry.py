@@ -29,6 +29,7 @@ BUILT_IN = {
     "composition": "swarmdsl.codegen.exchange.composition:generator",
     "frevo": "swarmdsl.codegen.exchange.frevo:generator",
     "promela": "swarmdsl.codegen.bundled.promela:generator",
+    "murphi": "swarmdsl.codegen.bundled.murphi:generator",
 }
 # Formats of other tools, built on request only.
 ON_REQUEST = frozenset(

@@ -1,4 +1,4 @@
-"""Target `promela`: its files, its table of constructs, and what it cannot express."""
+"""Targets `promela` and `murphi`: files, tables of constructs, and what they cannot express."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from swarmdsl.codegen.emit import Request
 from swarmdsl.codegen.registry import load
 from swarmdsl.driver import pipeline
 
-from ..agreement.witnesses import missing_for, spin
+from ..agreement.witnesses import CHECKERS, missing_for
 
 LANDING = Path(__file__).parent / "landing.swarm"
 GOLDEN = Path(__file__).parent / "golden"
-_SPIN = pytest.mark.skipif(missing_for("spin", "gcc") != "", reason=missing_for("spin", "gcc"))
+MISSING = missing_for("spin", "rumur", "gcc")
+SUFFIX = {"promela": "pml", "murphi": "m"}
 
 HEAD = """package p
 swarm event Go : std_msgs/Empty
@@ -26,8 +27,8 @@ TAIL = "member A { behavior M }\nswarm S { a : A[2] }\n"
 MACHINE = "statemachine M {\n  initial X\n  state X { on Go -> Y }\n  final Y\n}\n"
 
 
-def build(path: Path, out: Path, **options: str) -> pipeline.Result:
-    return pipeline.build([path], [Request("promela", options)], out)
+def build(path: Path, out: Path, target: str = "promela", **options: str) -> pipeline.Result:
+    return pipeline.build([path], [Request(target, options)], out)
 
 
 @pytest.fixture
@@ -37,20 +38,23 @@ def made(tmp_path: Path) -> Path:
     return path
 
 
-def test_files_are_as_before(tmp_path: Path, bless: bool) -> None:
-    build(LANDING, tmp_path)
-    files = {path.name: path.read_text("utf-8") for path in tmp_path.glob("promela/*")}
+@pytest.mark.parametrize("target", CHECKERS)
+def test_files_are_as_before(target: str, tmp_path: Path, bless: bool) -> None:
+    build(LANDING, tmp_path, target)
+    files = {path.name: path.read_text("utf-8") for path in tmp_path.glob(f"{target}/*")}
     if bless:
         for name, text in files.items():
             (GOLDEN / name).write_text(text, encoding="utf-8")
 
-    assert files == {path.name: path.read_text("utf-8") for path in GOLDEN.glob("*.pml")}
+    before = GOLDEN.glob(f"*.{SUFFIX[target]}")
+    assert files == {path.name: path.read_text("utf-8") for path in before}
 
 
-def test_the_table_is_true(tmp_path: Path) -> None:
-    generator = load("promela")
-    build(LANDING, tmp_path)
-    text = "".join(path.read_text("utf-8") for path in tmp_path.glob("promela/*"))
+@pytest.mark.parametrize("target", CHECKERS)
+def test_the_table_is_true(target: str, tmp_path: Path) -> None:
+    generator = load(target)
+    build(LANDING, tmp_path, target)
+    text = "".join(path.read_text("utf-8") for path in tmp_path.glob(f"{target}/*"))
 
     for row in generator.mapping:  # type: ignore[union-attr]
         quoted = re.findall(r"`([^`]+)`", row.means)
@@ -130,8 +134,9 @@ def test_params_without_values_are_told(made: Path) -> None:
     assert "param `speed` of `M` has no value" in found[0].message
 
 
-@_SPIN
-def test_loss_and_data_reach_spin(tmp_path: Path) -> None:
+@pytest.mark.skipif(MISSING != "", reason=MISSING)
+@pytest.mark.parametrize("target", CHECKERS)
+def test_loss_and_data_reach_the_checkers(target: str, tmp_path: Path) -> None:
     path = tmp_path / "model.swarm"
     path.write_text(
         """package p
@@ -155,7 +160,8 @@ property Some of S : all a in Z only after some a in Z
         encoding="utf-8",
     )
 
-    assert not build(path, tmp_path / "out", lossy="true").report.has_errors
+    assert not build(path, tmp_path / "out", target, lossy="true").report.has_errors
 
-    assert spin(tmp_path / "out" / "promela" / "S_Both.pml", tmp_path).violated
-    assert not spin(tmp_path / "out" / "promela" / "S_Some.pml", tmp_path).violated
+    check, folder = CHECKERS[target], tmp_path / "out" / target
+    assert check(folder / f"S_Both.{SUFFIX[target]}", tmp_path).violated
+    assert not check(folder / f"S_Some.{SUFFIX[target]}", tmp_path).violated
