@@ -11,6 +11,7 @@ from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.source import Span
 from swarmdsl.execution.simulate.trace import Line, as_text
 from swarmdsl.execution.verify.findings import Fault, Finding, transitions_of
+from swarmdsl.execution.verify.hints import hint
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.runs import Run
 from swarmdsl.execution.verify.verdict import Verdict
@@ -52,6 +53,7 @@ def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
         who=f" for `{verdict.robot}`" if verdict.robot is not None else "",
         related=tuple(_last_taken(verdict.run)),
         notes=(_head(verdict.run, size), *_lines(verdict.run)),
+        help=hint(verdict.run),
     )
 
 
@@ -67,7 +69,8 @@ def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
         reason=finding.detail,
         related=tuple(_last_taken(run, finding.place)) if run is not None else (),
         notes=notes,
-        help=_HELP.get(finding.fault),
+        help=(hint(run) if run is not None and finding.fault == "stuck" else None)
+        or _HELP.get(finding.fault),
     )
 
 
@@ -84,7 +87,10 @@ def _lines(run: Run) -> Iterator[str]:
             yield "from here on, again and again:"
         yield from _losses(run, number)
         place = place_of(line)
-        where = f"  ({printable(place.source.name)}:{place.line})" if place is not None else ""
+        told = [f"from {line.envelope.sender}"] if line.envelope.sender else []
+        if place is not None:
+            told.append(f"{printable(place.source.name)}:{place.line}")
+        where = f"  ({', '.join(told)})" if told else ""
         yield f"{as_text(line, width)}{where}"
     if len(run.lines) > _MOST_LINES:
         yield f"... and {len(run.lines) - _MOST_LINES} more"

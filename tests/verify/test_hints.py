@@ -1,0 +1,73 @@
+"""Hints at what could prevent a run."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.cli import run
+
+from .test_saved_test import EXAMPLES
+
+Verified = Callable[..., str]
+LANDING, ASKING = EXAMPLES["landing"], EXAMPLES["asking"]
+
+
+@pytest.fixture
+def verified(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Verified:
+    """Verify a property of a model, and return what is printed."""
+
+    def verified(text: str, name: str, *options: str) -> str:
+        path = tmp_path / "model.swarm"
+        path.write_text(text, encoding="utf-8")
+        run(["verify", str(path), "--property", name, *options])
+        return capsys.readouterr().out
+
+    return verified
+
+
+def helps(out: str) -> list[str]:
+    return re.findall(r"= help: (.*)", out)
+
+
+def test_an_ignored_event_of_another_robot_is_named(verified: Verified) -> None:
+    out = verified(LANDING, "AllDown")
+
+    (told,) = helps(out)
+    assert told.startswith("`drone[1]` ignores `Free` in `Circle`: handle it there with `on Free`")
+    assert told.endswith("or keep it with `defer Free`")
+    assert "Free (ignored)  (from drone[0])" in out
+    assert re.search(r"Taken -> Wait; cancel circle  \(from drone\[0\], .*model.swarm:15\)", out)
+    mended = LANDING.replace("    do circle\n", "    do circle\n    defer Free\n")
+    assert re.search("AllDown +holds", verified(mended, "AllDown"))
+
+
+def test_a_guard_that_was_false_is_named(verified: Verified) -> None:
+    guarded = LANDING.replace(
+        "    on Taken -> Wait\n", "    on Taken -> Wait\n    on Free [self.count > 9] -> Circle\n"
+    )
+    (told,) = helps(verified(guarded, "AllDown"))
+
+    assert "`drone[1]` ignores `Free` in `Circle`: the guard in " in told
+    assert told.endswith("model.swarm:16 is false then")
+
+
+def test_a_lost_event_that_nothing_follows_is_named(verified: Verified) -> None:
+    out = verified(ASKING, "CanLand", "--lossy")
+    hint = "`drone[0]` waits in `Wait`, though `Ask` is lost: add `after` a time there"
+    assert helps(out) == [hint]
+
+    mended = ASKING.replace(
+        "on Yes -> Land }", "on Yes -> Land\n    after 5 s / send Ask -> Wait }"
+    )
+    assert helps(verified(mended, "CanLand", "--lossy")) == []
+
+
+def test_nothing_is_hinted_where_the_run_does_not_show_it(verified: Verified) -> None:
+    out = verified(LANDING, "OneLands")
+
+    assert "SW1701" in out
+    assert helps(out) == []
