@@ -82,11 +82,12 @@ def test_lenses_use_commands_of_the_editor(tmp_path):
     assert command["arguments"] == [uri, uses["range"]["start"], []]
 
 
-def test_a_property_has_a_lens_that_checks_it(tmp_path):
+def test_properties_and_swarms_have_lenses_that_check_and_verify_them(tmp_path):
     uri = (tmp_path / "a.swarm").as_uri()
     text = "swarm event Go : std_msgs/Empty\nswarm One { }\nproperty Quiet of One : never Go\n"
     document = {"uri": uri, "languageId": "swarm", "version": 1, "text": text}
-    options = {"capabilities": {}, "initializationOptions": {"commands": ["swarmdsl.simulate"]}}
+    commands = ["swarmdsl.simulate", "swarmdsl.verify"]
+    options = {"capabilities": {}, "initializationOptions": {"commands": commands}}
     process = subprocess.Popen(SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     for each in (
         message(id=1, method="initialize", params=options),
@@ -96,15 +97,16 @@ def test_a_property_has_a_lens_that_checks_it(tmp_path):
         process.stdin.write(each)
     process.stdin.flush()
     capabilities(process.stdout)
-    (lens,) = (
-        each for each in answer(process.stdout)["result"] if each["range"]["start"]["line"] == 2
-    )
+    lenses = [each for each in answer(process.stdout)["result"] if "command" in each]
     process.communicate(timeout=60)
-    assert lens["command"] == {
-        "title": "Check in simulation",
-        "command": "swarmdsl.simulate",
-        "arguments": [uri, {"kind": "property", "name": "Quiet"}],
-    }
+    swarm = {"kind": "swarm", "name": "One"}
+    quiet = {"kind": "property", "name": "Quiet"}
+    assert [(each["range"]["start"]["line"], *each["command"].values()) for each in lenses] == [
+        (1, "Simulate", "swarmdsl.simulate", [uri, swarm]),
+        (1, "Verify", "swarmdsl.verify", [uri, swarm]),
+        (2, "Check in simulation", "swarmdsl.simulate", [uri, quiet]),
+        (2, "Verify", "swarmdsl.verify", [uri, quiet]),
+    ]
 
 
 def test_server_on_a_loopback_port():

@@ -13,6 +13,7 @@ import { simulate } from "./simulate.ts";
 import { showStatus } from "./status.ts";
 import type { Simulated, Subject } from "./subject.ts";
 import { provideTasks } from "./tasks.ts";
+import { verify } from "./verify.ts";
 
 let server: Server | undefined;
 
@@ -39,6 +40,10 @@ export function activate(context: vscode.ExtensionContext): void {
     command("simulateInRealTime", (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = targetFile(file);
       return uri && simulate(started, uri, subject, preview);
+    }),
+    command("verify", (file?: vscode.Uri | string, subject?: Simulated) => {
+      const uri = targetFile(file);
+      return uri && verify(started, uri, preview, subject);
     }),
     command("followTrace", (file?: vscode.Uri | string) => {
       const uri = targetFile(file);

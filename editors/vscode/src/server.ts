@@ -122,7 +122,12 @@ export class Server implements vscode.Disposable {
         outputChannel: this.log,
         // Commands that the server may use in code lenses.
         initializationOptions: {
-          commands: ["swarmdsl.references", "swarmdsl.preview", "swarmdsl.simulate"],
+          commands: [
+            "swarmdsl.references",
+            "swarmdsl.preview",
+            "swarmdsl.simulate",
+            "swarmdsl.verify",
+          ],
         },
         middleware: {
           workspace: {

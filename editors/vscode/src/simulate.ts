@@ -39,7 +39,7 @@ export async function simulate(
     showBundledLimit("simulate a model");
     return;
   }
-  const chosen = subject ?? (await chooseSubject(file));
+  const chosen = subject ?? (await chooseSubject(file, "Simulate"));
   const scenario = chosen && (await chooseScenario(file));
   if (!scenario) {
     return;
@@ -80,7 +80,11 @@ export async function simulate(
   });
 }
 
-async function chooseSubject(file: vscode.Uri): Promise<Simulated | undefined> {
+/** The swarm or state machine of the file; the user chooses if there are several. */
+export async function chooseSubject(
+  file: vscode.Uri,
+  title: string,
+): Promise<Simulated | undefined> {
   const outline = await vscode.commands.executeCommand<vscode.DocumentSymbol[] | undefined>(
     "vscode.executeDocumentSymbolProvider",
     file,
@@ -92,7 +96,7 @@ async function chooseSubject(file: vscode.Uri): Promise<Simulated | undefined> {
   if (found.length <= 1) {
     if (!found.length) {
       void vscode.window.showInformationMessage(
-        "This file has no swarm and no state machine to simulate.",
+        "This file has no swarm and no state machine.",
       );
     }
     return found[0];
@@ -102,7 +106,7 @@ async function chooseSubject(file: vscode.Uri): Promise<Simulated | undefined> {
     description: each.kind === "swarm" ? "swarm" : "state machine",
     each,
   }));
-  return (await vscode.window.showQuickPick(items, { title: "Simulate" }))?.each;
+  return (await vscode.window.showQuickPick(items, { title }))?.each;
 }
 
 /** Let the user choose a scenario beside the file, if there are any. */

@@ -27,6 +27,26 @@ NOTE_TAKEN = """picture => {
   const watch = new MutationObserver((all) => all.forEach(note));
   watch.observe(picture, { attributeFilter: ["class"], subtree: true });
 }"""
+PAIR = """package pair
+
+function try_it : abstraction { service "try_it" : std_srvs/Empty }
+
+endless statemachine Work {
+  initial Trying
+  state Trying {
+    do try_it
+    on succeeded -> Waiting
+    on aborted -> Trying
+  }
+  state Waiting {
+    after 1 s -> Trying
+  }
+}
+member Worker { behavior Work }
+swarm Pair { worker : Worker[2] }
+
+property OneWaits of Pair : never all worker in Waiting
+"""
 PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
 
 
@@ -232,6 +252,8 @@ def test_invalid_server_path_is_reported(window: Window) -> None:
 
 def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> None:
     """The interpreter is the one that runs these tests."""
+    pair = window.folder / "pair.swarm"
+    pair.write_text(PAIR, encoding="utf-8")
     window.open("sar.swarm")
     window.server(__version__)
     window.command("Swarm: Simulate")
@@ -254,6 +276,22 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
         window.choose("mission.toml")
         verdict = window.page.locator(".terminal-wrapper .xterm-rows", has_text="verdict")
         expect(verdict.last).to_contain_text(re.compile(r"OnGround\s+true"))
+
+        window.place("pair.swarm", "OneWaits of")
+        lenses = window.page.locator(".codelens-decoration", has_text="Check in simulation")
+        rows = window.page.locator(".terminal-wrapper .xterm-rows")
+        asked = rows.filter(has_text="OneWaits").first
+        window.again(lenses.locator("a", has_text="Verify").first.click, asked)
+        shown = rows.filter(has_text=re.compile(r"worker\[1\]\s+do\.Trying\.succeeded"))
+        expect(shown).not_to_have_count(0)
+        picture = window.view().locator("#picture")
+        expect(picture.locator(".lit")).to_contain_text(["Waiting"])
+        pair.unlink()
+        window.leave()
+
+        window.place("sar.swarm", "OnGround of")
+        holds = window.page.locator(".notification-toast", has_text="OnGround: holds")
+        window.again(lenses.locator("a", has_text="Verify").first.click, holds.first)
 
         window.command("Swarm: Follow ROS 2 Nodes...")
         window.answer("Follow ROS 2 Nodes", "/sar")

@@ -1,4 +1,4 @@
-"""Code lenses above declarations: references, preview, simulation."""
+"""Code lenses above declarations: references, preview, simulation, verification."""
 
 from __future__ import annotations
 
@@ -30,13 +30,14 @@ _KINDS: dict[type[TopLevel], Kind] = {
 }
 _PREVIEWED: tuple[Kind, ...] = ("machine", "member", "swarm")
 _SIMULATED: tuple[Kind, ...] = ("machine", "swarm", "property")
+_VERIFIED: tuple[Kind, ...] = ("swarm", "property")
 
 
 @dataclass(frozen=True)
 class CodeLens:
     """Lens at the name of a declaration; `kind` is None if it cannot be previewed."""
 
-    offer: Literal["references", "preview", "simulate"]
+    offer: Literal["references", "preview", "simulate", "verify"]
     name: Span
     kind: Kind | None = None
 
@@ -54,3 +55,5 @@ def code_lenses(file: File) -> Iterator[CodeLens]:
             yield CodeLens("preview", name, kind)
         if kind in _SIMULATED:
             yield CodeLens("simulate", name, kind)
+        if kind in _VERIFIED:
+            yield CodeLens("verify", name, kind)

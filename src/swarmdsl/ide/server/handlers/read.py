@@ -170,7 +170,8 @@ def _code_lenses(session: Session, params: lsp.CodeLensParams) -> list[lsp.CodeL
             answers.append(lsp.CodeLens(range=range_, data={"uri": uri}))
         elif command in session.commands:
             subject = {"kind": lens.kind, "name": lens.name.text}
-            title = "Check in simulation" if lens.kind == "property" else lens.offer.capitalize()
+            checks = (lens.kind, lens.offer) == ("property", "simulate")
+            title = "Check in simulation" if checks else lens.offer.capitalize()
             shown = lsp.Command(title=title, command=command, arguments=[uri, subject])
             answers.append(lsp.CodeLens(range=range_, command=shown))
     return answers
