@@ -61,18 +61,19 @@ SENTENCES = {
     "never 4..* drone in Dock": ("fails", "it takes 4 drone"),
     "never count(drone in Dock) > 0 and tower in Free": ("fails", "it takes 2 drone"),
     "never tower in Free and some drone starts dock": ("fails", "it takes 2 drone"),
-    "never some drone starts dock and some drone hears Ready": ("holds", "for every number"),
-    "some drone in Dock only after some drone sends Ask": ("holds", "for every number"),
-    "some drone in Dock only after tower in Busy": ("holds", "for every number"),
+    "never some drone starts dock and some drone hears Ready": ("holds", "for 1 or more drone"),
+    "some drone in Dock only after some drone sends Ask": ("holds", "for 1 or more drone"),
+    "some drone in Dock only after tower in Busy": ("holds", "for 1 or more drone"),
     "2..* drone in Dock only after tower hears Done": ("fails", "it takes 2 drone"),
-    "each drone : in Dock only after hears Grant": ("holds", "for every number"),
-    "each drone : in Dock only after sends Ask": ("holds", "for every number"),
-    "each drone : in Dock only after hears Ready": ("holds", "for every number"),
+    "each drone : in Dock only after hears Grant": ("holds", "for 1 or more drone"),
+    "each drone : in Dock only after sends Ask": ("holds", "for 1 or more drone"),
+    "each drone : in Dock only after hears Ready": ("holds", "for 1 or more drone"),
     "each drone : never in Dock and some other drone in Dock": ("fails", "it takes 2 drone"),
     "each drone : after sends Ask, never in Fly": ("fails", "it takes 1 drone"),
-    "each drone : never (in Dock and not in Dock)": ("holds", "for every number"),
-    "each drone : before hears Grant, never in Dock": ("holds", "for every number"),
+    "each drone : never (in Dock and not in Dock)": ("holds", "for 1 or more drone"),
+    "each drone : before hears Grant, never in Dock": ("holds", "for 1 or more drone"),
     "tower in Free at all times": ("fails", "it takes 1 drone"),
+    "never (count(drone in Fly) > 1 or tower in Busy)": ("fails", "it takes 1 drone"),
     "never all drone in Dock": ("fails", "of 1 drone"),
     "never (all drone in Dock and tower in Free)": ("unknown", "more of `drone` can end"),
     "never tower in Free and not some drone in Fly": ("fails", "of 1 drone"),
@@ -86,7 +87,7 @@ SENTENCES = {
     ),
     "each drone : in Wait leads to in Dock within 5 s": ("unknown", "it is about time"),
     "never count(drone in Dock) > 200": ("unknown", "more than 100 robots"),
-    "drone[0] in Dock only after drone[0] hears Grant": ("holds", "for every number"),
+    "drone[0] in Dock only after drone[0] hears Grant": ("holds", "for 1 or more drone"),
 }
 
 
@@ -156,9 +157,31 @@ def test_numbers_end_at_the_multiplicity(tmp_path: Path) -> None:
     text = FIELD + "property P of Field : never count(drone in Dock) > 2\n"
     (property_,), model = sized(text, tmp_path / "field.swarm")
 
-    assert for_every_number(property_, "drone", model, 0, 2).outcome == "holds"
-    assert for_every_number(property_, "drone", model, 0, 3).outcome == "fails"
+    assert for_every_number(property_, "drone", model, 1, 2).reason.startswith("for 1 to 2 drone,")
+    assert for_every_number(property_, "drone", model, 1, 3).outcome == "fails"
     assert for_every_number(property_, "drone", model, 5).reason == "it takes 5 drone"
+
+
+def test_a_property_of_robots_that_are_not_there_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "field.swarm"
+    text = FIELD.replace("tower : Tower", "tower : Tower[*]")
+    path.write_text(f"{text}property P of Field : each tower : never in Busy\n", encoding="utf-8")
+
+    assert run(["verify", str(path), "--size", "drone=any", "--size", "tower=0"]) == 0
+    assert "P  holds  there is no `tower`" in capsys.readouterr().out
+
+
+def test_numbers_begin_with_one(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    # Without drones, `Ask` would come from outside.
+    path = tmp_path / "field.swarm"
+    text = FIELD.replace("Drone[1..*]", "Drone[*]")
+    text += "property P of Field : tower in Busy only after some drone sends Ask\n"
+    path.write_text(text, encoding="utf-8")
+
+    run(["verify", str(path), "--size", "drone=any", "--property", "P"])
+    assert "P  holds  for 1 or more drone, " in capsys.readouterr().out
 
 
 _OTHER_ROBOTS = {
@@ -291,7 +314,7 @@ def test_a_violation_is_shown_with_its_robots(
     out = capsys.readouterr().out
     assert out.startswith("Field: any number of drone, 1 tower\n  of 1 drone, 1 tower:\n")
     assert "\n  Two      fails  it takes 2 drone\n" in out
-    assert "\n  Granted  holds  for every number of drone, " in out
+    assert "\n  Granted  holds  for 1 or more drone, " in out
     assert "a shortest run, of 2 drone, 1 tower:" in out
     scenario = tmp_path / "two.toml"
     scenario.write_text("[count]\ndrone = 2\n", encoding="utf-8")

@@ -56,7 +56,8 @@ def prove_any(
         return _smallest(property_, model, bounds, doubt, prove_at)
     robots = model.one_of_each(property_.each) if property_.each is not None else [None]
     found = [_one(property_, model, bounds, me, budget, prove_at) for me in robots]
-    return min(found, key=lambda each: _RANK[each.outcome])
+    absent = Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
+    return min(found, key=lambda each: _RANK[each.outcome], default=absent)
 
 
 def differs(property_: ir.Property, model: Model, bounds: Bounds) -> Doubt | None:
@@ -109,7 +110,7 @@ def _smallest(
     prove_at: Callable[[Mapping[str, int]], Verdict],
 ) -> Verdict:
     """Prove a property for the smallest swarm, if it cannot be decided for every number."""
-    counts = {role: max(least, 1) for role, (least, _) in bounds.items()}
+    counts = {role: least for role, (least, _) in bounds.items()}
     verdict = prove_at(counts)
     size = ", ".join(f"{number} {role}" for role, number in counts.items())
     if verdict.outcome == "fails":
@@ -139,9 +140,9 @@ def _one(
         question = _question(property_, model, bounds, groups, me)
     except NotCoveredError as error:
         return _smallest(property_, model, bounds, Doubt(str(error)), prove_at)
-    if question is None:
-        return Verdict(property_, "holds", reason=_every(bounds), robot=me)
-    found = cover(question.swarm, question.wanted, budget, question.at_start)
+    found = Cover(None, 0, complete=True)
+    if question is not None:
+        found = cover(question.swarm, question.wanted, budget, question.at_start)
     if budget.interrupted:
         return Verdict(property_, "unknown", found.looked, "the search was interrupted", robot=me)
     if found.numbers is not None:
@@ -155,7 +156,11 @@ def _one(
 
 
 def _every(bounds: Bounds) -> str:
-    return f"for every number of {' and '.join(bounds)}, however many events are on their way"
+    numbers = (
+        f"{least} or more {role}" if most is None else f"{least} to {most} {role}"
+        for role, (least, most) in bounds.items()
+    )
+    return f"for {', '.join(numbers)}, however many events are on their way"
 
 
 def _violated(
@@ -174,8 +179,6 @@ def _violated(
             numbers[group.role] += number
     # Roles that have no say may be as small as they can.
     counts = {r: max(n, bounds[r][0]) for r, n in numbers.items()}
-    if not any((*counts.values(), *(n for r, n in model.counts.items() if r not in counts))):
-        counts = dict.fromkeys(counts, 1)
     verdict = prove_at(counts)
     size = ", ".join(f"{number} {role}" for role, number in counts.items())
     if verdict.outcome == "fails":
@@ -184,7 +187,7 @@ def _violated(
     if verdict.reason:
         reason += f": {verdict.reason}"
     elif verdict.outcome == "holds":
-        reason += ", but only with more events on their way than the channel holds"
+        reason += f", but not with at most {model.options.capacity} of an event on the way"
     return Verdict(property_, "unknown", verdict.states, reason, verdict.place, me)
 
 

@@ -128,11 +128,11 @@ class _Search:
             if looks % _OFTEN == 1 and not budget.allows(self.looked):
                 return False
             numbers = self._numbers(tokens)
-            if numbers is None:
+            if numbers is not None and (self.best is None or sum(numbers) < sum(self.best)):
+                self.best = numbers
+            if numbers != self._least(tokens):
                 for before in self._before(tokens):
                     self.add(before, steps + 1)
-            elif self.best is None or sum(numbers) < sum(self.best):
-                self.best = numbers
         return True
 
     def _before(self, tokens: Tokens) -> Iterator[Tokens]:
@@ -185,7 +185,7 @@ class _Search:
         """Return the smallest swarm that starts with some tokens, or None."""
         if any(token.state != self._swarm[token.population].first for token in tokens):
             return None
-        least = [max(_number(tokens, n), each.least) for n, each in enumerate(self._swarm)]
+        least = self._least(tokens)
         need = max((len(token.bag) for token in tokens), default=0)
         # A robot does not hear itself: for a message of its own kind, there is one more.
         more = []
@@ -198,6 +198,10 @@ class _Search:
             if all(self._starts_with(token, numbers) for token in tokens):
                 return numbers
         return None
+
+    def _least(self, tokens: Tokens) -> tuple[int, ...]:
+        """Return the smallest swarm that has some tokens."""
+        return tuple(max(_number(tokens, n), each.least) for n, each in enumerate(self._swarm))
 
     def _starts_with(self, token: Token, numbers: Sequence[int]) -> bool:
         """Return True if so many robots send a token its messages when they start."""

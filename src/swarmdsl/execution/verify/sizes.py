@@ -74,11 +74,14 @@ def _allows(multiplicity: ir.Multiplicity, number: int) -> bool:
 
 
 def bounds(subject: Subject, asked: Sequence[Size]) -> dict[str, tuple[int, int | None]]:
-    """Return the least and greatest numbers of members of roles with any number."""
+    """Return the least and greatest numbers of members of roles with any number.
+
+    There is one at least: events of robots that are not there would come from outside.
+    """
     roles = subject.swarm.roles if subject.swarm is not None else ()
     free = {name for name, numbers in asked if numbers is None}
     return {
-        role.name: (role.multiplicity.lower, role.multiplicity.upper)
+        role.name: (max(role.multiplicity.lower, 1), role.multiplicity.upper)
         for role in roles
         if role.name in free
     }
