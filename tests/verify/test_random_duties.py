@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify.model import Options
+from swarmdsl.execution.verify.model import Model, Options
+from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.runs import written
 
 from .conftest import model_of, system_of, verdicts_of
@@ -59,6 +61,28 @@ def test_verdicts_are_those_of_all_fair_loops(
         found += compare(seed, tmp_path / "random.swarm", capsys)
 
     assert min(found["holds"], found["fails"], found["loop"]) > 3
+
+
+def test_verdicts_by_numbers_of_robots_are_those_of_each_by_itself(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def single(self: Model, *arguments: Any, **options: Any) -> list[Group]:
+        return groups(self, *arguments, **{**options, "single": True})
+
+    groups, path = Model.groups, tmp_path / "random.swarm"
+    verdicts: list[list[str]] = [[], []]
+    for is_single in (False, True):
+        if is_single:
+            monkeypatch.setattr(Model, "groups", single)
+        for seed in range(12):
+            text = random_duties(seed).replace("A[2]", "A[3]")
+            path.write_text(text, encoding="utf-8")
+            found = verdicts_of(model_of(path, None, Options(1, seed % 3 == 0)), 50_000)
+            verdicts[is_single] += (each.outcome for each in found.values())
+
+    # A run may be found by numbers, and not by robots, that no times fit.
+    assert all({*each} != {"holds", "fails"} for each in zip(*verdicts, strict=True))
+    assert min(map(verdicts[0].count, ("holds", "fails"))) > 5
 
 
 @pytest.mark.long

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.monitor import FALSE, PropertyResult, Violation
+from swarmdsl.execution.monitor import FALSE, TRUE, PropertyResult, Violation
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.measures import FitnessResult, evaluate, measures_of
@@ -92,30 +92,38 @@ class Recording:
         monitors = watch(self._properties, lambda actor: known[actor], measures=measures)
         lines = sorted(self._lines, key=_order)
         endings = [watch(self._properties, lambda actor: known[actor]) for _ in range(loop or 0)]
-        never: list[list[PropertyResult]] = []
+        ends: list[list[PropertyResult]] = []
         for number, (_, line, data) in enumerate(lines, start=1):
             known[line.actor] = data
             for each in (monitors, *endings):
                 each.see(line)
             if endings and number > len(lines) - (loop or 0):
-                # What stays open at each of these lines never happens.
-                never.append(endings.pop(0).results(line.time, ended=True))
+                ends.append(endings.pop(0).results(line.time, ended=True))
         results = monitors.results(end, ended=loop == 0)
-        if never:
-            results = [
-                last if all(_is_false_for(last, one) for one in others) else result
-                for result, last, *others in zip(results, *never[::-1], strict=True)
-            ]
+        if ends:
+            results = [_in_loop(result, at) for result, *at in zip(results, *ends, strict=True)]
         if self._fitness is None:
             return results, None
         return results, evaluate(self._fitness, monitors.readings(end))
 
 
-def _is_false_for(last: PropertyResult, other: PropertyResult) -> bool:
-    """Return True if two results are false, of one robot at least if they are about each."""
-    if last.verdict != FALSE or other.verdict != FALSE:
-        return False
-    return last.property.each is None or bool({*last.robots} & {*other.robots})
+def _in_loop(result: PropertyResult, ends: Sequence[PropertyResult]) -> PropertyResult:
+    """Return the verdict on a run whose last lines repeat for ever.
+
+    `ends` are the verdicts if one of these lines was the last one of all. What stays open at each
+    of them never happens, and all else does.
+    """
+    if result.verdict == FALSE:
+        return result
+    last = ends[-1]
+    robots = tuple(each for each in last.robots if all(each in end.robots for end in ends))
+    is_false = all(each.verdict == FALSE for each in ends)
+    if is_false and last.property.each is None:
+        return last
+    if is_false and robots:
+        violations = tuple(each for each in last.violations if each.robot in robots)
+        return last._replace(robots=robots, violations=violations)
+    return result._replace(verdict=TRUE, robots=())
 
 
 def _order(each: tuple[int, Line, Mapping[str, Any]]) -> tuple[int, bool, int]:
