@@ -143,6 +143,44 @@ def test_verdicts_with_their_reasons(tmp_path: Path) -> None:
             assert verdict.size == {"drone": sum("drone" in (name or "") for name in numbers)}
 
 
+_MEASURE = """package test
+message Length { metres : float64 }
+event Measure : Length
+event Tick : std_msgs/Empty
+swarm event Ask : Length
+endless statemachine M {
+  initial S0
+  state S0 { on Tick / send Ask(metres = 2.0) -> S0 }
+}
+endless statemachine N {
+  initial S0
+  state S0 {
+    on Measure -> S0
+    on Ask -> S0
+  }
+}
+member A { behavior M }
+member B { behavior N }
+swarm S { a : A[1..*]; b : B }
+"""
+
+
+@pytest.mark.parametrize(
+    ("sentence", "outcome"),
+    [
+        # It arrives at `b`: both facts can be true at this moment.
+        ("each a : never (Measure [event.metres > 5] and Measure)", "fails"),
+        ("each a : never (Measure [event.metres > 5] and not Measure)", "holds"),
+        ("never some a sends Ask [event.metres > 2]", "holds"),
+        ("never (2..* a sends Ask [event.metres > 1] or b hears Ask [event.metres < 2])", "holds"),
+        ("never b hears Ask [event.metres > 1]", "fails"),
+    ],
+)
+def test_conditions_on_messages(sentence: str, outcome: str, tmp_path: Path) -> None:
+    (property_,), model = sized(f"{_MEASURE}property P of S : {sentence}\n", tmp_path / "m.swarm")
+    assert for_every_number(property_, "a", model).outcome == outcome
+
+
 def test_robots_of_larger_swarms_are_told(tmp_path: Path) -> None:
     text = FIELD + "property P of Field : never drone[3] in Dock\n"
     (property_,), model = sized(text, tmp_path / "field.swarm")

@@ -16,7 +16,7 @@ from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network
 from swarmdsl.execution.verify.prove import about, is_about_ends, not_covered, table_of
-from swarmdsl.execution.verify.terms import Terms, facts_of, is_act
+from swarmdsl.execution.verify.terms import Terms, arriving, facts_of, is_act
 from swarmdsl.execution.verify.verdict import Outcome, Verdict, unfinished
 from swarmdsl.execution.verify.wanted import Need, NotCoveredError, Wanted
 
@@ -387,10 +387,10 @@ def _of_one(
     terms = Terms(property_, network)
     scope = property_.scope.claims if property_.scope is not None else ()
     claims = [terms.truth(each) for each in (*property_.claims, *scope)]
-    outside = [-1, *(n for n, f in enumerate(terms.facts) if _arrives(f))]
+    outside = list(arriving(terms.facts))
 
-    def step(memory: int, bits: int, other: int = -1) -> int:
-        holding = [terms.holds(t, me, bits) or int(t == other) for t in range(len(terms))]
+    def step(memory: int, bits: int, others: frozenset[int] = frozenset()) -> int:
+        holding = [terms.holds(t, me, bits) or int(t in others) for t in range(len(terms))]
         return table.step(memory, tuple(bool(each(holding, holding)) for each in claims))
 
     automaton = network.groups[me].automaton
@@ -413,9 +413,9 @@ def _of_one(
         if table.is_settled(memory):
             continue
         following: list[tuple[int, int, int | None, tuple[int, ...]]] = []
-        for other in outside:
+        for others in outside:
             holding = automaton.look(state).holding
-            following.append((state, step(memory, holding, other), None, ()))
+            following.append((state, step(memory, holding, others), None, ()))
         for message, move in moves.get(state, ()):
             now = memory
             for moment in move.moments:
@@ -437,7 +437,3 @@ def _of_one(
     swarm[me].first = 0
     swarm[me].rules = rules
     return _Question(swarm, wanted)
-
-
-def _arrives(fact: ir.Fact | ir.Count) -> bool:
-    return isinstance(fact, ir.Fact) and fact.act == "arrives"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations, islice
+from itertools import islice
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
@@ -20,7 +20,7 @@ from swarmdsl.execution.verify.observer import Observer
 from swarmdsl.execution.verify.possible import prove_possible
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.runs import Run, play, steps_between
-from swarmdsl.execution.verify.terms import Terms, facts_of, is_act, roles_of
+from swarmdsl.execution.verify.terms import Terms, arriving, facts_of, is_act, roles_of
 from swarmdsl.execution.verify.verdict import Outcome, Verdict, unfinished, violated
 from swarmdsl.ir.sentences import facts_in
 
@@ -241,23 +241,6 @@ def _is_alone(property_: ir.Property) -> bool:
     return all(isinstance(f, ir.Fact) and f.robots is None for f in facts_of(property_))
 
 
-def _arriving(facts: Sequence[ir.Fact | ir.Count]) -> Iterator[frozenset[int]]:
-    """Yield the facts that can hold when another robot acts: none, or those about one event.
-
-    Whether a condition on its message holds is not known.
-    """
-    yield frozenset()
-    events: dict[str, dict[int, bool]] = {}
-    for number, fact in enumerate(facts):
-        if isinstance(fact, ir.Fact) and fact.act == "arrives":
-            events.setdefault(fact.name, {})[number] = fact.guard is None
-    for numbers in events.values():
-        sure = {number for number, holds in numbers.items() if holds}
-        perhaps = [number for number, holds in numbers.items() if not holds]
-        for count in range(len(perhaps) + 1):
-            yield from (frozenset((*sure, *each)) for each in combinations(perhaps, count))
-
-
 def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
     """Prove a property of one robot that hears all messages at any time.
 
@@ -268,7 +251,7 @@ def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
     terms = Terms(property_, Network([group], automaton.whole.alphabet, 0, lossy=False))
     scope = property_.scope.claims if property_.scope is not None else ()
     claims = [terms.truth(each) for each in (*property_.claims, *scope)]
-    arriving = list(_arriving(terms.facts))
+    outside = list(arriving(terms.facts))
 
     def step(memory: int, bits: int, others: frozenset[int] = frozenset()) -> int:
         holding = [terms.holds(t, 0, bits) or int(t in others) for t in range(len(terms))]
@@ -293,7 +276,7 @@ def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
             continue
         # A line of another robot, on which an event may arrive from outside.
         holding = automaton.look(state).holding
-        found = {(state, step(memory, holding, others)) for others in arriving}
+        found = {(state, step(memory, holding, others)) for others in outside}
         moves = list(automaton.moves(state) or ())
         for message in range(len(automaton.whole.alphabet.messages)):
             heard = automaton.move_on(state, message)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import combinations
 from typing import Literal
 
 from swarmdsl import ir
@@ -153,6 +154,23 @@ def _compiled(reading: Reading) -> Truth:
 
 def _has(facts: Sequence[Fact | Count], fact: Fact | Count) -> bool:
     return any(same_fact(each, fact) for each in facts)
+
+
+def arriving(facts: Sequence[Fact | Count]) -> Iterator[frozenset[int]]:
+    """Yield the facts that can hold when another robot acts: none, or those about one event.
+
+    Whether a condition on its message holds is not known.
+    """
+    yield frozenset()
+    events: dict[str, dict[int, bool]] = {}
+    for number, fact in enumerate(facts):
+        if isinstance(fact, Fact) and fact.act == "arrives":
+            events.setdefault(fact.name, {})[number] = fact.guard is None
+    for numbers in events.values():
+        sure = {number for number, holds in numbers.items() if holds}
+        perhaps = [number for number, holds in numbers.items() if not holds]
+        for count in range(len(perhaps) + 1):
+            yield from (frozenset((*sure, *each)) for each in combinations(perhaps, count))
 
 
 def same_fact(one: Fact | Count, other: Fact | Count) -> bool:
