@@ -51,6 +51,15 @@ def test_robots_that_hear_each_other(target: str, tmp_path: Path) -> None:
     assert (found.counts, found.holds, found.fails) == (1, 4, 0)
 
 
+@pytest.mark.parametrize("target", WITNESSES)
+def test_robots_that_address_each_other(target: str, tmp_path: Path) -> None:
+    source = ROOT / "tests" / "composed" / "addressed.swarm"
+
+    found = compare(source, target, tmp_path, options=Options(1, lossy=True))
+
+    assert (found.counts, found.holds, found.fails) == (1, 1, 2)
+
+
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     swarms = metafunc.config.getoption("--swarms")
     if "seeds" in metafunc.fixturenames:
