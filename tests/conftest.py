@@ -55,7 +55,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="print how far the engines of state machines agree, machine by machine",
     )
     parser.addoption(
-        "--swarms", type=int, default=2, help="how many random swarms other model checkers look at"
+        "--swarms", type=int, default=1, help="how many random swarms other model checkers look at"
     )
     parser.addoption(
         "--mutants", type=int, default=400, help="how many models with random mistakes are checked"
