@@ -82,7 +82,7 @@ def cover(
     search = _Search(swarm)
     search.best = known
     for each in wanted:
-        search.add(each, 0)
+        search.add(each)
     try:
         complete = search.run(budget)
     except KeyboardInterrupt:
@@ -108,31 +108,34 @@ class _Search:
                 for message in dict.fromkeys(rule.sends):
                     self._senders.setdefault(message, []).append((number, rule))
 
-    def add(self, tokens: Tokens, steps: int) -> None:
+    def add(self, tokens: Tokens) -> None:
         """Keep a set of tokens unless a known one has less, or more robots are too many."""
         if not self._is_possible(tokens) or self._is_known(tokens):
             return
         first = tokens[0] if tokens else Token(-1, -1)
         self._known.setdefault(first[:2], []).append(tokens)
         self.looked += 1
-        heappush(self._queue, (len(tokens), steps, next(self._order), tokens))
+        on_the_way = sum(len(token.bag) for token in tokens)
+        heappush(self._queue, (len(tokens), on_the_way, next(self._order), tokens))
 
     def run(self, budget: Budget) -> bool:
         """Search until nothing new is found; return False if that ended at a limit."""
         looks = 0
         while self._queue:
-            size, steps, _, tokens = heappop(self._queue)
+            size, _, _, tokens = heappop(self._queue)
             if self.best is not None and size >= sum(self.best):
                 return True
             looks += 1
             if looks % _OFTEN == 1 and not budget.allows(self.looked):
                 return False
+            if self._is_outdone(tokens):
+                continue
             numbers = self._numbers(tokens)
             if numbers is not None and (self.best is None or sum(numbers) < sum(self.best)):
                 self.best = numbers
             if numbers != self._least(tokens):
                 for before in self._before(tokens):
-                    self.add(before, steps + 1)
+                    self.add(before)
         return True
 
     def _before(self, tokens: Tokens) -> Iterator[Tokens]:
@@ -180,6 +183,15 @@ class _Search:
     def _is_known(self, tokens: Tokens) -> bool:
         places = {token[:2] for token in tokens} | {(-1, -1)}
         return any(_has(tokens, less) for each in places for less in self._known.get(each, ()))
+
+    def _is_outdone(self, tokens: Tokens) -> bool:
+        """Return True if a set with less was found after a set of tokens, and forget this one."""
+        alike = self._known[(tokens[0] if tokens else Token(-1, -1))[:2]]
+        alike.remove(tokens)
+        if self._is_known(tokens):
+            return True
+        alike.append(tokens)
+        return False
 
     def _numbers(self, tokens: Tokens) -> tuple[int, ...] | None:
         """Return the smallest swarm that starts with some tokens, or None."""
