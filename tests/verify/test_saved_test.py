@@ -25,6 +25,7 @@ IN_TURN = (
     ("  state Wait { on Free -> Circle }\n", ""),
 )
 AGAIN = (("on Yes -> Land }", "on Yes -> Land\n    after 5 s / send Ask -> Wait }"),)
+ADDRESSED = (("send Grant -> Busy", "send Grant to event.sender -> Busy"),)
 SHORTER = (("after 3 s -> Wait", "after 1 s -> Wait"),)
 
 Saved = Callable[..., str]
@@ -54,6 +55,7 @@ def saved(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Saved:
         ),
         ("asking", ("--lossy",), ["drone[0] goes on from Wait", "CanLand for drone[0]"], AGAIN),
         ("courier", (), ["Waits for courier[0]"], SHORTER),
+        ("charging", ("--size", "drone=any", "--property", "Alone"), ["Alone"], ADDRESSED),
     ],
 )
 def test_each_run_of_the_page_fails_until_the_model_is_mended(
@@ -119,6 +121,35 @@ property NotBoth of Scouts : never some scout in Both
     assert '{ pass = "1501 ms" }' in text
     assert run(["test", "it.swarmtest.toml"]) == 1
     assert "property `NotBoth` is violated" in capsys.readouterr().out
+
+
+def test_an_input_comes_before_a_delay_that_ends_at_the_same_time(
+    saved: Saved, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = saved(
+        """package model
+event Go : std_msgs/Empty
+endless statemachine Work {
+  initial Idle
+  state Idle {
+    on Go -> Hit
+    after 1 s -> Late
+  }
+  state Late { on Go -> Idle }
+  state Hit { on Go -> Idle }
+}
+member Worker { behavior Work }
+swarm Crew { worker : Worker }
+property NoHits of Crew : never some worker in Hit
+property Starts of Crew : some worker in Late at all times
+"""
+    )
+
+    assert '{ pass = "999999 us" },\n  { send = "Go", to = "worker[0]" }' in text
+    # A run that violates a property at the start has no input.
+    assert text.endswith('steps = [\n  { pass = "1 s" },\n]\n')
+    assert run(["test", "it.swarmtest.toml"]) == 1
+    assert capsys.readouterr().out.count("FAILED") == 2
 
 
 def test_a_machine_alone(saved: Saved, capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,6 +10,7 @@ from random import Random
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.parser.literals import UNITS, nanoseconds
 
+MICROSECOND = UNITS["us"]
 MILLISECOND = UNITS["ms"]
 SECOND = UNITS["s"]
 

@@ -153,7 +153,8 @@ class _Session:
             surveys.append(found)
             for finding in found.findings:
                 self._write(finding.title, finding.run)
-                self._shown.append(shown_by_finding(finding, counts) or finding.title)
+                if finding.run is not None:
+                    self._shown.append(shown_by_finding(finding, counts) or finding.title)
                 diagnostics.report_finding(finding, size, self._report)
         for property_ in properties:
             known = verdicts.get(property_.name)
