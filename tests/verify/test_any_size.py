@@ -321,13 +321,12 @@ def test_verdicts_are_those_of_all_sizes(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("small")
 @pytest.mark.long
 @pytest.mark.timeout(3000)
-@pytest.mark.parametrize("start", [100, 200])
-def test_verdicts_on_many_swarms_are_those_of_all_sizes(start: int, tmp_path: Path) -> None:
+def test_verdicts_on_many_swarms_are_those_of_all_sizes(tmp_path: Path) -> None:
     found: Counter[str] = Counter()
-    for seed in range(start, start + 30):
+    for seed in range(200, 220):
         found += compare(seed, tmp_path / "random.swarm")
 
-    assert min(found["holds"], found["fails"]) > 20
+    assert min(found["holds"], found["fails"]) > 15
 
 
 # ---- the command
