@@ -11,11 +11,12 @@ from swarmdsl.codegen.shared import (
     constant,
     envelopes_of,
     facts_of,
-    parts_text,
+    measure_text,
     reads_envelope,
     sentence_text,
 )
 from swarmdsl.ir import (
+    DURATION,
     Claim,
     Count,
     Expression,
@@ -33,8 +34,6 @@ from swarmdsl.ir import (
     reads_values,
     subexpressions,
 )
-from swarmdsl.ir.sentences import facts_in, measure
-from swarmdsl.syntax.types import DURATION
 
 from .imports import WIDTH, Imports
 from .launch import Launch
@@ -180,7 +179,7 @@ def _facts_about(swarm: str, system: System) -> Iterator[tuple[str | None, Fact 
 
 
 def _facts_of_input(input_: FitnessInput) -> Iterable[Fact | Count]:
-    return facts_in(input_.measure.claim) if input_.measure is not None else ()
+    return facts_of(input_.measure) if input_.measure is not None else ()
 
 
 def _fitness_of(swarm: str, system: System) -> Fitness | None:
@@ -349,7 +348,7 @@ def _rows(texts: Mapping[str, str]) -> str:
 
 def _measure_text(input_: FitnessInput, named: Callable[[str], str]) -> str:
     assert input_.measure is not None
-    return parts_text(measure(input_.measure), named)
+    return measure_text(input_.measure, named)
 
 
 def _machines(

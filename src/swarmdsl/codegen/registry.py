@@ -43,6 +43,7 @@ ON_REQUEST = frozenset(
         "composition",
         "frevo",
         "promela",
+        "murphi",
     }
 )
 GROUP = "swarmdsl.generators"

@@ -8,11 +8,10 @@ from typing import Literal
 from swarmdsl import ir
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
-from swarmdsl.codegen.shared.property_texts import parts_text
+from swarmdsl.codegen.shared.property_texts import measure_text
 from swarmdsl.codegen.swarm_printer.composition import heartbeat
 from swarmdsl.codegen.swarm_printer.expressions import expression, with_names
 from swarmdsl.codegen.swarm_printer.layout import quoted
-from swarmdsl.ir.sentences import measure
 
 
 def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
@@ -171,7 +170,7 @@ def _input(field: ir.FitnessInput) -> str:
     declared = f"in {field.name} : {type_name(field.type)}"
     if field.measure is None:
         return declared
-    return f"{declared} = {parts_text(measure(field.measure))}"
+    return f"{declared} = {measure_text(field.measure)}"
 
 
 def _around(

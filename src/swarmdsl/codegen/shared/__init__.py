@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from swarmdsl.codegen.shared.property_texts import (
         condition_text,
         facts_of,
+        measure_text,
         parts_text,
         sentence_text,
     )
@@ -94,7 +95,7 @@ else:
             "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
             "swarmdsl.codegen.shared.part_values": "check_part_values",
             "swarmdsl.codegen.shared.property_texts": (
-                "condition_text facts_of parts_text sentence_text"
+                "condition_text facts_of measure_text parts_text sentence_text"
             ),
             "swarmdsl.codegen.shared.state_expressions": "expressions_of timed_states",
             "swarmdsl.codegen.shared.swarmros": "bridge_files",
@@ -132,6 +133,7 @@ __all__ = [
     "field_type",
     "follows_members",
     "has_node",
+    "measure_text",
     "member_uses",
     "member_wiring",
     "missing_values",

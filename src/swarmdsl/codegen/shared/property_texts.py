@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from swarmdsl.codegen.swarm_printer.expressions import expression
-from swarmdsl.ir import Count, Expression, Fact, Property
-from swarmdsl.ir.sentences import Condition, Named, Part, facts_in, sentence
+from swarmdsl.ir import Count, Expression, Fact, Measure, Property
+from swarmdsl.ir.sentences import Condition, Named, Part, facts_in, measure, sentence
 
 
 def condition_text(condition: Expression) -> str:
@@ -22,6 +22,11 @@ def sentence_text(property_: Property, named: Callable[[str], str] = str) -> str
     return parts_text(sentence(property_), named)
 
 
+def measure_text(each: Measure, named: Callable[[str], str] = str) -> str:
+    """Return a measure, with names of variables printed by `named`: `total(uav sends Found)`."""
+    return parts_text(measure(each), named)
+
+
 def parts_text(parts: Iterable[Part], named: Callable[[str], str] = str) -> str:
     """Return parts of a sentence as text."""
     return "".join(
@@ -34,8 +39,11 @@ def parts_text(parts: Iterable[Part], named: Callable[[str], str] = str) -> str:
     )
 
 
-def facts_of(property_: Property) -> Iterator[Fact | Count]:
-    """Yield the facts in a property and in its scope."""
-    scope = property_.scope.claims if property_.scope is not None else ()
-    for claim in (*property_.claims, *scope):
+def facts_of(said: Property | Measure) -> Iterator[Fact | Count]:
+    """Yield the facts in a property and in its scope, or in a measure."""
+    if isinstance(said, Measure):
+        yield from facts_in(said.claim)
+        return
+    scope = said.scope.claims if said.scope is not None else ()
+    for claim in (*said.claims, *scope):
         yield from facts_in(claim)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from decimal import Decimal
 
-from swarmdsl.codegen.shared.property_texts import parts_text, sentence_text
+from swarmdsl.codegen.shared.property_texts import measure_text, parts_text, sentence_text
 from swarmdsl.codegen.swarm_printer.architecture import print_values
 from swarmdsl.codegen.swarm_printer.expressions import duration, expression
 from swarmdsl.codegen.swarm_printer.interfaces import print_params
@@ -25,7 +25,7 @@ from swarmdsl.ir import (
     Swarm,
     doc_of,
 )
-from swarmdsl.ir.sentences import head, measure
+from swarmdsl.ir.sentences import head
 
 _ONE = Multiplicity(1, 1)
 
@@ -96,7 +96,7 @@ def _input(each: FitnessInput, names: Names) -> str:
     declared = f"in {each.name} : {names.type(each.type)}"
     if each.measure is None:
         return declared
-    return f"{declared} = {parts_text(measure(each.measure))}"
+    return f"{declared} = {measure_text(each.measure)}"
 
 
 def print_optimization(optimization: Optimization) -> list[str]:
