@@ -15,9 +15,11 @@ from measure import Section, interleaved, spread
 from peers import mesa_model, simpy_model
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
+from swarmdsl.execution.monitor import Plan
 from swarmdsl.execution.simulate.actors import actors
 from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.properties import watch, watchable
+from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
+from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.run import run
 from swarmdsl.execution.simulate.scenario import Scenario
@@ -89,6 +91,9 @@ class Crowd:
         return self.seconds * self.talkers * (self.talkers + self.listeners - 1)
 
 
+RESCUE = Path(__file__).resolve().parents[1] / "examples" / "search_and_rescue"
+MISSIONS = 10
+"""Number of missions of search_and_rescue, in which nearly each step changes a fact."""
 WATCHED = (Crowd(10, 990, 100), Crowd(100, 900, 10))
 CROWDS = (Crowd(300, 0, 10), Crowd(10, 990, 100), Crowd(10, 9_990, 10))
 """The last two have as many deliveries: the time must not grow with the robots."""
@@ -120,7 +125,7 @@ def deliveries(subject: Subject, crowd: Crowd, *, trace: bool = False) -> float:
     gc.collect()
     start = process_time()
     properties = watchable(subject)
-    monitors = watch(properties, world.data)
+    monitors = watch(plan(properties), world.data)
     if properties:
         observe(world.trace, monitors, world.clock)
     run(world, [], crowd.seconds * SECOND)
@@ -139,6 +144,25 @@ def deliveries_of(model: Callable[[int, int, int], int], crowd: Crowd) -> float:
     spent = process_time() - start
     assert heard == crowd.deliveries
     return crowd.deliveries / spent
+
+
+def missions(prepared: Prepared, planned: Plan | None) -> float:
+    """Return missions per second of CPU time, with the properties that are watched."""
+    spent = 0.0
+    assert prepared.scenario.until is not None
+    for seed in range(MISSIONS):
+        cast, inputs = prepared.stage(Diagnostics())
+        world = World(prepared.subject.system, cast, prepared.scenario, seed, [])
+        gc.collect()
+        start = process_time()
+        monitors = watch(planned, world.data) if planned is not None else None
+        if monitors is not None:
+            observe(world.trace, monitors, world.clock)
+        run(world, inputs, MISSIONS * prepared.scenario.until)
+        if monitors is not None:
+            monitors.results(world.clock.now, ended=False)
+        spent += process_time() - start
+    return MISSIONS**2 / spent
 
 
 @dataclass(frozen=True)
@@ -190,23 +214,39 @@ def section(folder: Path) -> Section:
 
 
 def _watched(folder: Path, found: Section) -> None:
-    """Compare runs with ten properties and without any; the rounds take turns.
+    """Compare runs with properties and without any.
 
-    Most deliveries change no fact here. Steps that do cost about as much again.
+    Most deliveries change no fact in the crowds, and nearly all steps do in the missions.
     """
     for crowd in WATCHED:
         alone, watched = load(folder, crowd), load(folder, crowd, PROPERTIES)
-        speeds = interleaved(
-            {
-                "alone": partial(deliveries, alone, crowd),
-                "watched": partial(deliveries, watched, crowd),
-            },
-            ROUNDS,
+        _overhead(
+            f"ten properties, {crowd.title}",
+            partial(deliveries, alone, crowd),
+            partial(deliveries, watched, crowd),
+            found,
         )
-        pairs = zip(speeds["alone"], speeds["watched"], strict=True)
-        found.goal(
-            f"percent more time with ten properties, {crowd.title}",
-            median(100 * (one / other - 1) for one, other in pairs),
-            MOST_FOR_PROPERTIES,
-            "{:.0f}",
-        )
+    request = Request((RESCUE,), scenario=RESCUE / "mission.toml")
+    prepared = prepare(request, Diagnostics())
+    assert prepared is not None
+    properties = watchable(prepared.subject)
+    _overhead(
+        f"{len(properties)} properties, {MISSIONS} times {MISSIONS} missions of search_and_rescue",
+        partial(missions, prepared, None),
+        partial(missions, prepared, plan(properties)),
+        found,
+    )
+
+
+def _overhead(
+    title: str, alone: Callable[[], float], watched: Callable[[], float], found: Section
+) -> None:
+    """Compare the speeds of runs that are watched and of those that are not, which take turns."""
+    speeds = interleaved({"alone": alone, "watched": watched}, ROUNDS)
+    pairs = zip(speeds["alone"], speeds["watched"], strict=True)
+    found.goal(
+        f"percent more time with {title}",
+        median(100 * (one / other - 1) for one, other in pairs),
+        MOST_FOR_PROPERTIES,
+        "{:.0f}",
+    )

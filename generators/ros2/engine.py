@@ -16,7 +16,10 @@ from swarmdsl.codegen import engine_folder, monitors_folder
 _NOUNS = ("A", "An", "The", "What", "Which")
 # Each module needs only modules before it.
 _ENGINE = ("table", "activity", "world", "arrays", "step", "configuration", "instance")
-_MONITORS = ("patterns", "monitor", "claims", "facts", "truth", "meters", "watch")
+_MONITORS = (
+    *("patterns", "monitor", "automaton", "claims", "facts"),
+    *("truth", "meters", "plan", "progress", "watch"),
+)
 _GONE = "\0"
 _TOKEN = re.compile(r'"""[\s\S]*?"""|#[^\n]*|f?"(?:[^"\\\n]|\\.)*"')
 

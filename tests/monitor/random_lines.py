@@ -20,6 +20,7 @@ from swarmdsl.execution.monitor import (
     Count,
     Fact,
     Junction,
+    Plan,
     Property,
     Robots,
     Sentence,
@@ -237,7 +238,7 @@ def random_moments(dice: random.Random) -> list[list[Line]]:
 def check_one(dice: random.Random) -> Verdict:
     """Compare the verdict on a run of lines."""
     property_, moments = random_property(dice), random_moments(dice)
-    watch = Watch([property_], has)
+    watch = Watch(Plan([property_]), has)
     for moment in moments:
         for line in moment:
             watch.see(line)

@@ -6,7 +6,7 @@ import random
 import sys
 from collections import Counter
 
-from swarmdsl.execution.monitor import FALSE, Monitor, Sentence, Verdict
+from swarmdsl.execution.monitor import FALSE, Automaton, Monitor, Sentence, Verdict
 
 from .random_lines import check_lines
 from .slow import Step, verdict
@@ -62,8 +62,32 @@ def check_one(dice: random.Random) -> Verdict:
     ended = dice.random() < 0.3
     end = (run[-1].time if run else 0) + dice.randrange(10)
     found = monitor.finish(end, ended=ended)
+    assert by_automaton(sentence, run, end, ended=ended) == (found, monitor.violated)
     assert found == verdict(sentence, run, end, ended=ended), (sentence, run, end, ended, found)
     return found
+
+
+def by_automaton(
+    sentence: Sentence, run: list[Step], end: int, *, ended: bool
+) -> tuple[Verdict, int | None]:
+    """Return the verdict of the automaton, and the time of the violation."""
+    claims = len(run[0].claims) if run else KINDS[sentence.kind]
+    automaton = Automaton(sentence, claims, SCOPES[sentence.scope])
+    state, due = automaton.first, 0
+    violated: int | None = None
+    for step in [*run, None]:
+        time = end if step is None else step.time
+        if state.is_timed and time > due:
+            state = automaton.late(state)
+            violated = due if state.is_violated and violated is None else violated
+        if step is not None:
+            target, begins = automaton.step(state, (*step.claims, *step.scope))
+            assert target is state or not automaton.is_final(state)
+            due = time + automaton.within if begins else due
+            violated = time if target.is_violated and violated is None else violated
+            state = target
+    found, last = automaton.end(state, ended=ended)
+    return found, end if last.is_violated and violated is None else violated
 
 
 def check_many(count: int, seed: int = 0) -> Counter[Verdict]:

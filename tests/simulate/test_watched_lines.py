@@ -14,7 +14,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.toml import parse_toml
-from swarmdsl.execution.monitor import facts, truth
+from swarmdsl.execution.monitor import automaton, plan, progress
 from swarmdsl.execution.simulate import properties
 from swarmdsl.execution.simulate.actors import actors
 from swarmdsl.execution.simulate.inputs import Input
@@ -22,7 +22,7 @@ from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.run import run
 from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line, as_text
+from swarmdsl.execution.simulate.trace import as_text
 from swarmdsl.execution.simulate.world import World
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -49,16 +49,17 @@ def verdicts_on(
     cast = actors(subject, subject.create_robots(scenario.counts), scenario, Diagnostics())
     listeners: list[object] = []
     world = World(system, cast, scenario, seed, listeners)  # type: ignore[arg-type]
-    watch = properties.watch(properties.watchable(subject), world.data)
+    planned = properties.plan(properties.watchable(subject))
+    monitors = properties.watch(planned, world.data)
     if reported:
-        observe(world.trace, watch, world.clock)
+        observe(world.trace, monitors, world.clock)
     else:
-        listeners.append(watch.see)
+        listeners.append(monitors.see)
     run(world, [Input(event, 7 * 10**9, None, tuple(cast)) for event in events], 10**9 * 120)
-    results = watch.results(world.clock.now, ended=False)
+    results = monitors.results(world.clock.now, ended=False)
     told = sorted(
         (each.property.name, str(each.robot), each.time, [as_text(line) for line in each.last])
-        for each in watch.violations
+        for each in monitors.violations
     )
     return [*((each.property.name, each.verdict, each.robots) for each in results), *told]
 
@@ -179,10 +180,11 @@ def test_only_what_changes(
 ) -> None:
     found = [verdicts(example, events, seed) for seed in range(3)]
 
-    def all_trackers(route: facts.Route, line: Line) -> object:
-        return route._all
+    def all_of_them(planned: plan.Plan, _facts: int) -> object:
+        return range(len(planned.rules)), range(len(planned.gauges))
 
-    monkeypatch.setattr(facts.Route, "trackers_of", all_trackers)
-    monkeypatch.setattr(truth.Claims, "affected", lambda claims, changed, robots: robots)
+    monkeypatch.setattr(plan.Plan, "about", all_of_them)
+    monkeypatch.setattr(progress.Progress, "affected", lambda each, *_changed: each.robots.values())
+    monkeypatch.setattr(automaton.Automaton, "is_final", lambda _self, _state: False)
     assert found == [verdicts(example, events, seed) for seed in range(3)]
     assert all(found)

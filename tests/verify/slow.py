@@ -18,7 +18,7 @@ from swarmdsl.execution.engine import Envelope, Event, Instance, InstanceLike, R
 from swarmdsl.execution.monitor import FALSE
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.properties import watch, watchable
+from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, Trace
@@ -39,7 +39,7 @@ class _Swarm:
         self.clock = Clock()
         self.lines: list[Line] = []
         self.trace = Trace(self.clock, [self._see])
-        self.watch = watch(properties, self._data)
+        self.watch = watch(plan(properties), self._data)
         self.runs: list[Run] = []
         self.delays: list[Any] = []
         self.bags: list[list[tuple[str, Any, str]]] = [[] for _ in self.cast]
@@ -155,9 +155,8 @@ class _Swarm:
     def memories(self) -> dict[str, list[Any]]:
         """Memory of the monitors of each property."""
         return {
-            watched.property.name: [
-                (*monitor.memory[1:], monitor.violated is not None)
-                for monitor in watched._monitors.values()
+            watched.rule.property.name: [
+                (*state.monitor.memory[1:], state.is_violated) for state in watched.states.values()
             ]
             for watched in self.watch._watched
         }

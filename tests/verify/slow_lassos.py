@@ -45,10 +45,10 @@ class _Watched(_Swarm):
 
     def now_open(self) -> Open:
         return frozenset(
-            (watched.property.name, robot)
+            (watched.rule.property.name, robot)
             for watched in self.watch._watched
-            for robot, monitor in watched._monitors.items()
-            if monitor.violated is None and monitor.copy().finish(0, ended=True) == FALSE
+            for robot, state in watched.states.items()
+            if not state.is_violated and state.monitor.copy().finish(0, ended=True) == FALSE
         )
 
     def running(self) -> list[tuple[Any, object]]:
@@ -67,8 +67,8 @@ class _Watched(_Swarm):
     @property
     def known(self) -> str:
         """All that decides on what can happen, on the monitors and on what is over next."""
-        moments = [(t.act, t.name, sorted(map(str, t.holding))) for t in self.watch.happened]
-        return repr((self.key, sorted(map(repr, moments))))
+        moments = sorted((str(each.name), bits) for each, bits in self.watch.happened.items())
+        return repr((self.key, moments))
 
 
 class _Edge(NamedTuple):

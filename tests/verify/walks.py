@@ -16,7 +16,7 @@ from swarmdsl.execution.monitor import FALSE
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.durations import SECOND, Uniform
 from swarmdsl.execution.simulate.inputs import Input
-from swarmdsl.execution.simulate.properties import watch, watchable
+from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.run import run
 from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
 from swarmdsl.execution.simulate.subject import Subject
@@ -109,7 +109,7 @@ def walk(system: ir.System, swarm: ir.Swarm, around: Surroundings, seed: int) ->
 
     world = World(system, cast, scenario, seed, [see], subject.heartbeat)
     properties = [each for each in watchable(subject) if each.chance is None]
-    monitors = watch(properties, world.data)
+    monitors = watch(plan(properties), world.data)
     try:
         ending = run(world, around.inputs(chance, cast), _LENGTH)
     except LoopError:

@@ -5,10 +5,21 @@ from swarmdsl.execution.monitor import (
     LOST,
     Measure,
     OPEN,
+    Plan,
     Property,
     PropertyResult,
     TRUE,
     Watch,
 )
 
-__all__ = ('FALSE', 'LOST', 'OPEN', 'TRUE', 'Measure', 'Property', 'PropertyResult', 'Watch')
+__all__ = (
+    'FALSE',
+    'LOST',
+    'OPEN',
+    'TRUE',
+    'Measure',
+    'Plan',
+    'Property',
+    'PropertyResult',
+    'Watch',
+)

@@ -3,7 +3,7 @@
 from collections import Counter
 from itertools import islice
 
-from .property_monitors import FALSE, OPEN, PropertyResult, TRUE, Watch
+from .property_monitors import FALSE, OPEN, Plan, PropertyResult, TRUE, Watch
 from .robot_lines import Actor, machine_of, MILLISECOND, Robot
 
 
@@ -19,7 +19,7 @@ class Watches:
         self._machines = swarm.machines
         self._told = told
         measures = [each.measure for each in swarm.measures]
-        self._swarm = Watch(swarm.properties, _has, measures=measures, told=told)
+        self._swarm = Watch(Plan(swarm.properties, measures), _has, told=told)
         self._alone = {}
         self._worst = {}
         self._seen = Counter()
@@ -92,7 +92,7 @@ class _Alone:
         self._began = max(line.time - line.record['t'] * MILLISECOND, 0)
         self._tell = tell
         self.states = dict.fromkeys(properties, OPEN)
-        self._watch = Watch(properties, _has, told=self._note)
+        self._watch = Watch(Plan(properties), _has, told=self._note)
 
     def see(self, line):
         self._watch.see(line._replace(time=line.time - self._began, actor=self._actor))

@@ -5,24 +5,25 @@ A `Watch` turns the lines of a run into the truth of claims; a `Monitor` gets th
 claim at each step, and knows nothing of robots.
 """
 
+from .automaton import Automaton
 from .claims import Claim, Count, Fact, Junction, Measure, Property, Robots
 from .facts import (
     LOST,
     MOMENTARY,
     ActorLike,
-    FactTracker,
+    Facts,
     Has,
+    Kind,
     LineLike,
     RobotLike,
-    Route,
     can_hold,
     meant_states,
-    test_of,
 )
 from .meters import Gauge, Meter, Reading, aggregated
 from .monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
 from .patterns import Pattern, pattern_of
-from .watch import Interest, PropertyResult, ViolatedError, Violation, Watch
+from .plan import Plan
+from .watch import PropertyResult, ViolatedError, Violation, Watch
 
 __all__ = [
     "FALSE",
@@ -31,25 +32,26 @@ __all__ = [
     "OPEN",
     "TRUE",
     "ActorLike",
+    "Automaton",
     "Claim",
     "Count",
     "Fact",
-    "FactTracker",
+    "Facts",
     "Gauge",
     "Has",
-    "Interest",
     "Junction",
+    "Kind",
     "LineLike",
     "Measure",
     "Meter",
     "Monitor",
     "Pattern",
+    "Plan",
     "Property",
     "PropertyResult",
     "Reading",
     "RobotLike",
     "Robots",
-    "Route",
     "Sentence",
     "Verdict",
     "ViolatedError",
@@ -59,5 +61,4 @@ __all__ = [
     "can_hold",
     "meant_states",
     "pattern_of",
-    "test_of",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Sequence
 from typing import Any, Protocol
 
 from .claims import Count, Fact
@@ -11,7 +11,6 @@ LOST = "fault.lost"
 """Event of a lost robot; no model event has such a name."""
 MOMENTARY = frozenset(("sends", "hears", "starts", "cancels", "arrives"))
 """Acts that happen at one step, in contrast to states and values."""
-ACTS = MOMENTARY | {"in", "has"}
 
 
 class RobotLike(Protocol):
@@ -89,100 +88,120 @@ class LineLike(Protocol):
 Has = Callable[[Any, Fact], bool]
 """Truth of the condition of a fact for the robot of a line, after the line; that of a fact that an
 event happens is about a message of the line."""
-Test = Callable[[LineLike], bool]
 
 
-class FactTracker:
-    """Robots of a role, or of all roles, for which a fact holds.
+class Facts:
+    """Facts that sentences about a run use: each is a bit in a number.
 
-    `holding` are the robots for which it holds now, `robots` those that are there: they have
-    started and are not lost. None stands for a machine without a swarm.
+    `momentary` has the bits of those that happen at one step.
     """
 
-    def __init__(self, fact: Fact | Count, role: str | None, has: Has) -> None:
-        self.act = "in" if isinstance(fact, Count) else fact.act
-        self.name = fact.state if isinstance(fact, Count) else fact.name
-        self.momentary = self.act in MOMENTARY
-        self.robots: set[str | None] = set()
-        self.holding: set[str | None] = set()
-        self._role = role
-        self._true: set[ActorLike] = set()
-        self._holds = test_of(fact, has)
+    def __init__(self) -> None:
+        self.momentary = 0
+        self._bits: dict[tuple[str, str, str | None, Hashable], int] = {}
 
-    def follows(self, actor: ActorLike) -> bool:
-        """Return True if lines of an actor can change the fact."""
-        return self._role in (None, actor.robot.role) and can_hold(self.act, actor)
-
-    def see(self, line: LineLike) -> bool:
-        """Process a line of an actor that it follows; return True if the fact changes."""
-        actor, robot = line.actor, line.actor.robot.name
-        if line.event == LOST:
-            known = robot in self.robots
-            self.robots.discard(robot)
-            self._set(actor, robot, value=False)
-            return known
-        changed = self._set(actor, robot, value=self._holds(line))
-        if robot not in self.robots:
-            self.robots.add(robot)
-            return True
-        return changed
-
-    def reset(self) -> set[str | None]:
-        """Forget what happened; return the robots to which it did."""
-        happened, self.holding = self.holding, set()
-        self._true.clear()
-        return happened
-
-    def _set(self, actor: ActorLike, robot: str | None, *, value: bool) -> bool:
-        if value == (actor in self._true):
-            return False
-        if value:
-            self._true.add(actor)
+    def bit(self, fact: Fact | Count, role: str | None) -> int:
+        """Return the bit of a fact of a role, or of all roles."""
+        key: tuple[str, str, str | None, Hashable]
+        if isinstance(fact, Count):
+            key = ("in", fact.state, role, None)
         else:
-            self._true.remove(actor)
-        held = robot in self.holding
-        holds = value or any(other.robot.name == robot for other in self._true)
-        if holds:
-            self.holding.add(robot)
-        else:
-            self.holding.discard(robot)
-        return held != holds
+            key = (fact.act, fact.name, role, fact.condition)
+        bit = self._bits.setdefault(key, 1 << len(self._bits))
+        if key[0] in MOMENTARY:
+            self.momentary |= bit
+        return bit
+
+    def kind_of(self, actor: ActorLike) -> Kind:
+        """Return the facts that lines of an actor can change."""
+        return Kind(
+            [
+                (bit, Fact(act, name, condition=condition))
+                for (act, name, role, condition), bit in self._bits.items()
+                if role in (None, actor.robot.role) and can_hold(act, actor)
+            ],
+            actor.states,
+        )
+
+
+class Kind:
+    """Facts that the lines of machines of one kind can change, in `mask`.
+
+    `acts` are the bits of what machines do and hear, by act and name, `values` those of what
+    robots have, and `conditional` those of all facts with a condition.
+    `places` are the facts that hold in known configurations, `heard` those that can change with an
+    event: all with the start or the loss of a robot.
+    """
+
+    def __init__(self, facts: Iterable[tuple[int, Fact]], states: Sequence[str]) -> None:
+        self.mask = self.values = self.conditional = 0
+        self._conditions: list[tuple[int, Fact]] = []
+        self.acts: dict[str, dict[str, int]] = {act: {} for act in MOMENTARY}
+        self._states: list[tuple[int, set[str]]] = []
+        self.places: dict[Hashable, int] = {}
+        for bit, fact in facts:
+            self.mask |= bit
+            if fact.condition is not None:
+                self.conditional |= bit
+                self._conditions.append((bit, fact))
+            if fact.act == "in":
+                self._states.append((bit, meant_states(states, fact.name.split("."))))
+            elif fact.act == "has":
+                self.values |= bit
+            else:
+                acts = self.acts[fact.act]
+                acts[fact.name] = acts.get(fact.name, 0) | bit
+        hears, arrives = self.acts["hears"], self.acts["arrives"]
+        self.heard: dict[str | None, int] = {None: -1, LOST: -1}
+        for event in (*hears, *arrives):
+            self.heard[event] = hears.get(event, 0) | arrives.get(event, 0) | self.values
+
+    def holding(self, line: LineLike, has: Has) -> int:
+        """Return the facts that hold for the machine of a line, after it."""
+        found, acts = self.inside(line.configuration), self.acts
+        for act, names in (
+            ("sends", line.sent),
+            ("starts", line.started),
+            ("cancels", line.cancelled),
+        ):
+            for name in names:
+                found |= acts[act].get(name, 0)
+        return self.complete(line, has, found)
+
+    def inside(self, configuration: Sequence[str]) -> int:
+        """Return the facts that hold in a configuration, given by its innermost states."""
+        key = tuple(configuration)
+        found = self.places.get(key)
+        if found is None:
+            active = {each for leaf in key for each in _around(leaf)}
+            found = sum(bit for bit, meant in self._states if not active.isdisjoint(meant))
+            self.places[key] = found
+        return found
+
+    def complete(self, line: LineLike, has: Has, found: int) -> int:
+        """Add the facts about the event of a line and about values, and look at all conditions.
+
+        After a loss no fact holds.
+        """
+        event = line.event
+        if event == LOST:
+            return 0
+        # A deferred event arrives once, and is heard once.
+        if event in self.acts["hears"] and not line.deferred:
+            found |= self.acts["hears"][event]
+        if event in self.acts["arrives"] and not line.recalled and not line.envelope.sender:
+            found |= self.acts["arrives"][event]
+        found |= self.values
+        if found & self.conditional:
+            for bit, fact in self._conditions:
+                if found & bit and not has(line, fact):
+                    found ^= bit
+        return found
 
 
 def can_hold(act: str, actor: ActorLike) -> bool:
     """Return True if an act can be that of a machine: values are those of the robot itself."""
     return act != "has" or actor.name == actor.robot.name
-
-
-def test_of(fact: Fact | Count, has: Has) -> Test:
-    """Return the function that says if a fact holds for the machine of a line, after it."""
-    if isinstance(fact, Count):
-        return _in(fact.state)
-    if fact.act == "has":
-        return lambda line: has(line, fact)
-    if fact.act == "in":
-        return _in(fact.name)
-    happens = _ACTS[fact.act](fact.name)
-    if fact.condition is None:
-        return happens
-    return lambda line: happens(line) and has(line, fact)
-
-
-def _in(name: str) -> Test:
-    known: dict[tuple[ActorLike, tuple[str, ...]], bool] = {}
-    meant: dict[ActorLike, set[str]] = {}
-    written = name.split(".")
-
-    def holds(line: LineLike) -> bool:
-        actor = line.actor
-        key = (actor, tuple(line.configuration))
-        if key not in known:
-            if actor not in meant:
-                meant[actor] = meant_states(actor.states, written)
-            known[key] = any(each in meant[actor] for leaf in key[1] for each in _around(leaf))
-        return known[key]
-
-    return holds
 
 
 def _around(state: str) -> list[str]:
@@ -200,52 +219,3 @@ def _matches(state: str, written: Sequence[str]) -> bool:
     *outer, last = state.split(".")
     names = iter(outer)
     return last == written[-1] and all(name in names for name in written[:-1])
-
-
-_ACTS: dict[str, Callable[[str], Test]] = {
-    "sends": lambda name: lambda line: name in line.sent,
-    "starts": lambda name: lambda line: name in line.started,
-    "cancels": lambda name: lambda line: name in line.cancelled,
-    # A deferred event arrives once, and is heard once.
-    "hears": lambda name: lambda line: line.event == name and not line.deferred,
-    "arrives": lambda name: (
-        lambda line: line.event == name and not line.recalled and not line.envelope.sender
-    ),
-}
-
-
-class Route:
-    """Trackers that follow one actor, by the lines that can change them."""
-
-    def __init__(self, trackers: Sequence[FactTracker]) -> None:
-        self._all = trackers
-        self._states = [each for each in trackers if each.act == "in"]
-        self._values = [each for each in trackers if each.act == "has"]
-        self._named: dict[tuple[str, str], list[FactTracker]] = {}
-        for each in trackers:
-            if each.momentary:
-                act = "hears" if each.act == "arrives" else each.act
-                self._named.setdefault((act, each.name), []).append(each)
-        self._last: Sequence[str] | None = None
-
-    def trackers_of(self, line: LineLike) -> Sequence[FactTracker]:
-        """Return the trackers that a line can change: all if the robot comes or is lost."""
-        if self._last is None or line.event == LOST:
-            self._last = None if line.event == LOST else list(line.configuration)
-            return self._all
-        found = list(self._values)
-        if line.configuration != self._last:
-            self._last = list(line.configuration)
-            found += self._states
-        named = self._named
-        if named:
-            if line.event is not None:
-                found += named.get(("hears", line.event), ())
-            for act, names in (
-                ("sends", line.sent),
-                ("starts", line.started),
-                ("cancels", line.cancelled),
-            ):
-                for name in names:
-                    found += named.get((act, name), ())
-        return found

@@ -5,12 +5,12 @@ That number is a function of time, which changes at the steps of the run.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from .claims import Measure
-from .facts import ActorLike
-from .truth import Claims, Trackers, is_momentary
+from .facts import Facts
+from .truth import Claims, Roll, is_momentary
 
 
 @dataclass(frozen=True)
@@ -98,38 +98,25 @@ def aggregated(aggregate: str, readings: Iterable[Reading]) -> Reading:
 
 
 class Gauge:
-    """Meters of one measure: one, or one for each robot of a role."""
+    """Number of robots that a measure is about, for the meters of any number of runs."""
 
-    def __init__(self, measure: Measure, trackers: Trackers) -> None:
-        self.claims = Claims(measure.each, trackers)
+    def __init__(self, measure: Measure, facts: Facts) -> None:
+        self.each = measure.each
+        self.claims = Claims(measure.each, facts)
         self._measure = measure
         self._number = self.claims.number(measure.claim)
         self._momentary = is_momentary(measure.claim)
-        self._meters: dict[str | None, Meter] = {}
-        if measure.each is None:
-            self._meters[None] = self._meter()
 
-    @property
-    def robots(self) -> Collection[str | None]:
-        """Robots that have a meter; None for the one of all of them."""
-        return self._meters
+    def meter(self) -> Meter:
+        """Return a meter for a run."""
+        return Meter(self._measure.kind, self._measure.over, momentary=self._momentary)
 
-    def join(self, actor: ActorLike) -> None:
-        """Follow a machine from its first line on."""
-        robot = actor.robot
-        if robot.role == self._measure.each and robot.name not in self._meters:
-            self._meters[robot.name] = self._meter()
+    def number(self, bits: int, roll: Roll, me: str | None) -> int:
+        """Return the number at a moment, in which these facts hold for the robot of `each`."""
+        return self._number(roll, self.claims.key(bits, roll, me))
 
-    def step(self, time: int, robots: Iterable[str | None]) -> None:
-        """Take a step, in which the claim can have changed for these robots."""
-        for robot in robots:
-            self._meters[robot].step(time, self._number(robot))
-
-    def read(self, now: int, limit: int | None = None) -> Reading:
-        """Return the value so far, like that of a meter."""
-        readings = [each.read(now, limit) for each in self._meters.values()]
+    def read(self, meters: Iterable[Meter], now: int, limit: int | None = None) -> Reading:
+        """Return the value so far, like that of a meter, of the meters of a run."""
+        readings = [each.read(now, limit) for each in meters]
         aggregate = self._measure.aggregate
         return readings[0] if aggregate is None else aggregated(aggregate, readings)
-
-    def _meter(self) -> Meter:
-        return Meter(self._measure.kind, self._measure.over, momentary=self._momentary)

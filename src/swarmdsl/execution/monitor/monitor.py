@@ -65,6 +65,26 @@ class Monitor:
         return (self.violated, self._over, pattern)
 
     @property
+    def history(self) -> tuple[bool, ...]:
+        """All that decides on its remark from now on, with the memory."""
+        return (self._began, self._ended, self._happened)
+
+    @property
+    def clock(self) -> int | None:
+        """Time after which the part of the run violates the pattern unless something happens."""
+        return self._pattern.due if self._pattern is not None and not self.decided else None
+
+    def forget_times(self, due: int) -> None:
+        """Replace the time at which it is due, and forget those of violations."""
+        pattern = self._pattern
+        if self.violated is not None:
+            self.violated = 0
+        if pattern is not None and pattern.due is not None:
+            pattern.due = due
+        if pattern is not None and pattern.broken is not None:
+            pattern.broken, pattern.due = 0, None
+
+    @property
     def decided(self) -> bool:
         """Return True if no further step can change the verdict."""
         return self.violated is not None or self._over

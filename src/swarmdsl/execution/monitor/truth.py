@@ -3,16 +3,28 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections import defaultdict
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from .claims import Claim, Count, Fact, Junction, Robots, facts_in
-from .facts import MOMENTARY, ActorLike, FactTracker, Has
+from .claims import Claim, Count, Fact, Junction, facts_in
+from .facts import MOMENTARY, Facts
 
-Truth = Callable[[str | None], bool]
-"""Truth of a claim, for the robot of `each`."""
-Number = Callable[[str | None], int]
-"""Number of robots for which a claim holds, likewise."""
+
+class Roll:
+    """Robots for which a fact holds, and those that are there, by the bit of the fact."""
+
+    def __init__(self) -> None:
+        self.holding: dict[int, set[str | None]] = defaultdict(set)
+        self.there: dict[int, set[str | None]] = defaultdict(set)
+
+
+Truth = Callable[[int], bool]
+"""Truth of a claim, by the key of the moment."""
+Quantified = Callable[[Roll, "str | None"], bool]
+"""Truth of a fact about some robots; the name is that of the robot of `each`."""
+Number = Callable[[Roll, int], int]
+"""Number of robots for which a claim holds, by the key of the moment."""
 COMPARISONS: Mapping[str, Callable[[Any, Any], bool]] = {
     "==": operator.eq,
     "!=": operator.ne,
@@ -23,60 +35,40 @@ COMPARISONS: Mapping[str, Callable[[Any, Any], bool]] = {
 }
 
 
-class Trackers:
-    """Trackers of facts, shared by all sentences about a run; `has` evaluates conditions."""
-
-    def __init__(self, has: Has) -> None:
-        self._has = has
-        self._known: dict[tuple[object, ...], FactTracker] = {}
-
-    def of(self, fact: Fact | Count, role: str | None) -> FactTracker:
-        """Return the tracker of a fact of a role, or of all roles."""
-        if isinstance(fact, Count):
-            key: tuple[object, ...] = ("in", fact.state, role, None)
-        else:
-            key = (fact.act, fact.name, role, fact.condition)
-        if key not in self._known:
-            self._known[key] = FactTracker(fact, role, self._has)
-        return self._known[key]
-
-    def following(self, actor: ActorLike) -> list[FactTracker]:
-        """Return the trackers of facts that lines of an actor can change."""
-        return [each for each in self._known.values() if each.follows(actor)]
-
-
 class Claims:
-    """Claims of one sentence about a swarm, or about each robot of a role."""
+    """Claims of one sentence about a swarm, or about each robot of a role.
 
-    def __init__(self, each: str | None, trackers: Trackers) -> None:
-        self.trackers: dict[FactTracker, None] = {}
+    `own` are the bits of facts about the robot of `each`, `shared` those of the others. The key of
+    a moment has all that decides on the truth of the claims: the own facts that hold, and behind
+    them a bit for each of the `quantified` ones.
+    """
+
+    def __init__(self, each: str | None, facts: Facts) -> None:
+        self.own = self.shared = 0
+        self.quantified: list[Quantified] = []
         self._each = each
-        self._all = trackers
-        self._shared: set[FactTracker] = set()
-        """Facts that are not only about the robot of `each`."""
+        self._facts = facts
 
-    def affected(
-        self,
-        changed: Mapping[FactTracker, set[str | None]],
-        robots: Collection[str | None],
-    ) -> Iterable[str | None]:
-        """Return those of some robots for which a claim can have changed."""
-        if self._each is None or not self._shared.isdisjoint(changed):
-            return robots
-        if len(changed) == 1:
-            (found,) = changed.values()
-        else:
-            found = set().union(*(changed[each] for each in self.trackers if each in changed))
-        return [robot for robot in found if robot in robots]
+    @property
+    def mask(self) -> int:
+        """All facts that the claims are about."""
+        return self.own | self.shared
+
+    def key(self, bits: int, roll: Roll, me: str | None) -> int:
+        """Return the key of a moment, in which these facts hold for the robot of `each`."""
+        found = bits & self.own
+        for holds in self.quantified:
+            found = found << 1 | holds(roll, me)
+        return found
 
     def number(self, claim: Claim) -> Number:
         """Return for how many robots a claim holds; 0 or 1 if it is not about every one."""
         robots = claim.robots if isinstance(claim, Fact) else None
         if isinstance(claim, Fact) and robots is not None and robots.quantifier == "every":
-            tracker = self._tracker(claim, shared=True)
-            return lambda me: len(tracker.holding)
+            bit = self._bit(claim, shared=True)
+            return lambda roll, key: len(roll.holding[bit])
         truth = self.truth(claim)
-        return lambda me: int(truth(me))
+        return lambda roll, key: int(truth(key))
 
     def truth(self, claim: Claim) -> Truth:
         """Return the truth of a claim."""
@@ -84,27 +76,25 @@ class Claims:
             parts = [self.truth(each) for each in claim.claims]
             if claim.operator == "not":
                 (part,) = parts
-                return lambda me: not part(me)
+                return lambda key: not part(key)
             together = all if claim.operator == "and" else any
-            return lambda me: together(part(me) for part in parts)
+            return lambda key: together(part(key) for part in parts)
         own = isinstance(claim, Fact) and claim.robots is None and claim.act != "arrives"
         own = own and self._each is not None
-        tracker = self._tracker(claim, shared=not own)
-        if isinstance(claim, Count):
-            compare, number = COMPARISONS[claim.comparison], claim.number
-            return lambda me: compare(len(tracker.holding), number)
+        bit, quantified = self._bit(claim, shared=not own), self.quantified
         if own:
-            return lambda me: me in tracker.holding
-        if claim.robots is not None:
-            return _of_robots(claim.robots, tracker)
-        return lambda me: bool(tracker.holding)
+            return lambda key: bool(key >> len(quantified) & bit)
+        quantified.append(_of_robots(claim, bit))
+        place = len(quantified)
+        return lambda key: bool(key >> (len(quantified) - place) & 1)
 
-    def _tracker(self, fact: Fact | Count, *, shared: bool) -> FactTracker:
-        tracker = self._all.of(fact, self._role(fact))
-        self.trackers[tracker] = None
+    def _bit(self, fact: Fact | Count, *, shared: bool) -> int:
+        bit = self._facts.bit(fact, self._role(fact))
         if shared:
-            self._shared.add(tracker)
-        return tracker
+            self.shared |= bit
+        else:
+            self.own |= bit
+        return bit
 
     def _role(self, fact: Fact | Count) -> str | None:
         """Return the role whose robots a fact is about, None for all."""
@@ -121,21 +111,36 @@ def is_momentary(claim: Claim) -> bool:
     return not acts.isdisjoint(MOMENTARY)
 
 
-def _of_robots(robots: Robots, tracker: FactTracker) -> Truth:
+def _of_robots(fact: Fact | Count, bit: int) -> Quantified:
+    if isinstance(fact, Count):
+        compare, number = COMPARISONS[fact.comparison], fact.number
+        return lambda roll, me: compare(len(roll.holding[bit]), number)
+    robots = fact.robots
+    if robots is None:
+        return lambda roll, me: bool(roll.holding[bit])
     if robots.quantifier == "index":
         name = f"{robots.role}[{robots.number}]"
-        return lambda me: name in tracker.holding
+        return lambda roll, me: name in roll.holding[bit]
     if robots.quantifier == "number":
         least, most = robots.least, robots.most
-        return lambda me: (
-            least <= len(tracker.holding) and (most is None or len(tracker.holding) <= most)
+        return lambda roll, me: (
+            least <= len(roll.holding[bit]) and (most is None or len(roll.holding[bit]) <= most)
         )
-
-    def count(me: str | None) -> int:
-        return len(tracker.holding) - (robots.other and me in tracker.holding)
-
+    if robots.other:
+        return _of_others(robots.quantifier, bit)
     if robots.quantifier == "some":
-        return lambda me: count(me) > 0
+        return lambda roll, me: bool(roll.holding[bit])
     if robots.quantifier == "no":
-        return lambda me: count(me) == 0
-    return lambda me: count(me) == len(tracker.robots) - (robots.other and me in tracker.robots)
+        return lambda roll, me: not roll.holding[bit]
+    return lambda roll, me: len(roll.holding[bit]) == len(roll.there[bit])
+
+
+def _of_others(quantifier: str, bit: int) -> Quantified:
+    def count(robots: set[str | None], me: str | None) -> int:
+        return len(robots) - (me in robots)
+
+    if quantifier == "some":
+        return lambda roll, me: count(roll.holding[bit], me) > 0
+    if quantifier == "no":
+        return lambda roll, me: count(roll.holding[bit], me) == 0
+    return lambda roll, me: count(roll.holding[bit], me) == count(roll.there[bit], me)

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import replace
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple
 
-from .claims import Measure, Property
-from .facts import ACTS, ActorLike, FactTracker, Has, LineLike, Route, meant_states
-from .meters import Gauge, Reading
-from .monitor import FALSE, OPEN, TRUE, Monitor, Verdict
-from .truth import Claims, Trackers, is_momentary
+from .claims import Property
+from .facts import LOST, ActorLike, Has, Kind, LineLike
+from .meters import Reading
+from .monitor import FALSE, OPEN, TRUE, Verdict
+from .plan import Plan
+from .progress import Followed, Measured, Watched
+from .truth import Roll
 
 REMEMBERED = 8
 """Number of trace lines kept with a violation, of those that changed a fact."""
@@ -41,19 +42,6 @@ class PropertyResult(NamedTuple):
     remark: str = ""
 
 
-class Interest(NamedTuple):
-    """Parts of the lines of a machine that can change a fact.
-
-    Events that it hears, states by their paths, and what it does: a field of a line with a name.
-    With `values`, every line can.
-    """
-
-    heard: frozenset[str]
-    states: frozenset[str]
-    acts: frozenset[tuple[str, str]]
-    values: bool
-
-
 class ViolatedError(Exception):
     """A property is violated, and the run must stop then."""
 
@@ -61,34 +49,40 @@ class ViolatedError(Exception):
 class Watch:
     """Monitors of properties and gauges of measures in one run, a listener of its trace.
 
-    Lines come in the order of time; those without `interest` can be left out, except for the first
-    one of a machine, its loss, and the next one of all after something `happened`. `has` evaluates
+    Lines come in the order of time. Those that change no fact can be left out, except for the
+    first one of a machine, its loss, and the next one of all after something `happened`; if all
+    machines begin at the start, also those that change none that is `wanted`. `has` evaluates
     conditions; `told` is called with a property, its verdict so far, and the time from which on it
     holds. With `stops`, a violation raises ViolatedError, unless the property has a chance.
     """
 
     def __init__(
         self,
-        properties: Iterable[Property],
+        plan: Plan,
         has: Has,
         *,
-        measures: Iterable[Measure] = (),
         stops: bool = False,
         told: Callable[[Property, Verdict, int], None] | None = None,
     ) -> None:
+        self.plan = plan
         self.violations: list[Violation] = []
-        self._trackers = Trackers(has)
+        self.has = has
         self._stops = stops
         self._told = told
-        self._watched = [_Watched(each, self._trackers) for each in properties]
-        self._gauges = [Gauge(each, self._trackers) for each in measures]
-        self._users = _users((each, each.claims) for each in self._watched)
-        self._readers = _users((each, each.claims) for each in self._gauges)
-        self._routes: dict[ActorLike, Route] = {}
+        self._roll = Roll()
+        self._watched = [Watched(each, self._roll) for each in plan.rules]
+        self._measured = [Measured(each, self._roll) for each in plan.gauges]
+        self._every: list[Watched | Measured] = [*self._watched, *self._measured]
+        self._robots: dict[str | None, Followed] = {}
+        self._joined: dict[ActorLike, tuple[Followed, Kind]] = {}
         self.late_after: int | None = None
         """Time until which nothing is late; it may be too early."""
-        self.happened: list[FactTracker] = []
+        self.happened: dict[Followed, int] = {}
         """Facts that the next line ends."""
+        self.wanted = -1
+        """Facts on which a verdict or a measure can still depend."""
+        self._momentary = plan.facts.momentary
+        self._shared = plan.shared
         self._last: deque[LineLike] = deque(maxlen=REMEMBERED)
         self._begun = False
 
@@ -105,41 +99,101 @@ class Watch:
         """
         return self.late_after if self._begun else START
 
-    def see(self, line: LineLike) -> None:
-        """Process a line; those of the start are one step."""
-        if not self._begun and (line.event is not None or line.time > START):
+    def see(self, line: LineLike, holding: int | None = None) -> None:
+        """Process a line; those of the start are one step.
+
+        `holding` are the facts that hold for its machine after it, if they are known.
+        """
+        time = line.time
+        if not self._begun and (line.event is not None or time > START):
             self._begin()
-        if self.late_after is not None and line.time > self.late_after:
-            self._let_pass(line.time)
-        changed: dict[FactTracker, set[str | None]] = {}
-        if self._begun:
-            for tracker in self.happened:
-                changed.setdefault(tracker, set()).update(tracker.reset())
-            self.happened = []
-        actor = line.actor
-        route = self._routes.get(actor)
-        if route is None:
-            route = self._join(actor)
-        moves = False
-        for tracker in route.trackers_of(line):
-            happens = tracker.see(line) or (tracker.momentary and tracker.holding)
-            if happens:
-                changed.setdefault(tracker, set()).add(actor.robot.name)
-                moves = True
-                if tracker.momentary:
-                    self.happened.append(tracker)
-        if moves:
+        if self.late_after is not None and time > self.late_after:
+            self._let_pass(time)
+        robot, kind = self._joined.get(line.actor) or self._join(line.actor)
+        changed: dict[Followed, int] = {}
+        if self.happened and self._begun:
+            changed, self.happened = self.happened, changed
+            self._forget(changed)
+        if holding is None:
+            holding = kind.holding(line, self.has)
+        before, now, moment = robot.bits, holding, holding & self._momentary
+        if robot.lasting is not None:
+            robot.lasting[line.actor] = holding ^ moment
+            for each in robot.lasting.values():
+                now |= each
+        if moment:
+            self.happened[robot] = self.happened.get(robot, 0) | moment
+        if not self._begun:
+            now |= before & self._momentary
+        robot.bits = now
+        different = before ^ now | moment
+        if line.event == LOST:
+            different |= self._go(robot, kind)
+        elif robot.there & kind.mask != kind.mask:
+            different |= self._come(robot, kind)
+        if different & self._shared:
+            self._count(robot, different)
+        different &= self.wanted
+        if different:
             self._last.append(line)
-        if not self._begun or not changed:
-            return
-        for gauge in _affected(self._readers, changed):
-            gauge.step(line.time, gauge.claims.affected(changed, gauge.robots))
-        for each in _affected(self._users, changed):
-            robots = each.claims.affected(changed, each.robots)
-            self._note(each, each.step(line.time, robots), line.time)
-            if each.due is not None and (self.late_after is None or each.due < self.late_after):
-                self.late_after = each.due
-        self._look_whether_to_stop()
+            changed[robot] = changed.get(robot, 0) | different
+        if changed and self._begun:
+            self._step(time, changed)
+
+    def _forget(self, over: Mapping[Followed, int]) -> None:
+        """End the facts of the last moment."""
+        for robot, bits in over.items():
+            robot.bits &= ~bits
+            if bits & self._shared:
+                self._count(robot, bits)
+
+    def _count(self, robot: Followed, facts: int) -> None:
+        """Note for which of some facts a robot is one of those for which they hold."""
+        for bit in self.plan.shared_bits(facts):
+            if robot.bits & bit:
+                self._roll.holding[bit].add(robot.name)
+            else:
+                self._roll.holding[bit].discard(robot.name)
+
+    def _come(self, robot: Followed, kind: Kind) -> int:
+        """Let facts about a robot count; return those for which this is new."""
+        new = kind.mask & ~robot.there
+        robot.there |= new
+        for bit in self.plan.shared_bits(new):
+            self._roll.there[bit].add(robot.name)
+        return new
+
+    def _go(self, robot: Followed, kind: Kind) -> int:
+        """Let facts about a robot count no more; return those that did."""
+        gone = kind.mask & robot.there
+        robot.there ^= gone
+        for bit in self.plan.shared_bits(gone):
+            self._roll.there[bit].discard(robot.name)
+        return gone
+
+    def _step(self, time: int, changed: Mapping[Followed, int]) -> None:
+        """Take a step, in which facts about some robots have changed."""
+        facts = 0
+        for bits in changed.values():
+            facts |= bits
+        sentences, gauges = self.plan.about(facts)
+        for number in gauges:
+            gauge = self._measured[number]
+            gauge.step(time, gauge.affected(facts, changed))
+        for number in sentences:
+            each = self._watched[number]
+            if not each.robots:
+                continue
+            violated = each.step(time, each.affected(facts, changed))
+            if violated or self._told is not None:
+                self._note(each, violated, time)
+            if not each.robots:
+                self._look_what_matters()
+            due = each.due
+            if due is not None and (self.late_after is None or due < self.late_after):
+                self.late_after = due
+        if self._stops:
+            self._look_whether_to_stop()
 
     def advance(self, time: int) -> None:
         """Let time pass without a line."""
@@ -149,65 +203,60 @@ class Watch:
             self._let_pass(time)
             self._look_whether_to_stop()
 
-    def interest(self, actor: ActorLike) -> Interest:
-        """Return what can change a fact in the lines of a machine."""
-        trackers = self._trackers.following(actor)
-        names = {act: {each.name for each in trackers if each.act == act} for act in ACTS}
-        states = {
-            state for name in names["in"] for state in meant_states(actor.states, name.split("."))
-        }
-        return Interest(
-            heard=frozenset(names["hears"] | names["arrives"]),
-            states=frozenset(states),
-            acts=frozenset(
-                (what, name)
-                for act, what in (
-                    ("sends", "sent"),
-                    ("starts", "started"),
-                    ("cancels", "cancelled"),
-                )
-                for name in names[act]
-            ),
-            values=any(each.act == "has" for each in trackers),
-        )
-
     def results(self, time: int, *, ended: bool) -> list[PropertyResult]:
         """Return the verdicts at the end of a run."""
         if not self._begun:
             self._begin()
         found = []
         for each in self._watched:
-            verdicts = each.finish(time, ended=ended)
-            self._note(each, each.newly_violated(each.robots), time)
+            self._note(each, each.advance(time), time)
+            verdicts, violated = each.finish(time, ended=ended)
+            self._note(each, violated, time)
+            property_ = each.rule.property
             worst = next((v for v in (FALSE, OPEN) if v in verdicts.values()), TRUE)
             robots = tuple(name for name, v in verdicts.items() if v == worst and name is not None)
-            violations = tuple(v for v in self.violations if v.property is each.property)
+            violations = tuple(v for v in self.violations if v.property is property_)
             remark = each.remark if worst == TRUE else ""
-            found.append(PropertyResult(each.property, worst, robots, violations, remark))
+            found.append(PropertyResult(property_, worst, robots, violations, remark))
         return found
 
     def readings(self, time: int, limit: int | None = None) -> list[Reading]:
         """Return the values of the measures at a time; the run could last until the limit."""
         if not self._begun:
             self._begin()
-        return [each.read(time, limit) for each in self._gauges]
+        return [each.gauge.read(each.meters.values(), time, limit) for each in self._measured]
 
-    def _join(self, actor: ActorLike) -> Route:
+    def _join(self, actor: ActorLike) -> tuple[Followed, Kind]:
         """Follow a machine from its first line on."""
-        route = self._routes[actor] = Route(self._trackers.following(actor))
-        for each in self._watched:
-            each.join(actor)
-        for gauge in self._gauges:
-            gauge.join(actor)
-        return route
+        name, role = actor.robot.name, actor.robot.role
+        robot = self._robots.setdefault(name, Followed(name))
+        if robot.first is None:
+            robot.first = actor
+        elif robot.lasting is None:
+            robot.lasting = {robot.first: robot.bits & ~self._momentary}
+        found = self._joined[actor] = robot, self.plan.kind(actor)
+        for each in self._every:
+            if each.each == role:
+                each.join(robot)
+        if self._begun:
+            self._look_what_matters()
+        return found
+
+    def _look_what_matters(self) -> None:
+        """Note the facts on which something can still depend."""
+        self.wanted = 0
+        for each in self._every:
+            if each.robots or each.can_grow:
+                self.wanted |= each.mask
 
     def _begin(self) -> None:
         """Take the first step, when all machines have started."""
         self._begun = True
-        for gauge in self._gauges:
-            gauge.step(0, gauge.robots)
+        for gauge in self._measured:
+            gauge.step(0, gauge.robots.values())
         for each in self._watched:
-            self._note(each, each.step(0, each.robots), 0)
+            self._note(each, each.step(0, each.robots.values()), 0)
+        self._look_what_matters()
         self.late_after = min(
             (each.due for each in self._watched if each.due is not None), default=None
         )
@@ -216,124 +265,24 @@ class Watch:
         for each in self._watched:
             if each.due is not None and time > each.due:
                 self._note(each, each.advance(time), time)
+                if not each.robots:
+                    self._look_what_matters()
         self.late_after = min(
             (each.due for each in self._watched if each.due is not None), default=None
         )
 
     def _note(
-        self, watched: _Watched, violated: Iterable[tuple[str | None, int]], now: int
+        self, watched: Watched, violators: Iterable[tuple[str | None, int]], now: int
     ) -> None:
-        for robot, time in violated:
+        property_ = watched.rule.property
+        for robot, time in violators:
             now = min(now, time)
             last = tuple(self._last)
-            self.violations.append(Violation(watched.property, robot, time, last))
+            self.violations.append(Violation(property_, robot, time, last))
         if self._told is not None and watched.state != watched.told:
             watched.told = watched.state
-            self._told(watched.property, watched.state, now)
+            self._told(property_, watched.state, now)
 
     def _look_whether_to_stop(self) -> None:
         if self._stops and any(each.property.chance is None for each in self.violations):
             raise ViolatedError
-
-
-U = TypeVar("U")
-
-
-def _users(sentences: Iterable[tuple[U, Claims]]) -> dict[FactTracker, list[U]]:
-    """Return, for each tracker, what uses it."""
-    found: dict[FactTracker, list[U]] = {}
-    for user, claims in sentences:
-        for tracker in claims.trackers:
-            found.setdefault(tracker, []).append(user)
-    return found
-
-
-def _affected(users: Mapping[FactTracker, list[U]], changed: Iterable[FactTracker]) -> Iterable[U]:
-    return {user: None for tracker in changed for user in users.get(tracker, ())}
-
-
-class _Watched:
-    """Monitors of one property: one, or one for each robot of a role."""
-
-    def __init__(self, property_: Property, trackers: Trackers) -> None:
-        self.property = property_
-        self.claims = Claims(property_.each, trackers)
-        self.told: Verdict | None = None
-        """Verdict so far that has been told last."""
-        self._scope = [self.claims.truth(each) for each in property_.scope]
-        self._claims = [self.claims.truth(each) for each in property_.claims]
-        momentary = is_momentary(property_.claims[0])
-        self._sentence = replace(property_.sentence, momentary=momentary)
-        self._monitors: dict[str | None, Monitor] = {}
-        if property_.each is None:
-            self._monitors[None] = self._monitor()
-        self._violators: set[str | None] = set()
-        self.due: int | None = None
-        """Time before which nothing is late; it may be too early."""
-
-    @property
-    def robots(self) -> Collection[str | None]:
-        """Robots that have a monitor; None for the one of all of them."""
-        return self._monitors
-
-    def join(self, actor: ActorLike) -> None:
-        """Follow a machine from its first line on."""
-        robot = actor.robot
-        if robot.role == self.property.each and robot.name not in self._monitors:
-            self._monitors[robot.name] = self._monitor()
-
-    def step(self, time: int, robots: Iterable[str | None]) -> Iterable[tuple[str | None, int]]:
-        """Take a step; return the robots that violate the property now, with the times."""
-        monitors, claims, scope = self._monitors, self._claims, self._scope
-        violated = False
-        for robot in robots:
-            monitor = monitors[robot]
-            if not monitor.decided:
-                parts = [truth(robot) for truth in scope] if scope else ()
-                monitor.step(time, [truth(robot) for truth in claims], parts)
-                if monitor.violated is not None:
-                    violated = True
-                else:
-                    due = monitor.due
-                    if due is not None and (self.due is None or due < self.due):
-                        self.due = due
-        return self.newly_violated(robots) if violated else ()
-
-    def advance(self, time: int) -> Iterator[tuple[str | None, int]]:
-        """Let time pass, likewise."""
-        for monitor in self._monitors.values():
-            monitor.advance(time)
-        dues = (monitor.due for monitor in self._monitors.values())
-        self.due = min((due for due in dues if due is not None), default=None)
-        return self.newly_violated(self.robots)
-
-    @property
-    def state(self) -> Verdict:
-        """The worst verdict so far."""
-        states = {monitor.state for monitor in self._monitors.values()}
-        return next((each for each in (FALSE, OPEN) if each in states), TRUE)
-
-    @property
-    def remark(self) -> str:
-        """Return why the property says nothing of the run, for no robot."""
-        remarks = {monitor.remark for monitor in self._monitors.values()}
-        if not remarks:
-            return "there was no robot"
-        return "" if "" in remarks else min(remarks)
-
-    def finish(self, time: int, *, ended: bool) -> Mapping[str | None, Verdict]:
-        """Return the verdicts by robot."""
-        return {
-            robot: monitor.finish(time, ended=ended) for robot, monitor in self._monitors.items()
-        }
-
-    def newly_violated(self, robots: Iterable[str | None]) -> Iterator[tuple[str | None, int]]:
-        """Yield those robots that violated the property since this was asked last."""
-        for robot in robots:
-            monitor = self._monitors[robot]
-            if monitor.violated is not None and robot not in self._violators:
-                self._violators.add(robot)
-                yield robot, monitor.violated
-
-    def _monitor(self) -> Monitor:
-        return Monitor(self._sentence)

@@ -34,7 +34,7 @@ from swarmdsl.execution.simulate.measures import (
     measures_of,
 )
 from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Prepared, Request, prepare
-from swarmdsl.execution.simulate.properties import watch, watchable
+from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.results import as_document
@@ -164,9 +164,8 @@ class _Play:
         fitness: FitnessResult | None = None
         history: dict[str, list[tuple[int, Verdict]]] = {}
         monitors = watch(
-            self._watched,
+            plan(self._watched, measures_of(self._fitness)),
             self._world.data,
-            measures=measures_of(self._fitness),
             stops=self._request.stop_on_violation,
             told=None
             if self._request.timeline is None

@@ -11,7 +11,7 @@ from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import Verdict
 from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_of
 from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
-from swarmdsl.execution.simulate.properties import watch, watchable
+from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, run
 from swarmdsl.execution.simulate.world import World
@@ -46,6 +46,7 @@ class Runner:
         subject = prepared.subject
         self.properties = [each for each in watchable(subject) if request.watches(each.name)]
         self.fitness = fitness_of(subject)
+        self._plan = plan(self.properties, measures_of(self.fitness))
         self.first_seed = request.seed if request.seed is not None else prepared.scenario.seed
 
     def run(self, seed: int) -> Outcome:
@@ -53,7 +54,7 @@ class Runner:
         subject, scenario = self._prepared.subject, self._prepared.scenario
         cast, inputs = self._prepared.stage(Diagnostics())
         world = World(subject.system, cast, scenario, seed, [], subject.heartbeat)
-        monitors = watch(self.properties, world.data, measures=measures_of(self.fitness))
+        monitors = watch(self._plan, world.data)
         if self.properties or self.fitness is not None:
             observe(world.trace, monitors, world.clock)
         until = self._request.until if self._request.until is not None else scenario.until

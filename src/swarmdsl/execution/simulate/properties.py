@@ -24,11 +24,20 @@ def watchable(subject: Subject) -> list[ir.Property]:
     return [each for each in found if each.subject == subject.name]
 
 
+def plan(
+    properties: Sequence[ir.Property], measures: Sequence[ir.FitnessInput] = ()
+) -> monitor.Plan:
+    """Return properties and measures, ready to be watched in any number of runs."""
+    return monitor.Plan(
+        [_plain(each) for each in properties],
+        [_measure(each.name, each.measure) for each in measures if each.measure],
+    )
+
+
 def watch(
-    properties: Sequence[ir.Property],
+    planned: monitor.Plan,
     data: Data,
     *,
-    measures: Sequence[ir.FitnessInput] = (),
     stops: bool = False,
     told: Callable[[monitor.Property, Verdict, int], None] | None = None,
 ) -> Watch:
@@ -36,13 +45,7 @@ def watch(
 
     With `stops`, a violation raises ViolatedError. `told` is called with each verdict so far.
     """
-    return Watch(
-        [_plain(each) for each in properties],
-        conditions(data),
-        measures=[_measure(each.name, each.measure) for each in measures if each.measure],
-        stops=stops,
-        told=told,
-    )
+    return Watch(planned, conditions(data), stops=stops, told=told)
 
 
 def conditions(data: Data) -> Callable[[Any, Any], bool]:

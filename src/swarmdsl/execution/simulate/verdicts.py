@@ -10,7 +10,7 @@ from swarmdsl.execution.monitor import FALSE, TRUE, PropertyResult, Violation
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.measures import FitnessResult, evaluate, measures_of
-from swarmdsl.execution.simulate.properties import watch
+from swarmdsl.execution.simulate.properties import plan, watch
 from swarmdsl.execution.simulate.trace import Line, as_text
 from swarmdsl.ir import Fitness, Property
 
@@ -88,10 +88,10 @@ class Recording:
         if not self._lines:
             return [], None
         known: dict[Actor, Mapping[str, Any]] = {}
-        measures = measures_of(self._fitness)
-        monitors = watch(self._properties, lambda actor: known[actor], measures=measures)
+        planned = plan(self._properties, measures_of(self._fitness))
+        monitors = watch(planned, lambda actor: known[actor])
         lines = sorted(self._lines, key=_order)
-        endings = [watch(self._properties, lambda actor: known[actor]) for _ in range(loop or 0)]
+        endings = [watch(planned, lambda actor: known[actor]) for _ in range(loop or 0)]
         ends: list[list[PropertyResult]] = []
         for number, (_, line, data) in enumerate(lines, start=1):
             known[line.actor] = data

@@ -12,7 +12,7 @@ from swarmdsl.execution.monitor import FALSE, Violation, Watch
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_of
-from swarmdsl.execution.simulate.properties import watch
+from swarmdsl.execution.simulate.properties import plan, watch
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.verdicts import violation_fields
 from swarmdsl.execution.simulate.world import World
@@ -103,8 +103,8 @@ class _CaseRun:
                 self._arrivals.update(dict.fromkeys(named, number))
         self._fitness = fitness_of(case.subject) if case.measures else None
         if watched or self._fitness is not None:
-            measures = measures_of(self._fitness)
-            self._watch = watch(watched, lambda actor: self._world.data(actor), measures=measures)
+            planned = plan(watched, measures_of(self._fitness))
+            self._watch = watch(planned, lambda actor: self._world.data(actor))
             listeners.append(self._watch.see)
         self._world = World(
             case.subject.system,

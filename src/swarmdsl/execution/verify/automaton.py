@@ -10,7 +10,6 @@ from typing import Any
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution import monitor
 from swarmdsl.execution.engine import NO_ENVELOPE, Envelope, Event
-from swarmdsl.execution.monitor import MOMENTARY, can_hold, test_of
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.expressions import SELF
@@ -67,11 +66,13 @@ class Automaton:
         """Names of the deferred events of each state."""
         self.values: list[tuple[tuple[str, Any], ...]] = []
         """For each state, the values of the variables that decide on anything."""
-        has = conditions(self._data)
-        self._tests = [
-            ("in" if isinstance(fact, Count) else fact.act, test_of(_plain(fact), has))
-            for fact in kind.facts
-        ]
+        self._has = conditions(self._data)
+        self._facts = monitor.Facts()
+        self._bits = [self._facts.bit(_plain(fact), None) for fact in kind.facts]
+        self._momentary = sum(
+            1 << number for number, bit in enumerate(self._bits) if bit & self._facts.momentary
+        )
+        self._kinds = {actor: self._facts.kind_of(actor) for actor in kind.cast}
         self._body: Body | None = None
         self._listening: dict[str, bool] = {}
         self._begin()
@@ -225,7 +226,7 @@ class Automaton:
 
         def see(line: Line) -> None:
             actor = numbers[line.actor.name]
-            held[actor], momentary = self._facts(line)
+            held[actor], momentary = self._holding(line)
             shown.append((actor, reduce(or_, held, momentary)))
 
         self._body, body.seen = body, see
@@ -322,16 +323,11 @@ class Automaton:
         sender = envelope.sender if self.alphabet.demands.identity else ""
         return (event.name, self.alphabet.shown(event), envelope.to or "", sender)
 
-    def _facts(self, line: Line) -> tuple[int, int]:
+    def _holding(self, line: Line) -> tuple[int, int]:
         """Return the facts that hold for the machine of a line: lasting and momentary ones."""
-        lasting = momentary = 0
-        for number, (act, holds) in enumerate(self._tests):
-            if can_hold(act, line.actor) and holds(line):
-                if act in MOMENTARY:
-                    momentary |= 1 << number
-                else:
-                    lasting |= 1 << number
-        return lasting, momentary
+        holding = self._kinds[line.actor].holding(line, self._has)
+        found = sum(1 << number for number, bit in enumerate(self._bits) if holding & bit)
+        return found & ~self._momentary, found & self._momentary
 
 
 def close(

@@ -12,6 +12,7 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.execution.monitor import FALSE, Watch
+from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.verify.lap_times import lap_times
@@ -134,7 +135,7 @@ class _Laps(Play):
 
     def ask(self, property_: Property, robot: str | None, before: int, lines: int) -> None:
         """Watch a property, of one robot if it is about each, at some lines after others."""
-        self._watches = [watched([property_], self.data) for _ in range(lines)]
+        self._watches = [watched(plan([property_]), self.data) for _ in range(lines)]
         self._robot = robot
         self._before = before
 

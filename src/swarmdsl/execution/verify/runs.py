@@ -17,6 +17,7 @@ from swarmdsl.execution.monitor import FALSE, Watch
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line, as_json
 from swarmdsl.execution.verify.alphabet import Alphabet
@@ -104,7 +105,7 @@ def play(
         return Run((), flaw="a delay ends too early or too late in it")
     watch: Watch | None = None
     if property_ is not None:
-        watch = watched([property_], lambda actor: timed.data(actor))
+        watch = watched(plan([property_]), lambda actor: timed.data(actor))
     timed = Play(network, times, watch)
     timed.run(steps)
     if timed.departs:
