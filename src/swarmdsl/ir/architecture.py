@@ -10,6 +10,18 @@ from swarmdsl.ir.derived import DERIVED
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param
+from swarmdsl.ir.space import (
+    Area,
+    Obstacle,
+    Point,
+    Rain,
+    Sight,
+    Targets,
+    Values,
+    Wall,
+    Wind,
+    Zone,
+)
 from swarmdsl.syntax.types import Type
 
 Direction = Literal["in", "out", "inout"]
@@ -31,7 +43,8 @@ class Port:
 class Component:
     """Sensor, actuator, controller or virtual component, with all that it inherits.
 
-    `operations` are names of functions; `behavior` names a state machine.
+    `operations` are names of functions; `behavior` names a state machine. `sights` are what it
+    finds in space.
     """
 
     name: str
@@ -44,6 +57,7 @@ class Component:
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+    sights: tuple[Sight, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +120,8 @@ class PortGroup:
 class Member:
     """Type of robot, with all that it inherits; `behavior` names its state machine.
 
-    `port_groups` is derived from the connectors.
+    `port_groups` is derived from the connectors. `body`, `battery` and `radio` are what a space
+    knows of the robot, empty if the model says nothing; the values may read params.
     """
 
     name: str
@@ -121,6 +136,9 @@ class Member:
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
     port_groups: tuple[PortGroup, ...] = field(default=(), compare=False, metadata=DERIVED)
+    body: Values = ()
+    battery: Values = ()
+    radio: Values = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,18 +158,22 @@ class Multiplicity:
 
 @dataclass(frozen=True, slots=True)
 class RobotValues:
-    """Params of the member with this index in a role."""
+    """Params and start of the member with this index in a role."""
 
     index: int
     values: tuple[tuple[str, Expression], ...]
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+    start: str | Point | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Role:
-    """Members of one type in a swarm, with params of all of them and of single `robots`."""
+    """Members of one type in a swarm, with params of all of them and of single `robots`.
+
+    They start at a point, or somewhere in the area of that name.
+    """
 
     name: str
     member: str
@@ -161,6 +183,7 @@ class Role:
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+    start: str | Point | None = None
 
     def configured(self, member: Member, index: int | None = None) -> Member:
         """Return the member with the values of the role, and of one of its robots, as defaults."""
@@ -186,6 +209,13 @@ class Environment:
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+    areas: tuple[Area, ...] = ()
+    zones: tuple[Zone, ...] = ()
+    walls: tuple[Wall, ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
+    targets: tuple[Targets, ...] = ()
+    winds: tuple[Wind, ...] = ()
+    rains: tuple[Rain, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from swarmdsl.base.naming import incoming_topic
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.ir.expressions import Expression
+from swarmdsl.ir.space import ModelUse
 from swarmdsl.syntax.types import Named, Type
 
 
@@ -158,7 +159,8 @@ class Communication:
 class Function:
     """Capability of a robot, from the abstraction or the swarm library.
 
-    If it is `in_library`, it comes with a library of models, so an implementation exists.
+    If it is `in_library`, it comes with a library of models, so an implementation exists. Its
+    `model` says what it does in space.
     """
 
     name: str
@@ -169,3 +171,4 @@ class Function:
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
     in_library: bool = field(default=False, compare=False, repr=False)
+    model: ModelUse | None = None
