@@ -17,6 +17,7 @@ from swarmdsl.execution.simulate.scenario import (
     Robot,
     Scenario,
 )
+from swarmdsl.execution.simulate.space import ABSTRACT, Space
 from swarmdsl.ir import System
 
 
@@ -30,7 +31,9 @@ class Activities:
         chance: RandomSource,
         system: System | None,
         robot_of: Callable[[Run], Robot],
+        space: Space = ABSTRACT,
     ) -> None:
+        self._space = space
         self.outcomes: Counter[tuple[str, str]] = Counter()
         """Outcomes by function and outcome."""
         self._clock = clock
@@ -56,6 +59,9 @@ class Activities:
         robot, function = self._robot_of(run), run.activity.name
         self._calls[robot.name, function] += 1
         call = self._calls[robot.name, function]
+        if self._space.start(run, robot):
+            self._ends[run] = None
+            return
         answer = self._behavior(function, robot).draw(
             lambda: self._chance.stream(robot.name, function, call)
         )
@@ -87,6 +93,17 @@ class Activities:
         self._leave(run)
         run.end(outcome, data)
 
+    def end_as(self, run: Run, outcome: str, fields: Mapping[str, Any]) -> None:
+        """End an activity as a space says, unless it answers no more."""
+        robot, function = self._robot_of(run), run.activity.name
+        if run not in self._ends or self._is_silent(robot, function):
+            return
+        data = None
+        if outcome == "succeeded":
+            given = self._behavior(function, robot).results
+            data = {**self._blank(function), **(given[0] if given else {}), **fields}
+        self.end(run, run.activity.events[outcome], data)
+
     def silence(self, robot: Robot, function: str, lasts: int | None) -> None:
         """Let a function of a robot answer no more, for a time."""
         self._silent[robot, function] += 1
@@ -95,6 +112,7 @@ class Activities:
                 if alarm is not None:
                     self._clock.unschedule(alarm)
                 self._ends[run] = None
+                self._space.stop(run)
         if lasts is not None:
             self._clock.schedule(lasts, lambda: self._answer(robot, function))
 
@@ -115,6 +133,7 @@ class Activities:
 
     def _leave(self, run: Run) -> None:
         alarm = self._ends.pop(run)
+        self._space.stop(run)
         if alarm is not None:
             self._clock.unschedule(alarm)
 

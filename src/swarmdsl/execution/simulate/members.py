@@ -102,6 +102,11 @@ class Members:
         if observer in self.rosters:
             self.rosters[observer].clear()
 
+    def follow_pair(self, observer: Robot, other: Robot) -> None:
+        """Follow a change of whether a robot hears another one."""
+        if observer in self._observers and self._reaches(observer, observer):
+            self._follow(observer, other)
+
     # ---- internal
 
     def _follow(self, observer: Robot, other: Robot) -> None:

@@ -17,6 +17,7 @@ from swarmdsl.execution.simulate.clock import Alarm, Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, Fixed
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.space import ABSTRACT, Space
 from swarmdsl.ir import Delivery
 from swarmdsl.ir import Event as Declared
 
@@ -84,6 +85,7 @@ class Network:
         deliver: Callable[[Event, Robot], None],
         listens: Callable[[str, Robot], bool],
         late: Callable[[str, Robot], None],
+        space: Space = ABSTRACT,
     ) -> None:
         self.delivered: Counter[str] = Counter()
         self.lost: Counter[str] = Counter()
@@ -97,6 +99,7 @@ class Network:
         self.gone: set[Robot] = set()
         """Robots that are lost at present."""
         self._clock = clock
+        self._space = space
         self._scenario = scenario
         self._chance = chance
         self._deliver = deliver
@@ -124,20 +127,21 @@ class Network:
     def latency(self) -> int | None:
         """Latency of all events, if at present it is the same and none is lost."""
         troubled = self._scenario.loss or self.gone or self._partitions or self._holding
+        troubled = troubled or self._space.has_radio
         latency = self._scenario.latency
         if troubled or self.transmitted is not None or not isinstance(latency, Fixed):
             return None
         return latency.length
 
     def reaches(self, one: Robot, other: Robot) -> bool:
-        """Return True if two robots are there, and no partition is between them."""
+        """Return True if two robots are there, no partition is between them, and radio reaches."""
         if self.gone and (one in self.gone or other in self.gone):
             return False
         for _, parted in self._partitions:
             mine, yours = parted.get(one.name), parted.get(other.name)
             if mine is not None and yours is not None and mine != yours:
                 return False
-        return True
+        return self._space.reaches(one, other)
 
     def send(
         self, event: Event, declared: Declared, source: Robot, targets: Iterable[Robot]
@@ -173,7 +177,7 @@ class Network:
         self._partitions.remove(partition)
         for source, target in apart:
             if self.reaches(source, target):
-                self._meet(source, target)
+                self.meet(source, target)
         return parted
 
     def hold(self, event: str, target: str | None) -> None:
@@ -241,9 +245,16 @@ class Network:
         self.gone.discard(robot)
         for source in robots:
             if source is not robot and self.reaches(source, robot):
-                self._meet(source, robot)
+                self.meet(source, robot)
 
     # ---- internal
+
+    def _loss(self, source: Robot, target: Robot) -> float:
+        """Return the probability that an event gets lost, in the network or by radio."""
+        loss = self._scenario.loss
+        if self._space.has_radio:
+            loss += (1 - loss) * self._space.loss(source, target)
+        return loss
 
     def _transmit(
         self,
@@ -272,7 +283,7 @@ class Network:
                 kept.reached.add(target)
             self._attempt(packet)
             return
-        arrives = chance.random() >= self._scenario.loss and self.reaches(source, target)
+        arrives = chance.random() >= self._loss(source, target) and self.reaches(source, target)
         now = self._clock.now
         due = now + self._scenario.latency.draw(chance)
         if not arrives:
@@ -314,7 +325,7 @@ class Network:
         packet.attempts += 1
         if packet.attempts > 1:
             self.repeated[packet.event.name] += 1
-        if packet.chance.random() < self._scenario.loss:
+        if packet.chance.random() < self._loss(packet.source, packet.target):
             packet.alarm = self._clock.schedule(RETRY, lambda: self._attempt(packet))
             return
         now = self._clock.now
@@ -364,7 +375,7 @@ class Network:
         self._waiting[channel].remove(packet)
         self._clock.schedule(0, lambda: self._deliver_next(channel))
 
-    def _meet(self, source: Robot, target: Robot) -> None:
+    def meet(self, source: Robot, target: Robot) -> None:
         """Send what waits for a robot that is in reach again, and the latest events."""
         for (sender, receiver, _), packets in self._waiting.items():
             if sender is source and receiver is target:

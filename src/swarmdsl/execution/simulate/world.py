@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from copy import deepcopy
+from functools import partial
 from typing import Any
 
 from swarmdsl.execution.engine import (
@@ -30,8 +31,10 @@ from swarmdsl.execution.simulate.scenario import (
     Scenario,
 )
 from swarmdsl.execution.simulate.scenario_schedule import schedule
+from swarmdsl.execution.simulate.space import ABSTRACT, Space
 from swarmdsl.execution.simulate.statistics import Life
 from swarmdsl.execution.simulate.trace import Line, Trace
+from swarmdsl.ir import Event as Declared
 from swarmdsl.ir import Heartbeat, System
 
 _OF_ACTIVITIES = "do."
@@ -53,7 +56,9 @@ class World:
         seed: int,
         listeners: Sequence[Callable[[Line], None]],
         heartbeat: Heartbeat | None = None,
+        space: Space = ABSTRACT,
     ) -> None:
+        self.space = space
         self.clock = Clock()
         self.trace = Trace(self.clock, listeners)
         self.failures: Counter[tuple[str, str]] = Counter()
@@ -70,13 +75,20 @@ class World:
             lambda event, robot: self._deliver(event, self.listeners(event.name, robot)),
             lambda event, robot: bool(self.listeners(event, robot)),
             self._miss,
+            space,
         )
         self.activities = Activities(
-            self.clock, scenario, self._chance, system, lambda run: self._actors[run.instance].robot
+            self.clock,
+            scenario,
+            self._chance,
+            system,
+            lambda run: self._actors[run.instance].robot,
+            space,
         )
         self._listeners: dict[tuple[str, str | None], list[Actor]] = {}
         self._audiences: dict[str, list[tuple[Robot, list[Life]]]] = {}
         """Robots that listen to an event, with the instances that do."""
+        self._on_topic: dict[str, tuple[list[Declared], list[str]]] = {}
         self._returning = 0
         """Number of lost robots that will come back."""
         self._instances: dict[Actor, Instance] = {}
@@ -115,6 +127,7 @@ class World:
     def begin(self) -> None:
         """Start all machines and schedule the scenario."""
         self.trace.attach()
+        self.space.begin(self, self.activities.end_as)
         if self._scenario.loss >= 1:
             self.members.follow()
         for instance in self._instances.values():
@@ -275,14 +288,18 @@ class World:
         if to:
             self.clock.schedule(delay, lambda: self._deliver(event, to))
 
-    def lose(self, robot: Robot, lasts: int | None = None) -> None:
-        """Remove a robot, without executing exit effects; it may come back after a time."""
+    def lose(self, robot: Robot, lasts: int | None = None, reason: str = "") -> None:
+        """Remove a robot, without executing exit effects; it may come back after a time.
+
+        A `reason` is in the lines of the trace.
+        """
         self.network.leave(robot)
+        self.space.lose(robot)
         self.members.forget(robot)
         self.members.follow([robot])
         for actor, instance in self._instances.items():
             if actor.robot is robot and instance.running:
-                self.trace.begin(instance, LOST)
+                self.trace.begin(instance, LOST, {"reason": reason} if reason else None)
                 self.trace.lives[instance].lose()
                 instance.running = False
                 self.trace.flush()
@@ -296,6 +313,7 @@ class World:
         self._returning -= 1
         if robot not in self.network.gone:
             return
+        self.space.restore(robot)
         servers = Servers()
         for actor, data in self._first_data.items():
             if actor.robot is robot:
@@ -308,6 +326,71 @@ class World:
                 self.trace.flush()
         self.network.join(robot, self.robots)
         self.members.follow([robot])
+
+    # ---- called by a space
+
+    def awaits(self, robot: Robot, topic: str) -> bool:
+        """Return True if somebody would handle a message of a robot on a topic now."""
+        said, heard = self._events_on(topic)
+        return any(self._waits(actor, name) for name in heard for actor in self._own(robot)) or any(
+            self.listeners(each.name, other)
+            for each in said
+            for other in self.robots
+            if other is not robot
+        )
+
+    def publish(self, robot: Robot, topic: str, data: Any) -> None:
+        """Deliver a message that a device of a robot has published on a topic.
+
+        The robot's own machines hear it if they wait for it now. If it is that of a swarm event,
+        it goes out by radio.
+        """
+        assert self._system is not None
+        said, heard = self._events_on(topic)
+        for name in heard:
+            to = [actor for actor in self._own(robot) if self._waits(actor, name)]
+            if to:
+                event = Event(name, data)
+                self.clock.schedule(0, partial(self._deliver, event, to))
+        for each in said:
+            self.trace.statistics.sent[each.name] += 1
+            signed_data = signed(each, data, self._system, robot.name or "", self.clock.now)
+            envelope = Envelope(robot.name or "", self.clock.now, None)
+            others = [other for other in self.robots if other is not robot]
+            self.network.send(Event(each.name, signed_data, envelope=envelope), each, robot, others)
+
+    def links_changed(self, pairs: Iterable[tuple[Robot, Robot]]) -> None:
+        """Follow a change of who reaches whom: from the first robot of a pair to the second."""
+        for one, other in pairs:
+            if self.network.reaches(one, other):
+                self.network.meet(one, other)
+            self.members.follow_pair(other, one)
+
+    def _events_on(self, topic: str) -> tuple[list[Declared], list[str]]:
+        """Return the swarm events that are sent on a topic, and the names of those heard on it."""
+        found = self._on_topic.get(topic)
+        if found is None:
+            events = self._system.events if self._system is not None else ()
+            said = [each for each in events if each.swarm and each.topic == topic]
+            heard = [each.name for each in events if each.incoming_topic == topic]
+            found = self._on_topic[topic] = (said, heard)
+        return found
+
+    def _own(self, robot: Robot) -> list[Actor]:
+        return self._machines[robot.name]
+
+    def _waits(self, actor: Actor, event: str) -> bool:
+        """Return True if an active state of a machine reacts to an event, or keeps it."""
+        instance, machine = self._instances[actor], actor.machine
+        if not instance.running or not actor.listens(event):
+            return False
+        numbers = [machine.numbers[state] for state in instance.configuration.innermost]
+        around = {each for number in numbers for each in (number, *machine.ancestors(number))}
+        return any(
+            any(edge.matches(event) for edge in machine.edges[number])
+            or event in machine.states[number].deferred
+            for number in around
+        )
 
     # ---- members
 
