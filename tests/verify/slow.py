@@ -27,7 +27,7 @@ from swarmdsl.ir import Property, System
 Choice = tuple[Any, ...]
 
 
-class _Swarm:
+class Swarm:
     """A swarm that runs choice by choice."""
 
     def __init__(
@@ -117,8 +117,12 @@ class _Swarm:
                 for message in range(len(self.bags[number])):
                     yield ("hear", number, message)
 
-    def take(self, choice: Choice) -> None:
+    def pass_time(self) -> None:
+        """Let time pass at a choice."""
         self.clock.now += 1
+
+    def take(self, choice: Choice) -> None:
+        self.pass_time()
         match choice:
             case ("end", number, outcome, result):
                 run = self.runs.pop(number)
@@ -197,8 +201,8 @@ def refuted(
     subject = Subject(swarm.name, system, swarm)
     cast = actors(subject, subject.create_robots({}), Scenario(), Diagnostics())
 
-    def play(path: Sequence[Choice]) -> _Swarm:
-        played = _Swarm(cast, watchable(subject), system, capacity)
+    def play(path: Sequence[Choice]) -> Swarm:
+        played = Swarm(cast, watchable(subject), system, capacity)
         for choice in path:
             played.take(choice)
         return played

@@ -19,14 +19,14 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.ir import System
 
-from .slow import Choice, _Swarm
+from .slow import Choice, Swarm
 
 LIVE = ("eventually", "leads", "then", "again")
 Open = frozenset[tuple[str, str | None]]
 """Properties, and robots, for which something must still happen."""
 
 
-class _Watched(_Swarm):
+class _Watched(Swarm):
     """A swarm that notes at each line for whom something must still happen."""
 
     def __init__(self, *arguments: Any) -> None:

@@ -106,6 +106,13 @@ def _new_test(_context: click.Context, _param: click.Parameter, path: Path | Non
 )
 @click.option("--lossy", is_flag=True, help="Any event between robots may be lost.")
 @click.option(
+    "--time",
+    type=click.Choice(("ignore", "exact")),
+    default="ignore",
+    show_default=True,
+    help="Let functions, delays and events take any time, or as long as in a simulation.",
+)
+@click.option(
     "--limit",
     "limits",
     metavar="STATES|TIME|MEMORY",
@@ -153,6 +160,7 @@ def verify(
     sizes: tuple[Size, ...],
     channel: int,
     lossy: bool,
+    time: str,
     limits: Limits,
     output: Path | None,
     saved_test: Path | None,
@@ -179,6 +187,7 @@ def verify(
         sizes,
         channel,
         lossy,
+        time == "exact",
         limits,
         format_,
         output,

@@ -62,6 +62,11 @@ class Fixed:
 
     length: int
 
+    @property
+    def bounds(self) -> tuple[int, int]:
+        """The least and the greatest duration."""
+        return self.length, self.length
+
     def draw(self, _chance: Random) -> int:
         """Return the duration."""
         return self.length
@@ -73,6 +78,11 @@ class Uniform:
 
     low: int
     high: int
+
+    @property
+    def bounds(self) -> tuple[int, int]:
+        """The least and the greatest duration."""
+        return _whole(self.low), _whole(self.high)
 
     def draw(self, chance: Random) -> int:
         """Draw a duration."""
@@ -89,6 +99,12 @@ class Normal:
 
     mean: int
     deviation: int
+
+    @property
+    def bounds(self) -> tuple[int, int]:
+        """The least and the greatest duration: the sum of uniform numbers has both."""
+        most = self.deviation * _ADDED // 2
+        return _whole(self.mean - most), _whole(self.mean + most)
 
     def draw(self, chance: Random) -> int:
         """Draw a duration."""

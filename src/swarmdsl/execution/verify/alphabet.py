@@ -13,11 +13,15 @@ from swarmdsl.execution.verify.demands import Demands
 
 @dataclass(frozen=True)
 class Message:
-    """A kind of message between robots: equal for all that decides on anything."""
+    """A kind of message between robots: equal for all that decides on anything.
+
+    If it `repeats`, it is sent again after a loss, perhaps until a later one takes its place.
+    """
 
     number: int
     event: Event
     reliable: bool
+    repeats: bool = False
 
 
 class Alphabet:
@@ -38,8 +42,9 @@ class Alphabet:
             assert self.system is not None
             delivery = self.system.event(event.name).delivery
             # Of events that wait for a robot out of reach, `keep` drops the oldest.
-            reliable = delivery is not None and bool(delivery.reliable) and delivery.keep is None
-            self.messages.append(Message(len(self.messages), event, reliable))
+            repeats = delivery is not None and bool(delivery.reliable)
+            reliable = repeats and delivery is not None and delivery.keep is None
+            self.messages.append(Message(len(self.messages), event, reliable, repeats))
         return self._known[key]
 
     def shown(self, event: Event) -> Any:

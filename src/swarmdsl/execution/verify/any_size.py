@@ -15,7 +15,8 @@ from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network
-from swarmdsl.execution.verify.prove import about, is_about_ends, not_covered, table_of
+from swarmdsl.execution.verify.sentence import is_about_ends, not_covered, table_of
+from swarmdsl.execution.verify.subjects import about
 from swarmdsl.execution.verify.terms import Terms, arriving, facts_of, is_act
 from swarmdsl.execution.verify.verdict import Outcome, Verdict, unfinished
 from swarmdsl.execution.verify.wanted import Need, NotCoveredError, Wanted

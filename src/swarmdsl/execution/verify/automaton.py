@@ -18,7 +18,8 @@ from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.verify.alphabet import Alphabet, frozen
 from swarmdsl.execution.verify.body import Body, Input, Task
 from swarmdsl.execution.verify.limits import Budget
-from swarmdsl.execution.verify.moves import Look, Moment, Move
+from swarmdsl.execution.verify.moves import Look, Moment, Move, Slot
+from swarmdsl.execution.verify.slots import Occupied, carried, occupied
 from swarmdsl.ir import Count, Fact
 
 _OUTCOMES = ("aborted", "preempted")
@@ -62,6 +63,9 @@ class Automaton:
         self.looks: list[Look] = []
         self.tasks: list[frozenset[Task]] = []
         """Tasks of each state: what is over some time, however long it takes."""
+        self.slots: list[list[Slot]] = []
+        """Running activities and delays of each state, in the order of its representative."""
+        self._labels: list[list[Any]] = []
         self._deferred: list[set[str]] = []
         """Names of the deferred events of each state."""
         self.values: list[tuple[tuple[str, Any], ...]] = []
@@ -123,6 +127,17 @@ class Automaton:
             for name, value in each:
                 values.setdefault(name, set()).add(value)
         return {name: len(found) for name, found in values.items()}
+
+    def lengths(self) -> set[int]:
+        """Return the lengths of all delays."""
+        heard = (move for moves in self.heard for move in moves.values())
+        own = (move for moves in self.steps for move in moves or ())
+        return {
+            each.length
+            for move in (self.first, *heard, *own)
+            for each in move.carried
+            if each.length is not None
+        }
 
     @property
     def is_complete(self) -> bool:
@@ -230,7 +245,7 @@ class Automaton:
             shown.append((actor, reduce(or_, held, momentary)))
 
         self._body, body.seen = body, see
-        before = list(body.tasks())
+        before, running = list(body.tasks()), occupied(body, self._shown)
         act()
         left = {id(each) for _, each in body.tasks()}
         ended = frozenset(task for task, each in before if id(each) not in left)
@@ -251,9 +266,18 @@ class Automaton:
         )
         sends = tuple(map(self.alphabet.number, body.sent))
         origin = None if source is None else (source, given)
-        return Move(given, moments, sends, self._add(body, tuple(held), origin), ended)
+        after = occupied(body, self._shown)
+        target = self._add(body, tuple(held), origin, after)
+        taken = carried(running, after, self._labels[target])
+        return Move(given, moments, sends, target, ended, taken)
 
-    def _add(self, body: Body, held: tuple[int, ...], origin: tuple[int, Input] | None) -> int:
+    def _add(
+        self,
+        body: Body,
+        held: tuple[int, ...],
+        origin: tuple[int, Input] | None,
+        running: Sequence[Occupied],
+    ) -> int:
         key = (self._key(body), held)
         if key not in self._keys:
             self._keys[key] = len(self.steps)
@@ -277,6 +301,8 @@ class Automaton:
             holding = reduce(or_, held, 0)
             self.looks.append(Look(not body.running, holding, tuple(shown), quiet, held))
             self.tasks.append(frozenset(task for task, _ in body.tasks()))
+            self.slots.append([each.slot for each in running])
+            self._labels.append([each.label for each in running])
             self.values.append(self._kept(body))
         return self._keys[key]
 

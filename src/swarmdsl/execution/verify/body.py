@@ -55,6 +55,21 @@ class Delay:
         self.fired = False
 
 
+class Wait:
+    """A call of a function, or an event of a robot for itself, and when it began.
+
+    `function` is None for an event.
+    """
+
+    def __init__(self, task: object, function: str | None, began: int) -> None:
+        self.task = task
+        self.function = function
+        self.began = began
+        self.ended: int | None = None
+        """Number of the step at which it ended or was cancelled."""
+        self.fired = False
+
+
 class Body:
     """The machines of a robot; `lines` and `sent` are what the last input led to."""
 
@@ -71,6 +86,8 @@ class Body:
         self.runs: list[tuple[int, Run]] = []
         self.delays: list[Delay] = []
         self.every_delay: list[Delay] = []
+        self.waits: list[Wait] = []
+        """All calls and inner events."""
         self.steps = 0
         self._system = system
         self._trace = Trace(clock, [self._see])
@@ -126,6 +143,7 @@ class Body:
             r for r in self.runs if r[0] == given.actor and r[1].state == given.choice
         )
         self.runs.remove((number, run))
+        self._over(run, fired=True)
         data: Any = None
         if outcome == "succeeded":
             data = dict(result or {})
@@ -149,7 +167,9 @@ class Body:
 
     def deliver_inside(self) -> None:
         """Deliver the first event that the robot has sent to itself."""
-        self._deliver(self.inside.popleft())
+        event = self.inside.popleft()
+        self._deliver(event)
+        self._over(event, fired=True)
 
     def receive(self, event: Event) -> None:
         """Receive an event from outside, or from another robot."""
@@ -183,8 +203,14 @@ class Body:
             self.loop = error
         self._trace.flush()
 
+    def _over(self, task: object, *, fired: bool) -> None:
+        wait = next(each for each in self.waits if each.task is task)
+        wait.ended, wait.fired = self.steps, fired
+
     def _forget_ended(self) -> None:
         if not self.running:
+            for event in self.inside:
+                self._over(event, fired=False)
             self.inside.clear()
 
     def _call(self, run: Run) -> ir.Communication | None:
@@ -206,6 +232,16 @@ class Body:
         self.delays.remove(delay)
         delay.ended = self.steps
 
+    def call(self, actor: int, run: Run) -> None:
+        """Keep the call of a function."""
+        self.runs.append((actor, run))
+        self.waits.append(Wait(run, run.activity.name, self.steps))
+
+    def cancel(self, actor: int, run: Run) -> None:
+        """Forget the call of a function."""
+        self.runs.remove((actor, run))
+        self._over(run, fired=False)
+
     def emit(self, actor: int, event: Event) -> None:
         """Take an event that a machine sends."""
         system = self._system
@@ -220,6 +256,7 @@ class Body:
                     one.listens(each.name) for one in self.cast
                 ):
                     self.inside.append(Event(each.name, data))
+                    self.waits.append(Wait(self.inside[-1], None, self.steps))
         if declared.swarm:
             envelope = Envelope(robot.name or "", self.clock.now, to)
             self.sent.append(Event(event.name, data, envelope=envelope))
@@ -247,11 +284,11 @@ class _Desk:
 
     def start(self, run: Run) -> None:
         """Keep the run; it ends at any time."""
-        self._body.runs.append((self._actor, run))
+        self._body.call(self._actor, run)
 
     def cancel(self, run: Run) -> None:
         """Free the server at once: an activity that waits for it takes only longer."""
-        self._body.runs.remove((self._actor, run))
+        self._body.cancel(self._actor, run)
         run.end("preempted")
 
     def send(self, instance: InstanceLike, event: Event) -> None:

@@ -23,7 +23,7 @@ from swarmdsl.execution.verify.any_size import enough, prove_any
 from swarmdsl.execution.verify.findings import Survey, survey
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model, Options
-from swarmdsl.execution.verify.prove import is_about_ends, prove
+from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.results import Results, as_document, junit
 from swarmdsl.execution.verify.runs import Run, written
 from swarmdsl.execution.verify.saved_test import (
@@ -32,6 +32,7 @@ from swarmdsl.execution.verify.saved_test import (
     shown_by_verdict,
     tests_of,
 )
+from swarmdsl.execution.verify.sentence import is_about_ends
 from swarmdsl.execution.verify.sizes import Size, bounds, shown, sizes, whole
 from swarmdsl.execution.verify.verdict import Verdict
 
@@ -51,6 +52,7 @@ class Request:
     sizes: tuple[Size, ...] = ()
     capacity: int = 2
     lossy: bool = False
+    exact: bool = False
     limits: Limits = Limits()
     format: str = "text"
     output: Path | None = None
@@ -204,7 +206,8 @@ class _Session:
         self, subject: Subject, counts: Mapping[str, int], properties: Sequence[ir.Property]
     ) -> Model | None:
         """Return the automata of a swarm; None if that is reported to be impossible."""
-        options = Options(self._request.capacity, self._request.lossy)
+        asked = self._request
+        options = Options(asked.capacity, asked.lossy, exact=asked.exact)
         report = Diagnostics()
         made = Model(subject, counts, properties, options, self._budget, report)
         self._report.include(report)

@@ -20,7 +20,8 @@ from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.network import Network as States
 from swarmdsl.execution.verify.observer import Observer, is_silent
-from swarmdsl.execution.verify.prove import not_covered, observer_of
+from swarmdsl.execution.verify.prove import observer_of
+from swarmdsl.execution.verify.sentence import not_covered
 from swarmdsl.execution.verify.sizes import shown
 from swarmdsl.execution.verify.verdict import unfinished
 from swarmdsl.execution.verify.watching import holding, is_owed, watch_of

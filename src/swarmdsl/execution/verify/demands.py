@@ -32,7 +32,8 @@ class Demands:
     """Data that decide on the behaviour of some machines.
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
-    conditions of properties, each with the machine and the events that it is about.
+    conditions of properties, each with the machine and the events that it is about. With `lengths`,
+    those of delays count.
     """
 
     def __init__(
@@ -40,9 +41,11 @@ class Demands:
         system: ir.System,
         data: Mapping[str, Sequence[Mapping[str, Any]]],
         extra: Iterable[tuple[str, ir.Expression, tuple[str, ...]]] = (),
+        *,
+        lengths: bool = False,
     ) -> None:
         self._system = system
-        self._slice = Slice(system, data, extra)
+        self._slice = Slice(system, data, extra, lengths=lengths)
         self._demanded = frozenset(self._slice.demanded)
 
     def keeps(self, machine: str, variable: str) -> bool:

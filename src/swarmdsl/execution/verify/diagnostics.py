@@ -9,11 +9,13 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.source import Span
+from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.trace import Line, as_text
 from swarmdsl.execution.verify.findings import Fault, Finding, transitions_of
 from swarmdsl.execution.verify.hints import hint
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.runs import Run
+from swarmdsl.execution.verify.timing import Bounds
 from swarmdsl.execution.verify.verdict import Verdict
 
 _MOST_LINES = 40
@@ -150,7 +152,7 @@ def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str
         if full:
             names = listed(list(full), "and")
             yield f"of more than {options.capacity} {names} on the way to a robot, the rest is lost"
-    yield "functions and delays take any time"
+    yield from _times(model)
     yield "functions succeed or are aborted, actions are also preempted"
     if fair:
         yield "functions and delays end some time, and events that are not lost arrive"
@@ -165,6 +167,35 @@ def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str
         place = doubt.place
         where = f" ({place.source.name}:{place.line})" if place is not None else ""
         yield f"not all is shown: {doubt.reason}{where}"
+
+
+def _times(model: Model) -> Iterator[str]:
+    """Yield how long functions, delays and events take."""
+    if not model.options.exact:
+        yield "functions and delays take any time"
+        return
+    timing = model.options.timing
+    calls: dict[Bounds, dict[str, None]] = {}
+    for automaton in model.kinds:
+        robot = automaton.kind.cast[0].robot
+        for name in automaton.kind.results:
+            calls.setdefault(timing.function(name, robot), {})[name] = None
+    for bounds, names in calls.items():
+        who = "functions take" if len(calls) == 1 else f"{listed(list(names), 'and')} takes"
+        yield f"{who} {_span(bounds)}"
+    yield "delays take as long as the model says"
+    if model.alphabet.messages:
+        least, most = timing.message(repeats=False)
+        yield f"messages take {_span((least, most))}" if most else "messages arrive at once"
+
+
+def _span(bounds: Bounds) -> str:
+    least, most = bounds
+    if most is None:
+        return f"{format_duration(least)} or more"
+    if least == most:
+        return format_duration(least)
+    return f"{format_duration(least)} to {format_duration(most)}"
 
 
 def counted_in_thousands(number: int, noun: str) -> str:

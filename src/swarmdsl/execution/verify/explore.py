@@ -149,3 +149,28 @@ def observe(network: Network, observer: Observer, budget: Budget) -> Graph:
         return graph
     graph.complete = not network.cut
     return graph
+
+
+def follow(network: Network, budget: Budget) -> Graph:
+    """Find all states of a swarm, also those to which only time leads."""
+    graph = Graph(network)
+    seen, parents = graph.seen, graph.parents
+    start = network.start()
+    seen[start] = None
+    parents.append(0)
+    todo = [start]
+    try:
+        for index, state in enumerate(todo):
+            for new, _ in network.followers(state):
+                graph.transitions += 1
+                if new not in seen:
+                    seen[new] = None
+                    parents.append(index)
+                    todo.append(new)
+            if len(seen) > budget.most or not (index % _OFTEN or budget.allows(len(seen))):
+                return graph
+    except KeyboardInterrupt:
+        budget.interrupted = True
+        return graph
+    graph.complete = not network.cut
+    return graph

@@ -14,8 +14,7 @@ from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.livelock import livelock
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Group, Network, Step
-from swarmdsl.execution.verify.quotient import Quotient
+from swarmdsl.execution.verify.network import Group, Local, Step
 from swarmdsl.execution.verify.runs import Run, play, steps_between
 
 Fault = Literal["loops", "fails", "stuck", "waits", "unreachable", "untaken", "lost", "answers"]
@@ -60,7 +59,7 @@ def survey(model: Model, budget: Budget) -> Survey:
     full: set[str] = set()
     reached: dict[str, _Reached] = {}
     for groups in model.apart(model.groups(thorough=True)):
-        network = Network(groups, model.alphabet, model.options.capacity, lossy=model.options.lossy)
+        network = model.network(groups)
         graph = explore(network, budget)
         states += len(graph.seen)
         transitions += graph.transitions
@@ -293,7 +292,7 @@ class _Part:
         return None
 
 
-def _keeps(automaton: Quotient, move: Move, state: int) -> bool:
+def _keeps(automaton: Local, move: Move, state: int) -> bool:
     """Return True if a move changes nothing that can be seen."""
     return move.idle and move.target == state
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.verify.runs import GAPS
+from swarmdsl.execution.verify.times import GAPS
 
 _MOST_LENGTHS = 100
 

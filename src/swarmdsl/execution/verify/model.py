@@ -19,10 +19,11 @@ from swarmdsl.execution.verify.automaton import Automaton, Kind, close
 from swarmdsl.execution.verify.demands import Demands
 from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.limits import Budget
-from swarmdsl.execution.verify.network import Group
+from swarmdsl.execution.verify.network import Group, Network
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.representatives import Values
 from swarmdsl.execution.verify.terms import facts_of, mask_of, meaning, roles_of
+from swarmdsl.execution.verify.timing import Bounds, Timing
 
 MOST_STATES, MOST_MOVES = 500, 5_000
 """Maximum number of states, and of moves, of one robot that are looked at."""
@@ -30,10 +31,20 @@ MOST_STATES, MOST_MOVES = 500, 5_000
 
 @dataclass(frozen=True)
 class Options:
-    """Behaviour of the network."""
+    """Behaviour of the network, and a scenario with times.
+
+    These count for `within`, and for all runs if time is `exact`.
+    """
 
     capacity: int = 2
     lossy: bool = False
+    scenario: Scenario | None = None
+    exact: bool = False
+
+    @property
+    def timing(self) -> Timing:
+        """Times that runs must fit where time counts."""
+        return Timing(self.scenario or Scenario(), self.lossy)
 
 
 class Model:
@@ -70,7 +81,8 @@ class Model:
         data: dict[str, list[Any]] = {}
         for actor in self.cast:
             data.setdefault(actor.machine.name, []).append({**actor.params, **actor.data})
-        self.demands = Demands(self.system, data, self._conditions(facts))
+        extra = self._conditions(facts)
+        self.demands = Demands(self.system, data, extra, lengths=options.exact)
         self.alphabet = Alphabet(self.system, self.demands)
         self.outside: dict[str, None] = {}
         self.said: dict[str, None] = {}
@@ -89,6 +101,13 @@ class Model:
         self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
         self._unfinished = [each for each in self.kinds if not each.is_complete]
         self._quotients: dict[tuple[int, int, bool, bool], Quotient] = {}
+
+    def network(self, groups: Sequence[Group], *, base: int = 0, timed: bool = False) -> Network:
+        """Return the network of some groups; with `timed`, runs must fit times in any case."""
+        options = self.options
+        timing = options.timing if timed or options.exact else None
+        size, lossy = options.capacity, options.lossy
+        return Network(groups, self.alphabet, size, lossy=lossy, base=base, timing=timing)
 
     # ---- groups
 
@@ -283,8 +302,15 @@ class Model:
             names += [v.name for v in machine.variables if self.demands.keeps(machine.name, v.name)]
             # Conditions of properties can read params of the robot that its machine lacks.
             values = {**actor.params, **{name: actor.data.get(name) for name in names}}
-            shown.append((machine.name, repr(sorted(values.items()))))
+            times = self._times(actor) if self.options.exact else ()
+            shown.append((machine.name, repr(sorted(values.items())), tuple(times)))
         return cast[0].robot.role, tuple(shown)
+
+    def _times(self, actor: Actor) -> Iterator[Bounds]:
+        """Yield the times of the functions that a machine calls."""
+        for state in self.machines[actor.machine.name].walk():
+            if state.activity is not None:
+                yield self.options.timing.function(state.activity.function, actor.robot)
 
     def _kind(
         self,
@@ -342,6 +368,13 @@ class Model:
                     yield Doubt(
                         f"callback `{activity.result_callback}` is not covered", activity.origin
                     )
+                if (
+                    activity is not None
+                    and self.options.exact
+                    and self.options.timing.stops_late(activity.function, actor.robot)
+                ):
+                    reason = f"the time in which `{activity.function}` stops is not covered"
+                    yield Doubt(reason, activity.origin)
         for event in self.system.events:
             delivery = event.delivery
             if (

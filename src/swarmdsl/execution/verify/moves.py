@@ -24,10 +24,34 @@ class Moment(NamedTuple):
     loops: bool
 
 
+class Slot(NamedTuple):
+    """Place of a running activity or delay in a state of a robot.
+
+    `key` is the number of the state of an activity or the name of the timer of a delay, `name` that
+    of the function, and `order` the number among delays of the same timer.
+    """
+
+    kind: str
+    actor: int
+    key: int | str
+    name: str
+    order: int = 0
+
+
+class Carried(NamedTuple):
+    """A slot after a move: that from which its task comes, or the length of a new delay.
+
+    Both are None for an activity that begins.
+    """
+
+    source: int | None
+    length: int | None
+
+
 class Move(NamedTuple):
     """A step of a robot: its input, what it shows, the messages that it sends, its target.
 
-    `ended` are the tasks that are over after it.
+    `ended` are the tasks that are over after it, `carried` the slots of its target.
     """
 
     given: Input
@@ -35,6 +59,7 @@ class Move(NamedTuple):
     sends: tuple[int, ...]
     target: int
     ended: frozenset[Task] = frozenset()
+    carried: tuple[Carried, ...] = ()
 
     @property
     def idle(self) -> bool:

@@ -13,15 +13,20 @@ from typing import NamedTuple
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.verify.alphabet import Alphabet
+from swarmdsl.execution.verify.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.quotient import Quotient
+from swarmdsl.execution.verify.timing import Timing
+
+Local = Quotient | ClockedAutomaton
+"""Automaton of the robots of a group."""
 
 
 @dataclass(frozen=True)
 class Group:
     """Robots that nothing tells apart."""
 
-    automaton: Quotient
+    automaton: Local
     robots: tuple[str | None, ...]
 
     @property
@@ -75,12 +80,15 @@ class Network:
         *,
         lossy: bool,
         base: int = 0,
+        timing: Timing | None = None,
     ) -> None:
         self.groups = groups
         self.alphabet = alphabet
         self.capacity = capacity
         self.lossy = lossy
         self.base = base
+        self.timing = timing
+        """Times that runs must fit; None if functions and events take any time."""
         self.width = max(len(group.robots) for group in groups).bit_length()
         self.mask = (1 << self.width) - 1
         self.places: list[Place] = []
@@ -232,7 +240,7 @@ class Network:
         for move in moves:
             yield Step(number, move, self._target(group, move.target, bag))
         for message in dict.fromkeys(bag):
-            rest = _without(bag, message)
+            rest = without(bag, message)
             heard = automaton.move_on(state, message)
             if heard is None and automaton.is_late(state, message):
                 continue
@@ -267,10 +275,13 @@ class Network:
         return tuple(sorted((*bag, message)))
 
 
+TICK = Step(-1, None, -1)
+"""Step of all robots with clocks: time passes."""
 _FEW = 40
 """Number of places up to which looking at all of them is the fastest."""
 
 
-def _without(bag: tuple[int, ...], message: int) -> tuple[int, ...]:
+def without(bag: tuple[int, ...], message: int) -> tuple[int, ...]:
+    """Return a bag without one of its messages."""
     at = bag.index(message)
     return (*bag[:at], *bag[at + 1 :])

@@ -7,10 +7,9 @@ from functools import cached_property
 from typing import NamedTuple
 
 from swarmdsl import ir
-from swarmdsl.execution.verify.monitor_table import MonitorTable
+from swarmdsl.execution.verify.clock_table import Table
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Network, Step
-from swarmdsl.execution.verify.quotient import Quotient
+from swarmdsl.execution.verify.network import Local, Network, Step
 from swarmdsl.execution.verify.terms import Terms, is_act
 from swarmdsl.ir import Count, Fact
 
@@ -25,16 +24,17 @@ class Observer:
     def __init__(
         self,
         property_: ir.Property,
-        table: MonitorTable,
+        table: Table,
         network: Network,
         me: int | None,
         *,
         others: bool = False,
     ) -> None:
+        self.property = property_
         self.table = table
         self.network = network
         self._me = me
-        self._mine = (1 << network.base) - 1
+        self.mine = (1 << network.base) - 1
         self.terms = Terms(property_, network)
         scope = property_.scope.claims if property_.scope is not None else ()
         self._claims = [self.terms.truth(each) for each in (*property_.claims, *scope)]
@@ -64,15 +64,15 @@ class Observer:
 
     def is_bad(self, state: int) -> bool:
         """Return True if the property is violated."""
-        return self.table.is_bad(state & self._mine)
+        return self.table.is_bad(state & self.mine)
 
     def is_settled(self, state: int) -> bool:
         """Return True if the property cannot be violated any more."""
-        return self.table.is_settled(state & self._mine)
+        return self.table.is_settled(state & self.mine)
 
     def fails_at_end(self, state: int) -> bool:
         """Return True if the property is violated when nothing happens any more."""
-        return self.table.fails_at_end(state & self._mine)
+        return self.table.fails_at_end(state & self.mine)
 
     def successors(self, state: int) -> Iterator[tuple[int, Step]]:
         """Yield the states after one step, each with the step."""
@@ -82,7 +82,7 @@ class Observer:
     def passing(self, state: int) -> Iterator[tuple[int, Step, Sequence[int]]]:
         """Yield the same, with the memories of the monitor at the moments of the step."""
         network = self.network
-        memory = state & self._mine
+        memory = state & self.mine
         present = network.present(state)
         seen = _Sight(self, present)
         silent = [self._silence(memory, seen)]
@@ -119,7 +119,7 @@ class Observer:
     def following(self, state: int) -> Iterator[int]:
         """Yield the same states, each at least once."""
         network = self.network
-        memory = state & self._mine
+        memory = state & self.mine
         present = network.present(state)
         seen = _Sight(self, present)
         silent = self._silence(memory, seen) - memory
@@ -268,7 +268,7 @@ class _Sight:
         return self._observer.counts(self._present)
 
 
-def is_silent(automaton: Quotient, state: int, move: Move) -> bool:
+def is_silent(automaton: Local, state: int, move: Move) -> bool:
     """Return True if a move of a state changes no fact."""
     lasting = automaton.look(state).holding & automaton.mask
     return all(each.holding & automaton.mask == lasting for each in move.moments)

@@ -7,26 +7,29 @@ from collections.abc import Callable, Sequence
 from itertools import combinations
 
 from swarmdsl import ir
-from swarmdsl.execution.verify.explore import explore
+from swarmdsl.execution.verify.explore import explore, follow
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.network import Group, Network
 from swarmdsl.execution.verify.runs import play, steps_between
 from swarmdsl.execution.verify.terms import Terms
+from swarmdsl.execution.verify.timed_network import TimedNetwork
+from swarmdsl.execution.verify.timed_runs import play_timed
 from swarmdsl.execution.verify.verdict import Verdict, unfinished, violated
 
 
 def prove_possible(
     property_: ir.Property,
     model: Model,
-    groups: Sequence[Group],
+    network: Network,
     mine: int | None,
     me: str | None,
     budget: Budget,
 ) -> Verdict:
     """Search backwards from the states in which the claim holds."""
-    network = Network(groups, model.alphabet, model.options.capacity, lossy=model.options.lossy)
-    graph = explore(network, budget)
+    groups = network.groups
+    is_timed = isinstance(network, TimedNetwork)
+    graph = follow(network, budget) if is_timed else explore(network, budget)
     states = len(graph.seen)
     doubts = model.doubts(groups)
     if doubts:
@@ -58,7 +61,7 @@ def prove_possible(
                 todo.append(source)
     lost = able.find(0)
     if lost < 0:
-        if _has_delays(model, groups):
+        if not is_timed and (_has_delays(model, groups) or network.timing is not None):
             reason = "whether it is possible may depend on the lengths of delays"
             return Verdict(property_, "unknown", states, reason, robot=me)
         topic = _reordered(model, network)
@@ -67,7 +70,10 @@ def prove_possible(
             return Verdict(property_, "unknown", states, reason, robot=me)
         return Verdict(property_, "holds", states, robot=me, full=tuple(sorted(network.full)))
     steps = steps_between(graph.way(lost), lambda s: list(network.followers(s)))
-    run = play(network, steps, is_whole=True)
+    if isinstance(network, TimedNetwork):
+        run = play_timed(network, steps, ended=True)
+    else:
+        run = play(network, steps, is_whole=True)
     return violated(property_, run, graph, me)
 
 
@@ -97,7 +103,8 @@ def _state_truth(
 def _reordered(model: Model, network: Network) -> str:
     """Return a topic of which different messages of a sender may be on their way, or ""."""
     for place in network.places:
-        events = [model.alphabet.messages[number].event for number in set(place.bag)]
+        messages = model.alphabet.messages
+        events = [messages[number % len(messages)].event for number in set(place.bag)]
         for one, other in combinations(events, 2):
             topic = model.system.event(one.name).topic
             same_sender = one.envelope.sender == other.envelope.sender

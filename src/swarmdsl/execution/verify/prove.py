@@ -2,32 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import islice
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
-from swarmdsl.execution.monitor import Sentence
 from swarmdsl.execution.verify.explore import Graph, observe
 from swarmdsl.execution.verify.laps import endless
 from swarmdsl.execution.verify.lassos import Lassos
+from swarmdsl.execution.verify.late_runs import late
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.monitor_table import MOST_CLAIMS, MonitorTable
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Group, Network
+from swarmdsl.execution.verify.network import Group, Local, Network
 from swarmdsl.execution.verify.observer import Observer
 from swarmdsl.execution.verify.possible import prove_possible
-from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.runs import Run, play, steps_between
-from swarmdsl.execution.verify.terms import Terms, arriving, facts_of, is_act, roles_of
+from swarmdsl.execution.verify.sentence import (
+    is_about_ends,
+    length_of,
+    not_shown,
+    table_of,
+)
+from swarmdsl.execution.verify.subjects import about, place_of
+from swarmdsl.execution.verify.terms import Terms, arriving, facts_of
+from swarmdsl.execution.verify.timed import prove_exactly
+from swarmdsl.execution.verify.timed_observer import LateObserver
 from swarmdsl.execution.verify.verdict import Outcome, Verdict, unfinished, violated
-from swarmdsl.ir.sentences import facts_in
 
 _SAFE = ("never", "always", "only", "times")
 """Patterns that a finite run violates."""
-_LIVE = ("eventually", "leads", "then", "again")
-"""Patterns that a run that goes on for ever can violate."""
 _MOST_LASSOS = 60
 """Number of loops that are tried on the engine."""
 
@@ -36,7 +40,7 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     """Look for a run that violates a property."""
     if property_.chance is not None and property_.chance.bound == "most":
         return Verdict(property_, "unknown", reason="a greatest probability is not covered")
-    reason = not_covered(property_)
+    reason = not_shown(property_)
     if reason:
         return Verdict(property_, "unknown", reason=reason)
     if property_.each is None:
@@ -49,48 +53,26 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     return replace(worst, full=tuple(sorted({name for each in found for name in each.full})))
 
 
-def not_covered(property_: ir.Property) -> str:
-    """Return the reason why a property cannot be decided here, or ""."""
-    if property_.within is not None:
-        return "it is about time"
-    scope = property_.scope.claims if property_.scope is not None else ()
-    if len(property_.claims) + len(scope) > MOST_CLAIMS:
-        return f"it has more than {MOST_CLAIMS} claims"
-    facts = list(facts_in(property_.claims[0]))
-    if property_.kind == "times" and any(map(is_act, facts)):
-        mixed = not all(map(is_act, facts)) or _negates(property_.claims[0])
-        # It would count the moments at which nothing of the kind happens.
-        mixed |= any(map(_can_be_idle, facts))
-        return "it counts what happens together with what is" if mixed else ""
-    if property_.kind == "possible":
-        if property_.scope is not None:
-            return "`always possible` with a scope is not covered"
-        if any(map(is_act, facts)):
-            return "`always possible` is covered for states only"
-    return ""
-
-
-def _can_be_idle(fact: ir.Fact | ir.Count) -> bool:
-    """Return True if a fact can hold for no robot: `no`, `all` of none, `0..2`."""
-    robots = fact.robots if isinstance(fact, ir.Fact) else None
-    if robots is None:
-        return False
-    least = robots.number.lower if robots.number is not None else 1
-    return robots.quantifier in ("no", "all") or least == 0
-
-
-def _negates(claim: ir.Claim) -> bool:
-    if not isinstance(claim, ir.Junction):
-        return False
-    return claim.operator == "not" or any(map(_negates, claim.claims))
-
-
 def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
     """Decide on a property, of one robot if it is about each."""
+    verdict = _without_clocks(property_, model, me, budget)
+    if verdict.outcome != "unknown" or verdict.place is not None:
+        return verdict
+    if model.options.exact:
+        return prove_exactly(property_, model, me, budget, verdict)
+    if property_.within is not None:
+        return replace(verdict, reason=f"{verdict.reason}; try `--time exact`")
+    return verdict
+
+
+def _without_clocks(
+    property_: ir.Property, model: Model, me: str | None, budget: Budget
+) -> Verdict:
+    """Decide on a property for functions and delays that take any time."""
     if is_about_ends(property_):
         return _in_the_end(property_, model, me, budget)
     every = model.groups([property_], me=me)
-    mine = next((n for n, g in enumerate(every) if me is not None and g.robots == (me,)), None)
+    mine = place_of(me, every)
     seen = set(about(property_, model, every))
     if mine is not None:
         seen.add(mine)
@@ -102,7 +84,7 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
             return Verdict(property_, "holds", states, robot=me, alone=True)
     if property_.kind == "possible":
         place = groups.index(every[mine]) if mine is not None else None
-        return prove_possible(property_, model, groups, place, me, budget)
+        return prove_possible(property_, model, model.network(groups), place, me, budget)
     observer = observer_of(property_, model, groups, me, others=len(groups) < len(every))
     graph = observe(observer.network, observer, budget)
     if graph.bad is not None and observer.others:
@@ -113,12 +95,6 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     if graph.bad is not None:
         return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
     return _not_violated(property_, model, graph, groups, me, budget)
-
-
-def is_about_ends(property_: ir.Property) -> bool:
-    """Return True if runs that go on for ever can violate a property."""
-    scope = property_.scope.kind if property_.scope is not None else None
-    return property_.kind in _LIVE and scope not in ("before", "between")
 
 
 def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
@@ -165,8 +141,12 @@ def _run(property_: ir.Property, observer: Observer, graph: Graph, bad: int) -> 
     """Return a run to a state that violates a property, at once or if nothing follows."""
     way = graph.way(bad)
     steps = steps_between(way, lambda state: list(observer.successors(state)))
+    is_bad = observer.is_bad(way[-1])
+    within = length_of(property_)
+    if within is not None:
+        return late(observer.network, steps, property_, within, ended=not is_bad)
     run = play(observer.network, steps, property_)
-    return run if observer.is_bad(way[-1]) else replace(run, loop=0)
+    return run if is_bad else replace(run, loop=0)
 
 
 def observer_of(
@@ -174,29 +154,12 @@ def observer_of(
 ) -> Observer:
     """Return the observer of a property in some groups, of one robot if it is about each."""
     table = table_of(property_)
-    network = Network(
-        groups,
-        model.alphabet,
-        model.options.capacity,
-        lossy=model.options.lossy,
-        base=max(table.size, 2).bit_length(),
-    )
-    mine = next((n for n, g in enumerate(groups) if me is not None and g.robots == (me,)), None)
+    is_timed = property_.within is not None
+    network = model.network(groups, base=max(table.size, 2).bit_length(), timed=is_timed)
+    mine = place_of(me, groups)
+    if is_timed:
+        return LateObserver(property_, table, network, mine, others=others)
     return Observer(property_, table, network, mine, others=others)
-
-
-def about(property_: ir.Property, model: Model, groups: Sequence[Group]) -> Iterator[int]:
-    """Yield the groups that the facts of a property are about."""
-    for fact in facts_of(property_):
-        roles = roles_of(fact, property_)
-        for number, group in enumerate(groups):
-            if isinstance(fact, ir.Fact) and fact.act == "arrives":
-                if fact.name in group.automaton.whole.kind.outside:
-                    yield number
-            elif isinstance(fact, ir.Fact) and fact.robots is None and property_.each is not None:
-                continue
-            elif not roles or group.role in roles:
-                yield number
 
 
 def _not_violated(
@@ -218,19 +181,6 @@ def _not_violated(
     return Verdict(property_, "holds", states, robot=me, full=full)
 
 
-def _sentence(property_: ir.Property) -> Sentence:
-    scope = property_.scope
-    momentary = any(map(is_act, facts_in(property_.claims[0])))
-    kind = scope.kind if scope is not None else None
-    return Sentence(property_.kind, kind, None, property_.times, momentary=momentary)
-
-
-def table_of(property_: ir.Property) -> MonitorTable:
-    """Return the monitor of a property."""
-    scope = property_.scope.claims if property_.scope is not None else ()
-    return MonitorTable(_sentence(property_), len(property_.claims), len(scope))
-
-
 # ---- one robot, whatever the others do
 
 
@@ -241,7 +191,7 @@ def _is_alone(property_: ir.Property) -> bool:
     return all(isinstance(f, ir.Fact) and f.robots is None for f in facts_of(property_))
 
 
-def _alone(property_: ir.Property, automaton: Quotient) -> int | None:
+def _alone(property_: ir.Property, automaton: Local) -> int | None:
     """Prove a property of one robot that hears all messages at any time.
 
     Return the number of states that were looked at, or None if it may be violated so.

@@ -1,8 +1,7 @@
 """Runs of real robots that a search has found: who does what, and when.
 
 A search knows only how many robots are in which state. Here each gets a name, its machines run on
-the engine, and times are found that fit all delays: they are a system of difference constraints
-(R. Bellman, 1958).
+the engine, and times are found that fit all delays.
 """
 
 from __future__ import annotations
@@ -16,7 +15,6 @@ from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.monitor import FALSE, Watch
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line, as_json
@@ -24,10 +22,10 @@ from swarmdsl.execution.verify.alphabet import Alphabet
 from swarmdsl.execution.verify.body import Body
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network, Step
+from swarmdsl.execution.verify.times import Constraint, fitting, limits
+from swarmdsl.execution.verify.timing import AT_ONCE, Bounds
 from swarmdsl.ir import Property
 
-GAPS = (SECOND, MILLISECOND, 0)
-"""Times between two steps, the preferred one first."""
 ELSEWHERE = "the real messages lead elsewhere"
 
 
@@ -58,6 +56,8 @@ class Copy:
     order: int
     line: int
     """Number of the line on which it was sent."""
+    sent: int
+    """Number of the step at which it was sent."""
 
 
 @dataclass(eq=False)
@@ -100,9 +100,9 @@ def play(
         return Run((), flaw=exceeding(network, timeless.exceeds or timeless.late))
     if timeless.overtakes:
         return Run((), flaw=f"an event overtakes an earlier one on `{timeless.overtakes}`")
-    times = _times(len(steps), timeless.constraints())
+    times = fitting(len(steps), timeless.constraints())
     if times is None:
-        return Run((), flaw="a delay ends too early or too late in it")
+        return Run((), flaw=timeless.misfit)
     watch: Watch | None = None
     if property_ is not None:
         watch = watched(plan([property_]), lambda actor: timed.data(actor))
@@ -141,11 +141,17 @@ class Play:
         self.exceeds = ""
         """Event of a message beyond the capacity that a later one overtakes."""
         self.departs = False
-        self._network = network
+        self.misfit = "a delay ends too early or too late in it"
+        """Flaw of a run that no times fit."""
+        if network.timing is not None:
+            self.misfit = "no times of it fit all functions, delays and events"
+        self.network = network
+        self._arrivals: list[tuple[int, Copy]] = []
+        """Messages that have arrived, with the numbers of the steps."""
         self._alphabet: Alphabet = network.alphabet
         self._times = times
         self._watch = watch
-        self._now = 0
+        self.now = 0
         self._sent = 0
         self.robots: list[Robot] = []
         self._bodies: dict[Actor, Body] = {}
@@ -171,8 +177,8 @@ class Play:
     def go_on(self, steps: Sequence[Step]) -> None:
         """Take more steps."""
         for step in steps:
-            self._now += 1
-            self._take(step)
+            self.now += 1
+            self.take(step)
             if self.departs:
                 return
 
@@ -186,10 +192,11 @@ class Play:
         body = self._bodies[actor]
         return body.instances[list(body.cast).index(actor)].data
 
-    def constraints(self) -> list[tuple[int, int, int]]:
-        """Return (later, earlier, least difference) of the times of steps."""
-        found = []
-        last = self._now
+    def constraints(self, *, slow: bool = False) -> list[Constraint]:
+        """Return those of the times of steps; with `slow`, functions may take longer."""
+        found: list[Constraint] = []
+        last = self.now
+        timing = self.network.timing
         for robot in self.robots:
             at = robot.moments
             for delay in robot.body.every_delay:
@@ -198,11 +205,29 @@ class Play:
                 found.append((began, ended, -delay.length))
                 if delay.fired:
                     found.append((ended, began, delay.length))
+            for wait in robot.body.waits if timing is not None else ():
+                bounds = AT_ONCE
+                if timing is not None and wait.function is not None:
+                    bounds = timing.function(wait.function, robot.body.cast[0].robot)
+                    bounds = (bounds[0], None) if slow else bounds
+                ended = at[wait.ended] if wait.ended is not None else last
+                found += limits(bounds, at[wait.began], ended, is_over=wait.fired)
+            for copy in (*robot.bag, *robot.late) if timing is not None else ():
+                found += limits(self._bounds(copy), copy.sent, last, is_over=False)
+        for step, copy in self._arrivals if timing is not None else ():
+            found += limits(self._bounds(copy), copy.sent, step, is_over=True)
         return found
 
-    def _take(self, step: Step) -> None:
-        group_number, state, bag = self._network.places[step.place]
-        group = self._network.groups[group_number]
+    def _bounds(self, copy: Copy) -> Bounds:
+        """Return the times after which a message can arrive."""
+        timing = self.network.timing
+        repeats = self._alphabet.messages[self._alphabet.number(copy.event)].repeats
+        return timing.message(repeats=repeats) if timing is not None else (0, None)
+
+    def take(self, step: Step) -> None:
+        """Take a step."""
+        group_number, state, bag = self.network.places[step.place]
+        group = self.network.groups[group_number]
         robots = [r for r in self.robots if r.group is group and r.is_at(state, bag)]
         if not robots:
             self.departs = True
@@ -216,10 +241,12 @@ class Play:
         given = step.move.given
         event: Event | None = None
         if given.kind == "hear":
-            robot, copy = self._heard(robots, given.choice)
+            number = given.choice if step.lost is None else step.lost
+            robot, copy = self._heard(robots, number)
             robot.bag.remove(copy)
             oldest = self._oldest(robot, copy)
             event = oldest.event
+            self._arrivals.append((self.now, oldest))
             self.causes[len(self.lines)] = oldest.line
         else:
             robot = self.chosen(robots)
@@ -256,8 +283,8 @@ class Play:
     def _move(self, robot: Robot, move: Move, event: Event | None) -> None:
         automaton = robot.group.automaton
         found = automaton.follow(robot.state, move)
-        robot.moments.append(self._now)
-        robot.body.clock.now = self._times[self._now]
+        robot.moments.append(self.now)
+        robot.body.clock.now = self._times[self.now]
         automaton.whole.apply(robot.body, found.given, event)
         shown = tuple((m.event, m.taken, m.sent) for m in found.moments)
         called = [line.actor.machine.called for line in robot.body.lines]
@@ -290,11 +317,12 @@ class Play:
                     continue
                 envelope = Envelope(source.name or "", event.envelope.sent, to)
                 real = Event(event.name, event.data, envelope=envelope)
-                copy = Copy(number, real, topic, self._sent, self._sending(source, event))
+                line = self._sending(source, event)
+                copy = Copy(number, real, topic, self._sent, line, self.now)
                 same = [c for c in robot.bag if c.event.name == event.name]
-                if len(same) < self._network.capacity:
+                if len(same) < self.network.capacity:
                     robot.bag.append(copy)
-                elif self._network.lossy and not self._alphabet.messages[number].reliable:
+                elif self.network.lossy and not self._alphabet.messages[number].reliable:
                     self.lost.append((len(self.lines), event.name, robot.name or ""))
                 else:
                     robot.late.append(copy)
@@ -319,26 +347,6 @@ def _precedes(one: Copy, other: Copy) -> bool:
     """Return True if a message was sent before another one on the same channel."""
     senders = (each.event.envelope.sender for each in (one, other))
     return one.order < other.order and one.topic == other.topic and len(set(senders)) == 1
-
-
-def _times(steps: int, constraints: Sequence[tuple[int, int, int]]) -> list[int] | None:
-    """Return times of the steps that fit, with pauses between them if possible."""
-    for gap in GAPS:
-        every = [(n + 1, n, gap) for n in range(steps)] + list(constraints)
-        times = [0] * (steps + 1)
-        for _ in range(steps + 2):
-            changed = False
-            for later, earlier, least in every:
-                if times[earlier] + least > times[later]:
-                    times[later] = times[earlier] + least
-                    changed = True
-            if not changed:
-                break
-        else:
-            continue
-        if times[0] == 0:
-            return times
-    return None
 
 
 Find = Callable[[int], "list[tuple[int, Step]]"]

@@ -34,7 +34,8 @@ class Slice:
     """Places of data that decide on the behaviour of some machines.
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
-    conditions of properties, each with the machine and the events that it is about.
+    conditions of properties, each with the machine and the events that it is about. With `lengths`,
+    those of delays count, else only if they are positive.
     """
 
     def __init__(
@@ -42,8 +43,11 @@ class Slice:
         system: ir.System,
         data: Mapping[str, Sequence[Mapping[str, Any]]],
         extra: Iterable[tuple[str, ir.Expression, tuple[str, ...]]] = (),
+        *,
+        lengths: bool = False,
     ) -> None:
         self._system = system
+        self._has_lengths = lengths
         self._data = data
         self._flows: list[tuple[Node, Node]] = []
         self.cuts: dict[Node, set[Cut]] = {}
@@ -213,9 +217,9 @@ class Slice:
                 self._need(value, machine, events)
 
     def _delay(self, delay: ir.Expression, machine: str, events: tuple[str, ...]) -> None:
-        """Demand if a delay is positive or not."""
+        """Demand the length of a delay, or if it is positive or not."""
         nodes = places(delay, machine, events)
-        if nodes is not None:
+        if nodes is not None and not self._has_lengths:
             for node in nodes:
                 self.cuts.setdefault(node, set()).add((">", 0))
         elif not is_constant(delay):

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.codegen.shared.property_texts import parts_text, sentence_text
+from swarmdsl.execution.verify.clock_table import Table
 from swarmdsl.execution.verify.composition import SETTLED, VIOLATED, Rule, Watch
-from swarmdsl.execution.verify.monitor_table import MonitorTable
 from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.observer import Observer
 from swarmdsl.ir import Count, Fact
@@ -17,7 +17,7 @@ from swarmdsl.ir.sentences import claim
 _When = tuple[tuple[int, bool], ...]
 
 
-def is_owed(table: MonitorTable) -> bool:
+def is_owed(table: Table) -> bool:
     """Return True if a property can be violated by nothing that happens any more."""
     return any(table.fails_at_end(n) and not table.is_bad(n) for n in range(table.size))
 
@@ -61,7 +61,7 @@ def watch_of(
 class _Numbers:
     """Numbers of the states of a table that are reached, in the order in which they are."""
 
-    def __init__(self, table: MonitorTable) -> None:
+    def __init__(self, table: Table) -> None:
         self._table = table
         self._states: list[int] = []
 
@@ -89,7 +89,7 @@ class _Numbers:
 
 
 def _branches(
-    table: MonitorTable, state: int, truths: tuple[bool, ...], claims: int
+    table: Table, state: int, truths: tuple[bool, ...], claims: int
 ) -> list[tuple[_When, int]]:
     """Return the steps of a state, each with the claims that it depends on."""
     number = len(truths)

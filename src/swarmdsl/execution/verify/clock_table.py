@@ -1,0 +1,51 @@
+"""Monitor of a property as a table with its clock, in ticks."""
+
+from __future__ import annotations
+
+from swarmdsl.execution.verify.monitor_table import MonitorTable
+
+
+class ClockTable:
+    """States of a monitor with the ticks since its clock began, which may be `within`."""
+
+    def __init__(self, table: MonitorTable, within: int) -> None:
+        self.inner = table
+        self._within = within
+
+    @property
+    def size(self) -> int:
+        """Number of states there may be."""
+        return self.inner.size * (self._within + 1)
+
+    def step(self, state: int, truths: tuple[bool, ...]) -> int:
+        """Return the state after a step."""
+        elapsed, before = divmod(state, self.inner.size)
+        after = self.inner.step(before, truths)
+        begins = self.inner.begins(before, truths)
+        if begins or not self.inner.has_clock(after):
+            return after
+        return elapsed * self.inner.size + after
+
+    def tick(self, state: int) -> int:
+        """Return the state a tick later."""
+        elapsed, before = divmod(state, self.inner.size)
+        if not self.inner.has_clock(before):
+            return state
+        if elapsed == self._within:
+            return self.inner.late(before)
+        return state + self.inner.size
+
+    def is_bad(self, state: int) -> bool:
+        """Return True if the property is violated."""
+        return self.inner.is_bad(state % self.inner.size)
+
+    def is_settled(self, state: int) -> bool:
+        """Return True if it cannot be violated any more."""
+        return self.inner.is_settled(state % self.inner.size)
+
+    def fails_at_end(self, state: int) -> bool:
+        """Return True if the property is violated when nothing happens any more."""
+        return self.inner.fails_at_end(state % self.inner.size)
+
+
+Table = MonitorTable | ClockTable

@@ -1,0 +1,133 @@
+"""A swarm with clocks, in which time passes for all robots together.
+
+Messages on their way to a robot with clocks have an age. Robots without clocks, and what is on its
+way to them, take any time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from swarmdsl.execution.verify.alphabet import Alphabet
+from swarmdsl.execution.verify.clocks import ClockedAutomaton
+from swarmdsl.execution.verify.network import TICK, Group, Network, Step, without
+from swarmdsl.execution.verify.timing import Bounds, Timing
+
+
+class TimedNetwork(Network):
+    """Steps and ticks of a swarm; a message in a bag has its age in ticks beside its number."""
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        alphabet: Alphabet,
+        capacity: int,
+        *,
+        lossy: bool,
+        timing: Timing,
+        tick: int,
+        base: int = 0,
+    ) -> None:
+        super().__init__(groups, alphabet, capacity, lossy=lossy, base=base, timing=timing)
+        self.tick = tick
+        self._kinds = len(alphabet.messages)
+        self._times = [
+            _in_ticks(timing.message(repeats=each.repeats), tick) for each in alphabet.messages
+        ]
+        self._later: dict[int, int | None] = {}
+
+    def after(self, state: int, step: Step) -> int:
+        """Return the state after a step or a tick."""
+        if step is not TICK:
+            return super().after(state, step)
+        later = self.later(state)
+        assert later is not None
+        return later
+
+    def followers(self, state: int) -> Iterator[tuple[int, Step]]:
+        """Yield the states after one step or a tick, each with the step."""
+        yield from super().followers(state)
+        later = self.later(state)
+        if later is not None:
+            yield later, TICK
+
+    def later(self, state: int) -> int | None:
+        """Return the state a tick later; None if something must happen before."""
+        change = 0
+        for place, count in self.present(state):
+            if place not in self._later:
+                self._later[place] = self._change(place)
+            shift = self._later[place]
+            if shift is None:
+                return None
+            change += count * shift
+        return state + change
+
+    def aged(self, group: int, state: int, bag: tuple[int, ...]) -> tuple[int, ...] | None:
+        """Return the messages on their way to a robot a tick later; None if one must arrive."""
+        automaton = self.groups[group].automaton
+        if not isinstance(automaton, ClockedAutomaton):
+            return bag
+        found = []
+        for each in bag:
+            age, message = divmod(each, self._kinds)
+            least, most = self._times[message]
+            if automaton.is_late(state, message):
+                found.append(each)
+            elif age == most:
+                return None
+            else:
+                oldest = least if most is None else most
+                found.append(min(age + 1, oldest) * self._kinds + message)
+        return tuple(sorted(found))
+
+    # ---- internal
+
+    def _change(self, number: int) -> int | None:
+        """Return the difference that a tick makes to a robot at a place."""
+        group, state, bag = self.places[number]
+        automaton = self.groups[group].automaton
+        later: int | None = state
+        if isinstance(automaton, ClockedAutomaton):
+            later = automaton.later(state)
+        old = self.aged(group, state, bag)
+        if later is None or old is None:
+            return None
+        return self.ones[self.number(group, later, old)] - self.ones[number]
+
+    def _find(self, number: int) -> Iterator[Step]:
+        group, state, bag = self.places[number]
+        automaton = self.groups[group].automaton
+        moves = automaton.moves(state)
+        if moves is None:
+            self.cut = True
+            return
+        for move in moves:
+            yield Step(number, move, self._target(group, move.target, bag))
+        is_clocked = isinstance(automaton, ClockedAutomaton)
+        for each in dict.fromkeys(bag):
+            age, message = divmod(each, self._kinds)
+            rest = without(bag, each)
+            heard = automaton.move_on(state, message)
+            if heard is None and automaton.is_late(state, message):
+                continue
+            if heard is None:
+                self.cut = True
+                continue
+            if not is_clocked or age >= self._times[message][0]:
+                yield Step(number, heard, self._target(group, heard.target, rest), each)
+            if self.lossy and not self.alphabet.messages[message].reliable:
+                yield Step(number, None, self.number(group, state, rest), each)
+
+    def _with(
+        self, group: int, state: int, bag: tuple[int, ...], message: int, sender: int
+    ) -> tuple[int, ...]:
+        """Return a bag with one more message, if the robot gets it; it is new."""
+        young = tuple(each % self._kinds for each in bag)
+        more = super()._with(group, state, young, message, sender)
+        return bag if len(more) == len(bag) else tuple(sorted((*bag, message)))
+
+
+def _in_ticks(bounds: Bounds, tick: int) -> Bounds:
+    least, most = bounds
+    return least // tick, most // tick if most is not None else None

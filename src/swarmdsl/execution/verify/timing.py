@@ -1,0 +1,46 @@
+"""Least and greatest times of functions and events, as in a scenario."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.execution.simulate.scenario import Robot, Scenario
+
+Bounds = tuple[int, int | None]
+"""The least and the greatest time; None is no limit."""
+AT_ONCE: Bounds = (0, 0)
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Times of a scenario, in nanoseconds; if `lossy`, any event between robots may be lost."""
+
+    scenario: Scenario
+    lossy: bool = False
+
+    def function(self, name: str, robot: Robot) -> Bounds:
+        """Return the times after which a function of a robot can end."""
+        behavior = self.scenario.behavior(name, robot)
+        least, most = behavior.duration.bounds
+        return least, None if behavior.never else most
+
+    def message(self, *, repeats: bool) -> Bounds:
+        """Return the times after which an event can arrive at another robot.
+
+        One that `repeats` is sent again if it is lost.
+        """
+        least, most = self.scenario.latency.bounds
+        is_late = repeats and (self.lossy or self.scenario.loss > 0)
+        return least, None if is_late else most
+
+    def stops_late(self, name: str, robot: Robot) -> bool:
+        """Return True if a cancelled function of a robot takes time to stop."""
+        return self.scenario.behavior(name, robot).stopping.bounds != AT_ONCE
+
+    def lengths(self, calls: Iterable[tuple[str, Robot]], *, messages: bool) -> Iterator[int]:
+        """Yield the lengths that clocks must measure."""
+        for name, robot in calls:
+            yield from (each for each in self.function(name, robot) if each)
+        if messages:
+            yield from (each for each in self.message(repeats=False) if each)

@@ -1,0 +1,352 @@
+"""Properties about time, without and with clocks."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.cli import run
+from swarmdsl.execution.monitor import FALSE
+from swarmdsl.execution.simulate.actors import actors
+from swarmdsl.execution.simulate.durations import (
+    MILLISECOND,
+    SECOND,
+    Fixed,
+    Length,
+    Normal,
+    Uniform,
+)
+from swarmdsl.execution.simulate.inputs import Input
+from swarmdsl.execution.simulate.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.run import run as simulate
+from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
+from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.verify.model import Model, Options
+
+from .conftest import model_of, verdicts_of
+from .random_timed import random_timed_swarm
+
+_PRELUDE = """package test
+function attempt : abstraction { service "attempt" : std_srvs/Empty }
+function other : abstraction { service "other" : std_srvs/Empty }
+event Go : std_msgs/Empty
+swarm event Ask : std_msgs/Empty
+swarm event Tell : std_msgs/Empty
+"""
+_DELAY = """endless statemachine M {
+  initial S0
+  state S0 { after 10 s -> S1 }
+  state S1 { on Go -> S0 }
+}
+"""
+_CALL = """endless statemachine M {
+  initial S0
+  state S0 {
+    do attempt
+    on succeeded, aborted -> S1
+  }
+  state S1 { on Go -> S0 }
+}
+"""
+_ONE = "member A { behavior M }\nswarm S { a : A }\n"
+_TWO = """member A { behavior M }
+member B { behavior N }
+swarm S {
+  a : A
+  b : B
+}
+"""
+Modelled = Callable[..., Model]
+
+
+def _outcome(modelled: Modelled, text: str, **options: object) -> str:
+    (verdict,) = verdicts_of(modelled(_PRELUDE + text, **options)).values()
+    return verdict.outcome
+
+
+@pytest.mark.parametrize(
+    ("length", "ignored", "exact"),
+    [("10 s", "unknown", "holds"), ("9999 ms", "fails", "fails"), ("10001 ms", "unknown", "holds")],
+)
+def test_a_time_that_a_delay_ends_with_is_in_time(
+    length: str, ignored: str, exact: str, modelled: Modelled
+) -> None:
+    text = f"{_DELAY}{_ONE}property P of S : each a : in S0 leads to in S1 within {length}"
+
+    assert _outcome(modelled, text) == ignored
+    assert _outcome(modelled, text, exact=True) == exact
+
+
+@pytest.mark.parametrize(
+    ("length", "within", "exact"),
+    [
+        (Fixed(2 * SECOND), "2 s", "holds"),
+        (Fixed(2 * SECOND), "1 s", "fails"),
+        (Uniform(SECOND, 3 * SECOND), "3 s", "holds"),
+        (Uniform(SECOND, 3 * SECOND), "2 s", "fails"),
+        # The sum of twelve numbers from 0 to 1 has a greatest value.
+        (Normal(4 * SECOND, SECOND // 2), "7 s", "holds"),
+        (Normal(4 * SECOND, SECOND // 2), "6500 ms", "fails"),
+    ],
+)
+def test_functions_take_the_times_of_a_scenario(
+    length: Length, within: str, exact: str, modelled: Modelled
+) -> None:
+    text = f"{_CALL}{_ONE}property P of S : each a : in S0 leads to in S1 within {within}"
+    scenario = Scenario(functions={(EVERY_FUNCTION, ""): {"duration": length}})
+
+    assert _outcome(modelled, text, scenario=scenario, exact=True) == exact
+    ignored = _outcome(modelled, text, scenario=scenario)
+    assert ignored == ("fails" if exact == "fails" else "unknown")
+
+
+def test_a_function_without_a_scenario_takes_a_second(modelled: Modelled) -> None:
+    text = f"{_CALL}{_ONE}property P of S : each a : in S0 leads to in S1 within"
+
+    assert _outcome(modelled, f"{text} 1 s", exact=True) == "holds"
+    assert _outcome(modelled, f"{text} 999 ms", exact=True) == "fails"
+    model = modelled(f"{_PRELUDE}{text} 1 s")
+    (verdict,) = verdicts_of(model).values()
+    assert "functions would take longer than 1 s; try `--time exact`" in verdict.reason
+
+
+def test_a_function_that_never_answers_is_late(modelled: Modelled) -> None:
+    text = f"{_CALL}{_ONE}property P of S : each a : in S0 leads to in S1 within 1 min"
+    scenario = Scenario(functions={(EVERY_FUNCTION, ""): {"never": 0.1}})
+
+    assert _outcome(modelled, text, scenario=scenario, exact=True) == "fails"
+
+
+@pytest.mark.parametrize(
+    ("latency", "within", "exact"),
+    [
+        (Fixed(0), "1 ms", "holds"),
+        (Uniform(0, 200 * MILLISECOND), "200 ms", "holds"),
+        (Uniform(0, 200 * MILLISECOND), "100 ms", "fails"),
+        (Fixed(200 * MILLISECOND), "200 ms", "holds"),
+    ],
+)
+def test_events_take_the_latency_of_a_scenario(
+    latency: Length, within: str, exact: str, modelled: Modelled
+) -> None:
+    text = f"""endless statemachine M {{
+  initial S0
+  state S0 {{ on Go / send Ask -> S1 }}
+  state S1 {{ on Tell -> S0 }}
+}}
+endless statemachine N {{
+  initial S0
+  state S0 {{ on Ask -> S1 }}
+  state S1 {{ after 1 s / send Tell -> S0 }}
+}}
+{_TWO}property P of S : a sends Ask leads to b in S1 within {within}"""
+
+    assert _outcome(modelled, text, scenario=Scenario(latency=latency), exact=True) == exact
+
+
+def test_a_race_is_decided_by_times(modelled: Modelled) -> None:
+    text = f"""endless statemachine M {{
+  initial S0
+  state S0 {{
+    do attempt
+    on succeeded, aborted -> S1
+    after 900 ms -> Early
+    after 1100 ms -> Late
+  }}
+  state S1 {{ on Go -> S1 }}
+  state Early {{ on Go -> S1 }}
+  state Late {{ on Go -> S1 }}
+}}
+{_ONE}property Never of S : each a : never in S1
+property Late of S : each a : never in Late
+property Early of S : each a : never in Early
+property Can of S : each a : always possible in Late"""
+    model = modelled(_PRELUDE + text, exact=True)
+    found = {name: each.outcome for name, each in verdicts_of(model).items()}
+
+    assert found == {"Never": "fails", "Late": "holds", "Early": "fails", "Can": "fails"}
+
+
+def test_what_is_possible_depends_on_times(modelled: Modelled) -> None:
+    text = f"""endless statemachine M {{
+  initial S0
+  state S0 {{
+    do attempt
+    on succeeded, aborted -> S0
+    after 2500 ms -> S1
+  }}
+  state S1 {{ after 1 s -> S1 }}
+}}
+{_ONE}property Can of S : each a : always possible in S1"""
+
+    # Each call ends before the delay, which begins anew then.
+    assert _outcome(modelled, text) == "unknown"
+    assert _outcome(modelled, text, exact=True) == "fails"
+    slow = Scenario(functions={(EVERY_FUNCTION, ""): {"duration": Fixed(3 * SECOND)}})
+    assert _outcome(modelled, text, scenario=slow, exact=True) == "holds"
+    varying = {"duration": Uniform(SECOND, 3 * SECOND)}
+    unsure = Scenario(functions={(EVERY_FUNCTION, ""): varying})
+    assert _outcome(modelled, text, scenario=unsure, exact=True) == "unknown"
+
+
+def test_what_needs_no_time_holds_at_any_time(modelled: Modelled) -> None:
+    text = f"""endless statemachine M {{
+  initial S0
+  state S0 {{ on Go / send Ask -> S1 }}
+  state S1 {{
+    do attempt
+    on succeeded, aborted -> S0
+  }}
+}}
+{_ONE}property P of S : each a : sends Ask leads to in S1 within 1 ms"""
+
+    assert _outcome(modelled, text) == "holds"
+
+
+@pytest.mark.parametrize("exact", [False, True])
+def test_a_scope_that_ends_too_late_is_violated_at_its_end(
+    modelled: Modelled, *, exact: bool
+) -> None:
+    text = f"{_DELAY}{_ONE}property P of S : each a : "
+    sentence = "between in S0 and in S1, eventually hears Go within"
+
+    # The run ends its part with `in S1`, 10 s after it began.
+    assert _outcome(modelled, f"{text}{sentence} 4 s", exact=exact) == "fails"
+    assert _outcome(modelled, f"{text}after in S1 until in S0, eventually in S0 within 1 s") != (
+        "holds"
+    )
+
+
+def test_lengths_that_variables_have_count(modelled: Modelled) -> None:
+    text = f"""endless statemachine M {{
+  var wait : duration = 1 s
+  initial S0
+  state S0 {{
+    after wait / wait = 3 s -> S1
+  }}
+  state S1 {{ on Go -> S0 }}
+}}
+{_ONE}property Once of S : each a : eventually in S1 within 1 s
+property Again of S : each a : in S0 leads to in S1 within 2 s
+property Longest of S : each a : in S0 leads to in S1 within 3 s"""
+    model = modelled(_PRELUDE + text, exact=True)
+    found = {name: each.outcome for name, each in verdicts_of(model).items()}
+
+    assert found == {"Once": "holds", "Again": "fails", "Longest": "holds"}
+
+
+def test_robots_without_clocks_are_told(modelled: Modelled) -> None:
+    text = f"""endless statemachine M {{
+  initial S0
+  state S0 {{ on Ask -> S1 }}
+  state S1 {{ after 5 s -> S0 }}
+}}
+endless statemachine N {{
+  initial S0
+  state S0 {{ after 7 s / send Ask -> S0 }}
+}}
+{_TWO}property P of S : a in S1 leads to a in S0 within 5 s
+property Q of S : a in S0 leads to a in S1 within 7 s"""
+    found = verdicts_of(modelled(_PRELUDE + text, exact=True))
+
+    assert found["P"].outcome == found["Q"].outcome == "holds"
+    assert found["P"].reason == "with clocks of a, others take any time"
+    assert not found["Q"].reason
+
+
+def test_a_search_that_is_too_long_tells_what_to_round(modelled: Modelled) -> None:
+    text = """endless statemachine M {
+  initial S0
+  state S0 { after 10 s -> S1 }
+  state S1 { after 333 ms -> S0 }
+}
+member A { behavior M }
+swarm S { a : A[2] }
+property P of S : all a in S0 leads to some a in S1 within 1 min"""
+    (verdict,) = verdicts_of(modelled(_PRELUDE + text, exact=True), 2_000).values()
+
+    assert verdict.outcome == "up to"
+    assert verdict.reason.endswith("clocks have ticks of 1 ms: round 333 ms to 10 s for 10 s")
+
+
+# ---- runs
+
+
+def _written(folder: Path) -> dict[str, Path]:
+    return {path.stem: path for path in folder.glob("P*.jsonl")}
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_runs_with_times_are_those_of_the_model(
+    seed: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "random.swarm"
+    model.write_text(random_timed_swarm(seed), encoding="utf-8")
+    results = tmp_path / "results.json"
+    arguments = ["--time", "exact", "-o", str(tmp_path), "--results", str(results)]
+    run(["verify", str(model), *arguments])
+    verdicts = json.loads(results.read_text(encoding="utf-8"))["properties"]
+    failed = {each["name"] for each in verdicts if each["verdict"] == "fails"}
+    runs = _written(tmp_path)
+    capsys.readouterr()
+
+    assert set(runs) == failed
+    for name, path in runs.items():
+        assert run(["simulate", str(model), "--replay", str(path), "--property", name]) == 1
+        told = capsys.readouterr().err
+        assert "as in the model" in told
+        assert f"SW1606]: property `{name}`" in told
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_simulation_violates_what_holds(seed: int, tmp_path: Path) -> None:
+    path = tmp_path / "random.swarm"
+    path.write_text(random_timed_swarm(seed), encoding="utf-8")
+    length = Uniform(SECOND, 2 * SECOND)
+    aborts = {"duration": length, "aborted": 0.3}
+    scenario = Scenario(functions={(EVERY_FUNCTION, ""): aborts}, latency=Uniform(0, SECOND))
+    model = model_of(path, None, Options(5, scenario=scenario, exact=True))
+    holds = {name for name, each in verdicts_of(model).items() if each.outcome == "holds"}
+    ignoring = model_of(path, None, Options(5, scenario=scenario))
+    holds |= {name for name, each in verdicts_of(ignoring).items() if each.outcome == "holds"}
+
+    violated = {name for chance in range(60) for name in _violated(model, scenario, chance)}
+    assert not holds & violated
+
+
+def _violated(model: Model, scenario: Scenario, seed: int) -> set[str]:
+    """Return the properties that a random run violates."""
+    subject = model.subject
+    cast = actors(subject, subject.create_robots({}), scenario, Diagnostics())
+    chance = Random(seed)
+    hearing = [actor for actor in cast if actor.listens("Go")]
+    inputs = [
+        Input("Go", chance.randrange(4000) * MILLISECOND, {}, (chance.choice(hearing),))
+        for _ in range(10 if hearing else 0)
+    ]
+    world = World(model.system, cast, scenario, seed, [lambda line: monitors.see(line)])
+    monitors = watch(plan(watchable(subject)), world.data)
+    ending = simulate(world, inputs, 60 * SECOND)
+    results = monitors.results(world.clock.now, ended=ending == "ended")
+    return {each.property.name for each in results if each.verdict == FALSE}
+
+
+def test_saved_tests_wait_as_the_run_does(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model, saved = tmp_path / "model.swarm", tmp_path / "new.swarmtest.toml"
+    text = f"{_PRELUDE}{_DELAY}{_ONE}property P of S : each a : in S0 leads to in S1 within 9 s"
+    model.write_text(text, encoding="utf-8")
+
+    assert run(["verify", str(model), "--time", "exact", "--save-test", str(saved)]) == 1
+    assert '{ pass = "10 s" }' in saved.read_text(encoding="utf-8")
+    capsys.readouterr()
+    assert run(["test", str(saved)]) == 1
+    assert "property `P` is violated by `a[0]` at 9 s" in capsys.readouterr().out
+    model.write_text(text.replace("after 10 s", "after 8 s"), encoding="utf-8")
+    assert run(["test", str(saved)]) == 0

@@ -1,0 +1,58 @@
+"""Verdicts on random swarms with times are those of all runs on the engine, second by second."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+from swarmdsl.execution.simulate.durations import SECOND, Fixed, Uniform
+from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
+from swarmdsl.execution.verify.model import Options
+
+from .conftest import model_of, system_of, verdicts_of
+from .random_timed import random_timed_swarm
+from .slow_timed import Bounds, refuted_in_time
+
+MOST = 350
+"""Number of states up to which the slow explorer plays all runs from their beginning."""
+TIMES: tuple[tuple[Bounds, Bounds], ...] = (((1, 1), (0, 0)), ((1, 2), (0, 0)), ((2, 2), (0, 1)))
+"""Times of functions and of events between robots, in seconds."""
+FEW = range(24)
+
+
+def compare(seed: int, path: Path) -> Counter[str]:
+    """Compare the verdicts on a random swarm; return how many of each kind there are."""
+    path.write_text(random_timed_swarm(seed), encoding="utf-8")
+    function, latency = TIMES[seed % len(TIMES)]
+    lengths = {(EVERY_FUNCTION, ""): {"duration": _length(function)}}
+    scenario = Scenario(functions=lengths, latency=_length(latency))
+    model = model_of(path, None, Options(2, scenario=scenario, exact=True))
+    found: Counter[str] = Counter()
+    wanted = refuted_in_time(system_of(path), list(model.outside), function, latency, MOST)
+    if wanted is None:
+        return found
+    for name, verdict in verdicts_of(model, 50_000).items():
+        found[verdict.outcome] += 1
+        match verdict.outcome:
+            case "holds":
+                assert name not in wanted, (seed, verdict)
+            case "fails":
+                assert name in wanted, (seed, verdict)
+            case _:
+                # Only for an order of messages that cannot be.
+                assert "overtakes" in verdict.reason or "on the way" in verdict.reason, verdict
+    return found
+
+
+def _length(bounds: Bounds) -> Fixed | Uniform:
+    least, most = bounds
+    return Fixed(least * SECOND) if least == most else Uniform(least * SECOND, most * SECOND)
+
+
+def test_verdicts_with_clocks_are_those_of_all_runs(tmp_path: Path) -> None:
+    found: Counter[str] = Counter()
+    for seed in FEW:
+        found += compare(seed, tmp_path / "random.swarm")
+
+    assert min(found["holds"], found["fails"]) > 20, found
+    assert found["unknown"] < found.total() / 10
