@@ -84,6 +84,12 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     multiple=True,
     help="Run what this property is about, and watch only it; may be repeated.",
 )
+@click.option(
+    "--world",
+    type=Choice(("abstract", "flat")),
+    help="Space of the run: none, or the plane.  [default: the scenario's, or flat if the model "
+    "says where something is]",
+)
 @many_runs
 @click.option("--no-properties", is_flag=True, help="Do not watch the properties of the model.")
 @click.option("--stop-on-violation", is_flag=True, help="End the run when a property is violated.")
@@ -104,6 +110,7 @@ def simulate(
     seed: int | None,
     until: int | None,
     properties: tuple[str, ...],
+    world: str | None,
     no_properties: bool,
     stop_on_violation: bool,
     real_time: bool,
@@ -158,6 +165,7 @@ def simulate(
         stop_on_violation,
         properties,
         results,
+        world,
     )
     if many is None:
         simulate_ = run_simulation

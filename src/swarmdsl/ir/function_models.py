@@ -71,7 +71,7 @@ MODELS: Mapping[str, FunctionModel] = {
                 Argument("area", "area", None, "name of the area; without it, the environment"),
                 _HEIGHT,
                 _SPEED,
-                Argument("target", "text", "", "kind of target that ends it; without it, any"),
+                Argument("target", "text", None, "kind of target that ends it; without it, any"),
             ),
         ),
     )

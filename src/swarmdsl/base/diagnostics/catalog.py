@@ -303,6 +303,13 @@ CODES: dict[str, Code] = {
     "bad-trace-line": Code("SW1010", "error", "invalid trace line: {reason}"),
     "trace-departs": Code("SW1011", "error", "{who} deviates from the model on {event} at {time}"),
     "ros2-unavailable": Code("SW1012", "error", "cannot follow ROS 2 nodes: {reason}"),
+    "positions-left-out": Code(
+        "SW1013", "warning", "the positions of `{name}` are left out: there is no NumPy"
+    ),
+    "no-flat-world": Code("SW1014", "error", "there is no flat world here: it needs {what}"),
+    "failed-model": Code("SW1015", "error", "the model of `{function}` fails at {time}: {reason}"),
+    "bad-model": Code("SW1016", "error", "cannot load model `{name}`: {reason}"),
+    "unfit-device": Code("SW1017", "error", "`{name}` of {owner} {reason}"),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),

@@ -9,7 +9,7 @@ from pathlib import Path
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.read_files import MOST_DATA, is_file
 from swarmdsl.base.source import Source
-from swarmdsl.driver.config.settings import FILE_NAME, Settings
+from swarmdsl.driver.config.settings import FILE_NAME, ModelSource, Settings
 from swarmdsl.project.read_source import read_source
 
 
@@ -52,4 +52,12 @@ def places(start: Path) -> Iterator[str]:
         yield os.path.join(folder, FILE_NAME)  # noqa: PTH118
 
 
-__all__ = ["FILE_NAME", "Settings", "find_file", "find_settings", "places", "read_project"]
+__all__ = [
+    "FILE_NAME",
+    "ModelSource",
+    "Settings",
+    "find_file",
+    "find_settings",
+    "places",
+    "read_project",
+]

@@ -17,15 +17,18 @@ from swarmdsl.codegen import registry
 from swarmdsl.codegen.api import Generator
 from swarmdsl.codegen.options import Option, options_of, parse_options
 from swarmdsl.driver.config.lint import find_diagnostic, may_have, similar_diagnostic
-from swarmdsl.driver.config.settings import FILE_NAME, Settings
+from swarmdsl.driver.config.settings import FILE_NAME, ModelSource, Settings
 from swarmdsl.driver.config.toml import Document, Keys
+from swarmdsl.ir.function_models import MODELS
 
 _KEYS: dict[str, tuple[str, ...]] = {
     "project": ("name", "sources", "libraries"),
     "targets": (),
+    "models": (),
     "lint": tuple(level.value for level in Level),
     "build": ("out",),
 }
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _PACKAGE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z_][A-Za-z0-9_]*)*")
 
 # In the order of `isinstance`: a bool is an int, a datetime is a date.
@@ -63,6 +66,7 @@ class _Reader:
             targets=targets,
             places={target: self._places(target, options) for target, options in targets.items()},
             levels=self._levels(),
+            models={each.name: each for each in self._models()},
             out=self._path(("build", "out")) or Path() if "out" in build else self._folder / "out",
             folder=self._folder,
             out_place=self._value_place(("build", "out")) if "out" in build else None,
@@ -118,6 +122,32 @@ class _Reader:
                 places = self._places(target, options)
                 parse_options(generator, options, self._report, places, is_all=False)
             yield target, options
+
+    def _models(self) -> Iterator[ModelSource]:
+        """Yield the function models: a class in a file of Python, or the name of an entry point."""
+        for name in self._table("models"):
+            keys: Keys = ("models", name)
+            text, place = self._text(keys), self._value_place(keys)
+            if text is None:
+                continue
+            if not _NAME.fullmatch(name):
+                place = self._document.places[keys].key
+                self._report.report(
+                    "wrong-value", place, name="models", expected="names", found=f"`{name}`"
+                )
+                continue
+            if name in MODELS:
+                self._report_wrong(keys, "a name that swarmdsl has no model of", f"`{name}`")
+                continue
+            file, _, attribute = text.rpartition(":")
+            if not file and _NAME.fullmatch(attribute):
+                yield ModelSource(name, attribute, place=place)
+            elif file.endswith(".py") and _NAME.fullmatch(attribute) and "\0" not in file:
+                path = Path(os.path.normpath(self._folder / file))
+                yield ModelSource(name, attribute, path, place)
+            else:
+                expected = "a class in a file, like `models/spray.py:Spray`, or an entry point"
+                self._report_wrong(keys, expected, f"`{text}`")
 
     def _places(self, target: str, options: Iterable[str]) -> dict[str, Span]:
         return {name: self._pair_place(("targets", target, name)) for name in options}

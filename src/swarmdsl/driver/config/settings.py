@@ -13,13 +13,23 @@ FILE_NAME = "swarm.toml"
 
 
 @dataclass(frozen=True)
+class ModelSource:
+    """Where a function model of a project is: a class in a file, or an entry point (no `path`)."""
+
+    name: str
+    attribute: str
+    path: Path | None = None
+    place: Span | None = None
+
+
+@dataclass(frozen=True)
 class Settings:
     """Settings of a project; the defaults apply without a project file.
 
     `sources` are compiled if no file is named, `libraries` are searched for packages. `targets`,
     with their options, are built if none is named; if empty, all default targets. `places` has the
-    spans of the options. `folder` is that of the project file, the current one without it, and
-    `out_place` the span of `out` in it.
+    spans of the options, `models` the function models of the project. `folder` is that of the
+    project file, the current one without it, and `out_place` the span of `out` in it.
     """
 
     name: str | None = None
@@ -28,6 +38,7 @@ class Settings:
     targets: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     places: Mapping[str, Mapping[str, Span]] = field(default_factory=dict)
     levels: Mapping[str, Level] = field(default_factory=dict)
+    models: Mapping[str, ModelSource] = field(default_factory=dict)
     out: Path = Path("out")
     folder: Path = Path()
     out_place: Span | None = None

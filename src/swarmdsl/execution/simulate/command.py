@@ -39,6 +39,7 @@ from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.results import as_document
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
+from swarmdsl.execution.simulate.space import ModelError
 from swarmdsl.execution.simulate.summary import Summary, measure_table, property_table
 from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line, as_json, as_text
@@ -118,7 +119,13 @@ class _Play:
         self._fitness = fitness_of(subject)
         self._listeners: list[Callable[[Line], None]] = []
         self._world = World(
-            subject.system, cast, scenario, self._seed, self._listeners, subject.heartbeat
+            subject.system,
+            cast,
+            scenario,
+            self._seed,
+            self._listeners,
+            subject.heartbeat,
+            prepared.spaces.alone(self._seed),
         )
 
     def replay(self, tell: Tell) -> bool:
@@ -195,6 +202,11 @@ class _Play:
                     ending = "until a property was violated"
                 except LoopError as error:
                     self._report_loop(error, report)
+                except ModelError as error:
+                    ending = "until the model of a function failed"
+                    time = format_duration(self._world.clock.now)
+                    function, reason = error.function, error.reason
+                    report.report("failed-model", function=function, time=time, reason=reason)
                 except KeyboardInterrupt:
                     interrupted, ending = True, "until it was interrupted"
                 sys.stdout.flush()

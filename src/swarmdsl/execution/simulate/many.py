@@ -22,12 +22,10 @@ from swarmdsl.execution.simulate.chances import Level
 from swarmdsl.execution.simulate.durations import written_duration
 from swarmdsl.execution.simulate.estimates import Estimates
 from swarmdsl.execution.simulate.histogram import histograms
-from swarmdsl.execution.simulate.one_run import Outcome, Runner, begin, run_seed
+from swarmdsl.execution.simulate.one_run import Outcome, Runner, begin, run_seeds
 from swarmdsl.execution.simulate.prepare import Request, prepare
 
 Tell = Callable[[Diagnostics], None]
-_CHUNK = 4
-"""Number of runs that a worker gets at a time."""
 
 
 @dataclass(frozen=True)
@@ -107,13 +105,17 @@ def _gather(
 
 def _outcomes(request: Request, jobs: int, runner: Runner, seeds: range) -> Iterator[Outcome]:
     """Yield the outcomes in the order of the seeds, whoever is done first."""
+    size = runner.batch
+    batches = [seeds[first : first + size] for first in range(0, len(seeds), size)]
     if jobs == 1:
-        yield from map(runner.run, seeds)
+        for batch in batches:
+            yield from runner.run_all(batch)
         return
     # Processes that are not copies of this one are the same on each platform.
     pool = ProcessPoolExecutor(jobs, get_context("spawn"), begin, (request,))
     try:
-        yield from pool.map(run_seed, seeds, chunksize=_CHUNK)
+        for outcomes in pool.map(run_seeds, batches):
+            yield from outcomes
     finally:
         pool.shutdown(wait=True, cancel_futures=True)
 

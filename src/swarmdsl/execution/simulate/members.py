@@ -84,6 +84,11 @@ class Members:
         self._hearings: dict[tuple[Robot, Robot], tuple[int, Alarm]] = {}
         """Next heartbeats after a silence, with their times."""
 
+    @property
+    def is_followed(self) -> bool:
+        """True if a robot follows who is there, by heartbeats."""
+        return bool(self._observers)
+
     def follow(self, robots: Sequence[Robot] | None = None) -> None:
         """Follow a change of what some robots reach, or all of them."""
         changed = {robot.name for robot in (self._robots if robots is None else robots)}

@@ -4,19 +4,26 @@ from __future__ import annotations
 
 import gc
 import signal
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.engine import LoopError
-from swarmdsl.execution.monitor import Verdict
+from swarmdsl.execution.monitor import Verdict, Watch
+from swarmdsl.execution.simulate.inputs import Input
 from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_of
 from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
 from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.reporter import observe
-from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, run
+from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, run, run_by_steps
+from swarmdsl.execution.simulate.space import ModelError, Space
 from swarmdsl.execution.simulate.world import World
 
 QUIET = ("ended", "quiet")
+_CHUNK = 4
+"""Number of runs that a worker gets at a time, without places."""
+_ROWS, _MOST_TOGETHER = 2000, 30
+"""Number of robots that move together, and of runs."""
 
 
 class Outcome(NamedTuple):
@@ -37,6 +44,15 @@ class Outcome(NamedTuple):
     failed: tuple[tuple[tuple[str, str], int], ...] = ()
 
 
+class _Started(NamedTuple):
+    """A run that goes on."""
+
+    seed: int
+    world: World
+    monitors: Watch
+    inputs: Sequence[Input]
+
+
 class Runner:
     """Runs with the same conditions and different seeds."""
 
@@ -51,18 +67,72 @@ class Runner:
 
     def run(self, seed: int) -> Outcome:
         """Run the subject with a seed."""
+        started = self._start(seed, self._prepared.spaces.alone(seed))
+        try:
+            ending = run(started.world, started.inputs, self._until)
+        except (LoopError, ModelError) as error:
+            return Outcome(seed, failure=str(error))
+        return self._outcome(started, ending)
+
+    def run_all(self, seeds: Sequence[int]) -> list[Outcome]:
+        """Run the subject with some seeds; robots with places move together."""
+        if len(seeds) < 2 or not self._prepared.spaces.is_flat:
+            return [self.run(seed) for seed in seeds]
+        ensemble = self._prepared.spaces.together(seeds)
+        started = [
+            self._start(seed, space) for seed, space in zip(seeds, ensemble.spaces, strict=True)
+        ]
+        found: dict[int, Outcome] = {}
+        going = [(each, run_by_steps(each.world, each.inputs, self._until)) for each in started]
+        try:
+            while going:
+                still = []
+                for each, steps in going:
+                    try:
+                        each.world.space.check()
+                        next(steps)
+                        still.append((each, steps))
+                        continue
+                    except StopIteration as stop:
+                        found[each.seed] = self._outcome(each, stop.value)
+                    except LoopError as error:
+                        found[each.seed] = Outcome(each.seed, failure=str(error))
+                    each.world.space.due = False
+                going = still
+                ensemble.advance()
+        except ModelError:
+            # It may be the fault of one run: each has its own then.
+            return [self.run(seed) for seed in seeds]
+        return [found[seed] for seed in seeds]
+
+    @property
+    def batch(self) -> int:
+        """Number of runs to do at a time."""
+        if not self._prepared.spaces.is_flat:
+            return _CHUNK
+        subject = self._prepared.subject
+        robots = max(subject.size(self._prepared.scenario.counts), 1)
+        return min(max(_ROWS // robots, 1), _MOST_TOGETHER)
+
+    @property
+    def _until(self) -> int | None:
+        until = self._request.until
+        return until if until is not None else self._prepared.scenario.until
+
+    def _start(self, seed: int, space: Space) -> _Started:
+        """Make the world of a run."""
         subject, scenario = self._prepared.subject, self._prepared.scenario
         cast, inputs = self._prepared.stage(Diagnostics())
-        world = World(subject.system, cast, scenario, seed, [], subject.heartbeat)
+        world = World(subject.system, cast, scenario, seed, [], subject.heartbeat, space)
         monitors = watch(self._plan, world.data)
         if self.properties or self.fitness is not None:
             observe(world.trace, monitors, world.clock)
-        until = self._request.until if self._request.until is not None else scenario.until
-        try:
-            ending = run(world, inputs, until)
-        except LoopError as error:
-            return Outcome(seed, failure=str(error))
-        now = world.clock.now
+        return _Started(seed, world, monitors, inputs)
+
+    def _outcome(self, started: _Started, ending: Ending) -> Outcome:
+        """Return the outcome of a run that is over."""
+        seed, world, monitors, inputs = started
+        until, now = self._until, world.clock.now
         results = monitors.results(now, ended=ending == "ended")
         outcome = Outcome(
             seed,
@@ -92,7 +162,7 @@ def begin(request: Request) -> None:
     _runner = Runner(request, prepared)
 
 
-def run_seed(seed: int) -> Outcome:
-    """Run with a seed in a worker process."""
+def run_seeds(seeds: Sequence[int]) -> list[Outcome]:
+    """Run with some seeds in a worker process."""
     assert _runner is not None
-    return _runner.run(seed)
+    return _runner.run_all(seeds)

@@ -9,10 +9,11 @@ from swarmdsl.base.read_files import MOST_DATA, MOST_RECORDED
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
-from swarmdsl.driver.config import find_settings
+from swarmdsl.driver.config import Settings, find_settings
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.choose_space import Spaces, choose_space
 from swarmdsl.execution.simulate.inputs import Input, Reader
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
@@ -45,6 +46,8 @@ class Request:
     only: tuple[str, ...] = ()
     """Names of the properties that are watched; none for all."""
     results: Path | None = None
+    world: str | None = None
+    """Kind of space; None if the scenario or the model decides."""
 
     def watches(self, name: str) -> bool:
         """Return True if a property of this name is watched."""
@@ -58,6 +61,7 @@ class Prepared:
     subject: Subject
     scenario: Scenario
     events: Source | None
+    spaces: Spaces
 
     def stage(self, report: Diagnostics) -> tuple[list[Actor], list[Input]]:
         """Return the machines of a run, which changes them, and its events from outside."""
@@ -80,7 +84,9 @@ def prepare(request: Request, report: Diagnostics) -> Prepared | None:
     if request.events is not None and request.events != STANDARD_INPUT:
         path = Path(request.events)
         events = read_source(path, None, report, "a file of events", MOST_RECORDED)
-    return None if report.has_errors else Prepared(subject, scenario, events)
+    kind = request.world or scenario.world
+    spaces = Spaces() if request.replay else choose_space(kind, subject, scenario, report)
+    return None if report.has_errors else Prepared(subject, scenario, events, spaces)
 
 
 def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scenario | None:
@@ -101,6 +107,7 @@ def _subject(request: Request, report: Diagnostics) -> Subject | None:
     models = [path for path in request.paths if path not in documents]
     read = [document for path in documents if (document := _document(path, report)) is not None]
     system: System | None = None
+    settings = Settings()
     if models or not documents:
         settings = find_settings(models, report)
         if report.has_errors:
@@ -110,7 +117,10 @@ def _subject(request: Request, report: Diagnostics) -> Subject | None:
         system = checked.system
     if report.has_errors:
         return None
-    return choose(system, read, request.machine, request.swarm, report, request.only)
+    subject = choose(system, read, request.machine, request.swarm, report, request.only)
+    if subject is not None:
+        subject.models = settings.models
+    return subject
 
 
 def _document(path: Path, report: Diagnostics) -> Document | None:

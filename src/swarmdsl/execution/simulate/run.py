@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections import deque
+from collections.abc import Callable, Generator, Iterable, Iterator
 from queue import SimpleQueue
 from typing import Literal
 
@@ -49,6 +50,22 @@ def run(
 
     Raises LoopError if a machine does not come to rest.
     """
+    steps = run_by_steps(world, inputs, until, pace)
+    while True:
+        try:
+            next(steps)
+        except StopIteration as stop:
+            ending: Ending = stop.value
+            return ending
+
+
+def run_by_steps(
+    world: World, inputs: Iterable[Input | None], until: int | None, pace: Pace | None = None
+) -> Generator[None, None, Ending]:
+    """Run likewise, and yield whenever the space of the world must move on with others.
+
+    Its driver lets it before it goes on here.
+    """
     world.begin()
     last = 0
     for each in inputs:
@@ -57,7 +74,7 @@ def run(
         at = world.clock.now + each.after
         if until is not None and at > until:
             break
-        _let_happen(world, at, pace)
+        yield from _let_happen(world, at, pace)
         if world.over:
             break
         if pace is not None:
@@ -65,7 +82,8 @@ def run(
         world.clock.advance(at - world.clock.now)
         world.deliver(each.event, each.data, each.to, each.sender)
         last = at
-    return _finish(world, until if until is not None else last + DEFAULT_UNTIL, pace)
+    end = until if until is not None else last + DEFAULT_UNTIL
+    return (yield from _finish(world, end, pace))
 
 
 def run_live(
@@ -80,31 +98,44 @@ def run_live(
         while not arrivals.empty():
             each = arrivals.get()
             if each is None:
-                return _finish(world, until or pace.now + DEFAULT_UNTIL, pace)
+                return _finish_now(world, until or pace.now + DEFAULT_UNTIL, pace)
             world.clock.schedule(pace.now + each.after - world.clock.now, _arrival(world, each))
-        _let_happen(world, pace.now, None)
+        deque(_let_happen(world, pace.now, None), maxlen=0)
         if world.over:
             return "ended"
         world.clock.advance(max(pace.now - world.clock.now, 0))
         time.sleep(_BLINK)
         interrupts.raise_lost()
-    return _finish(world, until, pace)
+    return _finish_now(world, until, pace)
 
 
 def _arrival(world: World, each: Input) -> Callable[[], None]:
     return lambda: world.deliver(each.event, each.data, each.to, each.sender)
 
 
-def _let_happen(world: World, until: int, pace: Pace | None) -> None:
-    """Execute everything that is due until then."""
+def _let_happen(world: World, until: int, pace: Pace | None) -> Iterator[None]:
+    """Execute everything that is due until then; yield when its space must move on."""
     while not world.over and (due := world.clock.next) is not None and due <= until:
         if pace is not None:
             pace.wait(due)
         world.step()
+        if world.space.due:
+            yield
 
 
-def _finish(world: World, until: int, pace: Pace | None) -> Ending:
-    _let_happen(world, until, pace)
+def _finish_now(world: World, until: int, pace: Pace | None) -> Ending:
+    """Finish a run whose space moves on by itself."""
+    steps = _finish(world, until, pace)
+    try:
+        next(steps)
+    except StopIteration as stop:
+        ending: Ending = stop.value
+        return ending
+    raise AssertionError("a run in real time has a space of its own")
+
+
+def _finish(world: World, until: int, pace: Pace | None) -> Generator[None, None, Ending]:
+    yield from _let_happen(world, until, pace)
     if world.over:
         return "ended"
     if world.clock.next is None:

@@ -13,6 +13,8 @@ from swarmdsl.execution.simulate.durations import AT_ONCE, ONE_SECOND, Fixed, Le
 from swarmdsl.syntax.types import SELF_FIELDS
 
 EVERY_FUNCTION = "*"
+_ENDS = frozenset(("duration", "aborted", "preempted", "never"))
+"""Settings of a function that say how it ends without a model."""
 _IN_ROLE = re.compile(r"(.*)\[([0-9]+)\]")
 
 
@@ -76,6 +78,9 @@ class FunctionBehavior:
     preempted: float = 0.0
     never: float = 0.0
     results: tuple[Mapping[str, Any], ...] = ()
+    model: str | None = None
+    arguments: Mapping[str, Any] = field(default_factory=dict)
+    """Model that the function has in a space, with its arguments."""
 
     def draw(self, stream: Callable[[], Random]) -> Answer:
         """Draw the end of a call; a random stream is asked for only if it is needed."""
@@ -139,7 +144,8 @@ class Scenario:
 
     The keys of `functions` are a function name and a word that selects robots: a type of member, a
     role, a robot, or "" for all. `params` has values by such words. `alone` is the robot that a
-    machine without a swarm runs on.
+    machine without a swarm runs on. `world` is the kind of space, None if the model decides, and
+    `step` the time between two steps of it.
     """
 
     seed: int = 0
@@ -152,6 +158,8 @@ class Scenario:
     messages: tuple[Message, ...] = ()
     faults: tuple[Fault, ...] = ()
     alone: Robot = field(default_factory=Robot)
+    world: str | None = None
+    step: int | None = None
 
     def behavior(self, function: str, robot: Robot) -> FunctionBehavior:
         """Return the behavior of a robot's function; the most specific setting wins."""
@@ -160,6 +168,18 @@ class Scenario:
             for word in ("", *robot.words):
                 said.update(self.functions.get((name, word), {}))
         return replace(FunctionBehavior(), **said)
+
+    def model(self, function: str, robot: Robot) -> FunctionBehavior | None:
+        """Return the most specific setting that gives a function of a robot a model.
+
+        One without a model if it says how the function ends instead, None if nothing does.
+        """
+        found = None
+        for word in ("", *robot.words):
+            said = self.functions.get((function, word), {})
+            if "model" in said or said.keys() & _ENDS:
+                found = replace(FunctionBehavior(), **said)
+        return found
 
 
 def is_selected(robot: Robot, words: tuple[str, ...] | None) -> bool:

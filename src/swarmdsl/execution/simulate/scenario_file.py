@@ -9,16 +9,29 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
 from swarmdsl.driver.config.toml import Document
 from swarmdsl.execution.simulate.actors import params, words
-from swarmdsl.execution.simulate.durations import MILLISECOND
+from swarmdsl.execution.simulate.choose_space import KINDS
+from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
 from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Message, Robot, Scenario
+from swarmdsl.execution.simulate.scenario_model import model_setting
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.values import Way, fitted, fitted_result
 from swarmdsl.ir import Communication, Type
 
-TABLES = ("seed", "until", "self", "count", "params", "network", "functions", "messages", "faults")
+TABLES = (
+    "seed",
+    "until",
+    "self",
+    "count",
+    "params",
+    "network",
+    "world",
+    "functions",
+    "messages",
+    "faults",
+)
 _SHARES = ("aborted", "preempted", "never")
-_FUNCTION = ("duration", "stopping", *_SHARES, "results", "of")
+_FUNCTION = ("duration", "stopping", *_SHARES, "results", "model", "arguments", "of")
 
 
 def read_scenario(document: Document, subject: Subject, report: Diagnostics) -> Scenario:
@@ -44,11 +57,15 @@ class _Reader:
         self.members = list(dict.fromkeys(w for robot in self.robots for w in robot.words))
         network = top.inside("network")
         network.check_keys(("latency", "loss"), "`[network]`")
+        world = top.inside("world")
+        world.check_keys(("kind", "step"), "`[world]`")
         found: dict[str, Any] = {
             "seed": top.whole("seed") if "seed" in top else None,
             "until": top.duration("until") if "until" in top else None,
             "latency": network.length("latency") if "latency" in network else None,
             "loss": network.share("loss") if "loss" in network else None,
+            "world": world.name("kind", KINDS, "world") if "kind" in world else None,
+            "step": self.step(world) if "step" in world else None,
         }
         return Scenario(
             counts=counts,
@@ -59,6 +76,14 @@ class _Reader:
             faults=tuple(f for f in map(self.fault, top.items("faults")) if f is not None),
             **{name: value for name, value in found.items() if value is not None},
         )
+
+    def step(self, world: Table) -> int | None:
+        """Read the time between two steps of a space."""
+        step = world.duration("step")
+        if step is not None and not MILLISECOND <= step <= 10 * SECOND:
+            world.wrong(("step",), "a time from 1 ms to 10 s", world.values["step"])
+            return None
+        return step
 
     def counts(self) -> dict[str, int]:
         """Read the number of members by role, within its multiplicity."""
@@ -159,6 +184,7 @@ class _Reader:
                 found[key] = table.share(key)
             elif key == "results":
                 found[key] = self.results(table, call)
+        found.update(model_setting(table, self.subject, call))
         return {key: value for key, value in found.items() if value is not None}
 
     def results(self, table: Table, call: Communication | None) -> tuple[Any, ...]:

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Protocol
 
-from swarmdsl.execution.engine import Run
+from swarmdsl.base.errors import describe_exception
+from swarmdsl.execution.engine import InstanceLike, Run
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.scenario import Robot
 
@@ -29,6 +30,13 @@ class Surroundings(Protocol):
     def over(self) -> bool:
         """True if no machine is running, and no robot comes back."""
 
+    @property
+    def minds_links(self) -> bool:
+        """True if it matters when robots come in reach of each other, or out of it."""
+
+    def failed(self, instance: InstanceLike, error: Exception) -> None:
+        """Count a failed evaluation."""
+
     def lose(self, robot: Robot, lasts: int | None = None, reason: str = "") -> None:
         """Remove a robot."""
 
@@ -41,6 +49,9 @@ class Surroundings(Protocol):
     def links_changed(self, pairs: Iterable[tuple[Robot, Robot]]) -> None:
         """Follow a change of who reaches whom."""
 
+    def flush(self) -> None:
+        """End the line of the trace."""
+
 
 class Space:
     """Abstract space, without places."""
@@ -52,6 +63,9 @@ class Space:
 
     def begin(self, world: Surroundings, ended: Ended) -> None:
         """Begin with a world; `ended` is called when the space ends the run of a function."""
+
+    def check(self) -> None:
+        """Raise the error of a machine that has failed when this space moved on with others."""
 
     def start(self, run: Run, robot: Robot) -> bool:
         """Start a function; return False if this space has no model of it."""
@@ -93,3 +107,14 @@ class Space:
 
 ABSTRACT = Space()
 """The space of worlds without geometry; it has no state."""
+
+
+class ModelError(Exception):
+    """The model of a function has failed, at its own fault."""
+
+    def __init__(self, function: str, error: Exception | str) -> None:
+        said = f"model of {function}"
+        reason = error if isinstance(error, str) else describe_exception(said, error)
+        super().__init__(f"the model of `{function}` fails: {reason}")
+        self.function = function
+        self.reason = reason

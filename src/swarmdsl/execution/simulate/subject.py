@@ -10,6 +10,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.base.suggest import suggest
+from swarmdsl.driver.config import ModelSource
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.table import table
@@ -42,11 +43,21 @@ class Subject:
     machine: StateMachine | None = None
     document: Document | None = None
     tables: dict[str, Machine] = field(default_factory=dict)
+    models: Mapping[str, ModelSource] = field(default_factory=dict)
+    """Function models of the project, by name."""
 
     @property
     def heartbeat(self) -> ir.Heartbeat | None:
         """Heartbeat of the robots of the swarm."""
         return self.swarm.heartbeat if self.swarm is not None else None
+
+    @property
+    def environment(self) -> ir.Environment | None:
+        """Environment of the swarm."""
+        if self.system is None or self.swarm is None:
+            return None
+        name = self.swarm.environment
+        return next((each for each in self.system.environments if each.name == name), None)
 
     def size(self, counts: Mapping[str, int]) -> int:
         """Return the number of members: by default, the minimum of each multiplicity.

@@ -18,9 +18,12 @@ from swarmdsl.execution.engine import (
     State,
     Transition,
 )
+from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.space import Place
 from swarmdsl.execution.simulate.statistics import Life, Statistics
 from swarmdsl.execution.simulate.trace_line import named_numbers
 
@@ -35,7 +38,8 @@ class Line:
     ones.
 
     `data` and `envelope` belong to the event, `messages` and `addresses` to the events in
-    `sent`; `nobody` are the indices of those whose address no other robot has.
+    `sent`; `nobody` are the indices of those whose address no other robot has. `at` is where the
+    robot is after it, in a space with places.
     """
 
     time: int
@@ -59,6 +63,7 @@ class Line:
     withdrawn: list[str] = field(default_factory=list)
     data: Any = None
     envelope: Envelope = NO_ENVELOPE
+    at: Place | None = None
 
 
 class ReportingObserver(Observer):
@@ -86,7 +91,13 @@ class Trace(Observer):
     make lines of what matters to the monitors.
     """
 
-    def __init__(self, clock: Clock, listeners: Sequence[Callable[[Line], None]]) -> None:
+    def __init__(
+        self,
+        clock: Clock,
+        listeners: Sequence[Callable[[Line], None]],
+        place: Callable[[Robot], Place | None] = lambda robot: None,
+    ) -> None:
+        self._place = place
         self.statistics = Statistics()
         self.lives: dict[InstanceLike, Life] = {}
         self._clock = clock
@@ -161,6 +172,7 @@ class Trace(Observer):
         line.configuration = (
             [instance.final] if instance.final else instance.configuration.innermost
         )
+        line.at = self._place(line.actor.robot)
         for listener in self._listeners:
             listener(line)
 
@@ -285,6 +297,8 @@ def as_json(line: Line, more: Mapping[str, int] | None = None) -> str:
         values["to"] = line.addresses
     if line.nobody:
         values["nobody"] = [line.sent[number] for number in line.nobody]
+    if line.at is not None:
+        values["at"] = [round(each, 3) for each in line.at]
     values.update(more or {})
     return json.dumps(values, ensure_ascii=False, default=str, allow_nan=False)
 
@@ -297,6 +311,8 @@ def as_text(line: Line, width: int = 0) -> str:
     """
     who = f"{line.actor.name:<{width}}  " if line.actor.name is not None else ""
     head = f"{line.time / SECOND:>10.3f}  {who}{line.event or '(start)'}"
+    if line.event == LOST and line.data:
+        head += f" ({line.data['reason']})"
     changed = bool(line.entered or line.exited)
     fates = {
         "recalled": line.recalled,

@@ -60,7 +60,7 @@ class World:
     ) -> None:
         self.space = space
         self.clock = Clock()
-        self.trace = Trace(self.clock, listeners)
+        self.trace = Trace(self.clock, listeners, space.at)
         self.failures: Counter[tuple[str, str]] = Counter()
         """Failures of guards and effects, by machine and reason."""
         self.nobody: Counter[str] = Counter()
@@ -329,6 +329,10 @@ class World:
 
     # ---- called by a space
 
+    def flush(self) -> None:
+        """End the line of the trace."""
+        self.trace.flush()
+
     def awaits(self, robot: Robot, topic: str) -> bool:
         """Return True if somebody would handle a message of a robot on a topic now."""
         said, heard = self._events_on(topic)
@@ -359,6 +363,13 @@ class World:
             others = [other for other in self.robots if other is not robot]
             self.network.send(Event(each.name, signed_data, envelope=envelope), each, robot, others)
 
+    @property
+    def minds_links(self) -> bool:
+        """True if it matters when robots come in reach of each other, or out of it."""
+        events = self._system.events if self._system is not None else ()
+        kept = (e.delivery for e in events if e.swarm and e.delivery is not None)
+        return self.members.is_followed or any(each.reliable or each.latest for each in kept)
+
     def links_changed(self, pairs: Iterable[tuple[Robot, Robot]]) -> None:
         """Follow a change of who reaches whom: from the first robot of a pair to the second."""
         for one, other in pairs:
@@ -377,7 +388,7 @@ class World:
         return found
 
     def _own(self, robot: Robot) -> list[Actor]:
-        return self._machines[robot.name]
+        return self._machines.get(robot.name, [])
 
     def _waits(self, actor: Actor, event: str) -> bool:
         """Return True if an active state of a machine reacts to an event, or keeps it."""

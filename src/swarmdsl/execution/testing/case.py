@@ -11,6 +11,7 @@ from typing import Any, Literal
 from swarmdsl.base.diagnostics.collector import Diagnostic
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
+from swarmdsl.execution.simulate.choose_space import Spaces
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.testing.measures import ExpectedMeasure
@@ -154,6 +155,7 @@ class Case:
     violates: tuple[tuple[Property, Span], ...] = ()
     measures: tuple[ExpectedMeasure, ...] = ()
     skips: bool = False
+    spaces: Spaces = field(default_factory=Spaces)
 
 
 @dataclass(frozen=True)

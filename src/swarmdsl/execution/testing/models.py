@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
@@ -11,7 +11,7 @@ from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.driver import pipeline
-from swarmdsl.driver.config import find_file, find_settings
+from swarmdsl.driver.config import ModelSource, Settings, find_file, find_settings
 from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.subject import Document, Subject
@@ -27,6 +27,7 @@ class Model:
 
     system: System | None
     documents: dict[str, Document]
+    models: Mapping[str, ModelSource] = field(default_factory=dict)
     subjects: dict[tuple[str, str], Subject] = field(default_factory=dict)
 
     def subject(self, table: Table, key: str | None, report: Diagnostics) -> Subject | None:
@@ -56,6 +57,7 @@ class Model:
                 subject = Subject(name, self.system, swarm=swarms[name])
             else:
                 subject = Subject(name, self.system, machine=machines[name])
+            subject.models = self.models
             self.subjects[key, name] = subject
         return self.subjects[key, name]
 
@@ -104,13 +106,15 @@ def _compiled(paths: Iterable[Path], test_file: Path, report: Diagnostics) -> Mo
         document = Document(source, machine)
         documents[document.name] = document
     system = None
+    settings = Settings()
     if models:
-        checked = pipeline.check(models, find_settings([test_file], report))
+        settings = find_settings([test_file], report)
+        checked = pipeline.check(models, settings)
         report.include(checked.report)
         system = checked.system
         if system is None:
             return None
-    return Model(system, documents)
+    return Model(system, documents, settings.models)
 
 
 def _start(table: Table) -> Span:

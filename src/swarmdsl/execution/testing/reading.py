@@ -12,6 +12,7 @@ from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config.toml import Document, Keys, Place, parse_toml
 from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.choose_space import choose_space
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
@@ -123,11 +124,13 @@ class _Reader:
         always = [reader.claim(each) for each in table.items("always")]
         if share is None:
             return None
+        played = _with_ends(scenario, steps, cast)
+        spaces = choose_space(scenario.world, subject, played, table.report)
         return Case(
             name,
             table.value_place(("name",)) if name else table.value_place(()),
             subject,
-            _with_ends(scenario, steps, cast),
+            played,
             tuple(steps),
             tuple(claim for claim in always if claim is not None),
             tuple(range(scenario.seed, scenario.seed + count)),
@@ -135,6 +138,7 @@ class _Reader:
             *self._properties(table, subject),
             read_measures(table, subject),
             self._skips(table),
+            spaces,
         )
 
     def _properties(

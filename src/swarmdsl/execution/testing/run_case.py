@@ -113,6 +113,7 @@ class _CaseRun:
             seed,
             listeners,
             case.subject.heartbeat,
+            case.spaces.alone(seed),
         )
 
     def run_case(self) -> RunResult:

@@ -1,0 +1,1 @@
+"""Flat space of a simulated world: places, motion, energy, radio and sight in arrays of NumPy."""

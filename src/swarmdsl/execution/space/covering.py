@@ -1,0 +1,117 @@
+"""Ground that robots have covered, as a map of cells."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swarmdsl.execution.space.arrays import Flags, Part, Whole
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.space.stage import Stage
+
+_MOST_CELLS = 200
+"""Maximum number of cells in each direction."""
+_CELLS_OF_REACH = 4
+"""Number of cells from a robot to the edge of what it covers."""
+_NOTES_OF_REACH = 3
+"""Number of notes while a robot moves as far as what it covers."""
+_NOBODY = -1
+
+
+class Covering:
+    """Cells of the environment that have been in the footprint of a robot of each role.
+
+    The footprint of a robot is what its sensors see around it, or the width of its lanes, or at
+    least its body. It is noted whenever the robot has moved by a part of that.
+    """
+
+    def __init__(self, stage: Stage) -> None:
+        self.is_wanted = False
+        """True if somebody asks for what has been covered."""
+        self._stage = stage
+        self.reach = np.array(stage.radius)
+        """Distance up to which each robot covers the ground; models may make it greater."""
+        for number, unit in enumerate(stage.layout.units):
+            for eye in unit.eyes:
+                rows = np.arange(number, stage.rows, stage.robots)
+                self.reach[rows] = np.maximum(self.reach[rows], eye.range)
+        self._noted_x = np.full(stage.rows, math.inf)
+        """Where each robot was when it was noted last; likewise for y."""
+        self._noted_y = np.full(stage.rows, math.inf)
+        self._side = 0.0
+
+    def _begin(self) -> None:
+        """Make the map, when it is first needed."""
+        stage = self._stage
+        assert stage.bounds is not None
+        low_x, low_y, high_x, high_y = stage.bounds
+        reach = float(self.reach.min(initial=math.inf)) or 1.0
+        longest = max(high_x - low_x, high_y - low_y)
+        self._side = max(reach / _CELLS_OF_REACH, longest / _MOST_CELLS)
+        self._columns = max(math.ceil((high_x - low_x) / self._side), 1)
+        self._lines = max(math.ceil((high_y - low_y) / self._side), 1)
+        self._cells = self._columns * self._lines
+        runs = len(stage.seeds)
+        self._covered: Flags = np.zeros(runs * len(stage.roles) * self._cells, dtype=np.bool_)
+        self._first: Whole = np.full(runs * self._cells, _NOBODY, dtype=np.int32)
+
+    def note(self, part: Part) -> None:
+        """Note what robots in some rows cover, if they have moved enough."""
+        stage = self._stage
+        if not self.is_wanted or stage.bounds is None:
+            return
+        if not self._side:
+            self._begin()
+        rows = np.arange(stage.rows)[part]
+        dx, dy = stage.x[rows] - self._noted_x[rows], stage.y[rows] - self._noted_y[rows]
+        enough = np.maximum(self.reach[rows], self._side) / _NOTES_OF_REACH
+        rows = rows[stage.alive[rows] & (dx * dx + dy * dy >= enough * enough)]
+        if not len(rows):
+            return
+        self._noted_x[rows], self._noted_y[rows] = stage.x[rows], stage.y[rows]
+        for row in self._by_reach(rows):
+            self._mark(*row)
+
+    def _by_reach(self, rows: Whole) -> list[tuple[float, Whole]]:
+        """Return the rows with each reach."""
+        reaches = self.reach[rows]
+        return [(float(reach), rows[reaches == reach]) for reach in np.unique(reaches)]
+
+    def _mark(self, reach: float, rows: Whole) -> None:
+        stage, side = self._stage, self._side
+        most = max(int(reach / side + 0.5), 0)
+        offsets = np.arange(-most, most + 1)
+        across, along = (each.ravel() for each in np.meshgrid(offsets, offsets))
+        low_x, low_y = stage.bounds[:2] if stage.bounds else (0.0, 0.0)
+        column = ((stage.x[rows] - low_x) / side).astype(np.int64)[:, None] + across
+        line = ((stage.y[rows] - low_y) / side).astype(np.int64)[:, None] + along
+        dx = low_x + (column + 0.5) * side - stage.x[rows][:, None]
+        dy = low_y + (line + 0.5) * side - stage.y[rows][:, None]
+        near = (dx * dx + dy * dy <= reach * reach) | ((across == 0) & (along == 0))
+        near &= (column >= 0) & (column < self._columns) & (line >= 0) & (line < self._lines)
+        cell = (line * self._columns + column)[near]
+        who = np.broadcast_to(rows[:, None], near.shape)[near]
+        run = stage.run[who]
+        self._covered[(run * len(stage.roles) + stage.role[who]) * self._cells + cell] = True
+        places = run * self._cells + cell
+        new = self._first[places] == _NOBODY
+        # The robot with the least number, where several come to a cell at once.
+        self._first[places[new][::-1]] = who[new][::-1]
+
+    def share(self, run: int, role: str | None = None) -> float:
+        """Return the share of the environment that a role has covered in a run, or all."""
+        if not self._side:
+            return 0.0
+        stage = self._stage
+        cells = self._covered.reshape(len(stage.seeds), len(stage.roles), self._cells)[run]
+        layers = cells if role is None else cells[stage.roles.index(role)][None]
+        return float(np.count_nonzero(layers.any(axis=0))) / self._cells
+
+    def first(self, row: int) -> float:
+        """Return the share of the environment that a robot was the first to cover."""
+        if not self._side:
+            return 0.0
+        return float(np.count_nonzero(self._first == row)) / self._cells

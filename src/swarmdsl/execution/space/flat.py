@@ -1,0 +1,339 @@
+"""Flat spaces of some runs that move on together, step by step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from swarmdsl.execution.engine import ExecutionError, LoopError, Run
+from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.space import Ended, ModelError, Place, Space, Surroundings
+from swarmdsl.execution.space.arrays import Whole
+from swarmdsl.execution.space.functions.base import OUTCOMES, Finding
+from swarmdsl.execution.space.functions.running import Running
+from swarmdsl.execution.space.gauges import Gauges
+from swarmdsl.execution.space.messages import Facts, Messages
+from swarmdsl.execution.space.radio import Links
+from swarmdsl.execution.space.sensing import Sighting
+from swarmdsl.execution.space.setting import Setting, Use
+from swarmdsl.execution.space.stage import Stage
+
+EMPTY = "battery empty"
+"""Reason of the loss of a robot."""
+_Key = tuple[str, str]
+"""Function and its model."""
+
+
+class Ensemble:
+    """Spaces of some runs with the same setting.
+
+    Alone, a space moves on when its time has come. Together, it is `due` then, and waits until
+    somebody calls `advance`: one step of NumPy for all that are due.
+    """
+
+    def __init__(self, setting: Setting, seeds: Sequence[int], *, together: bool = False) -> None:
+        self.setting = setting
+        self.stage = Stage(setting.layout, seeds)
+        self.links = Links(self.stage)
+        self.messages = Messages(setting.system)
+        self.functions: dict[_Key, Running] = {}
+        self.together = together
+        self.spaces = [FlatSpace(self, run) for run in range(len(seeds))]
+
+    def running(self, use: Use) -> Running:
+        """Return the function with this model in all robots."""
+        key = (use.function, use.kind.name)
+        if key not in self.functions:
+            self.functions[key] = Running(use.function, use.kind.make, self.stage)
+            # What happens does not depend on which function has been called first in some run.
+            self.functions = dict(sorted(self.functions.items()))
+        return self.functions[key]
+
+    def advance(self) -> None:
+        """Move on all spaces that are due, and let their worlds know what happens."""
+        due = [space for space in self.spaces if space.due]
+        stage = self.stage
+        for space in due:
+            stage.ticks[space.number] = space.step_number
+        part = stage.rows_of([space.number for space in due])
+        ended: list[tuple[int, _Key, int]] = []
+        functions = list(self.functions.items())
+        for key, running in functions:
+            ended += [(row, key, status) for row, status in running.step(part)]
+        empty = stage.move(part)
+        self.links.moved()
+        for key, running in functions:
+            ended += [(row, key, status) for row, status in running.contacts()]
+        seen = stage.eyes.look(part) if stage.eyes.is_needed else []
+        links = self.links.within() if any(space.follows_links for space in due) else None
+        first: dict[tuple[int, _Key], int] = {}
+        for row, key, status in ended:
+            first.setdefault((row, key), status)
+        happened = [_Happened([], [], []) for _ in self.spaces]
+        for row in empty.tolist():
+            happened[row // stage.robots].empty.append(row)
+        for sighting in seen:
+            happened[sighting.row // stage.robots].seen.append(sighting)
+        for (row, key), status in sorted(first.items()):
+            happened[row // stage.robots].ended.append((row, key, status))
+        for space in due:
+            space.due = False
+            try:
+                space.react(happened[space.number], links)
+            except LoopError as error:
+                if not self.together:
+                    raise
+                space.failure = error
+
+
+class _Happened(NamedTuple):
+    """What happens in a run with a step."""
+
+    empty: list[int]
+    seen: list[Sighting]
+    ended: list[tuple[int, _Key, int]]
+
+
+class FlatSpace(Space):
+    """Flat space of one run."""
+
+    def __init__(self, ensemble: Ensemble, number: int) -> None:
+        self.number = number
+        """Number of the run in its ensemble."""
+        self.follows_links = False
+        self.step_number = 0
+        self.failure: LoopError | None = None
+        """Failure of the world of this space alone, when it moved on with others."""
+        self.has_radio = ensemble.links.is_needed
+        self._ensemble = ensemble
+        self._stage = ensemble.stage
+        self._places = {
+            unit.robot.name: place for place, unit in enumerate(self._stage.layout.units)
+        }
+        self._first = number * self._stage.robots
+        self._runs: dict[tuple[int, _Key], list[Run]] = {}
+        """Runs of each function in each robot; the last one is going on."""
+        self._of: dict[Run, tuple[int, _Key]] = {}
+        self._reached: Whole = np.empty(0, dtype=np.int64)
+        self._ticking = False
+        self._always = (
+            self._stage.consumption.is_needed
+            or self._stage.eyes.is_needed
+            or self._stage.weather.blows
+        )
+
+    # ---- called by a world
+
+    def check(self) -> None:
+        """Raise the error of a machine that has failed when this space moved on with others."""
+        if self.failure is not None:
+            raise self.failure
+
+    def begin(self, world: Surroundings, ended: Ended) -> None:
+        """Begin with a world, at its time 0."""
+        self._world = world
+        self._ended = ended
+        self._robots = {robot.name: robot for robot in world.robots}
+        self._gauges = Gauges(self._stage, self._first, self._robots)
+        self.follows_links = self.has_radio and world.minds_links
+        if self.follows_links:
+            self._reached = self._own(self._ensemble.links.within())
+            world.links_changed(
+                (one, other)
+                for one in world.robots
+                for other in world.robots
+                if one is not other and not self.reaches(one, other)
+            )
+        self._wake()
+
+    def start(self, run: Run, robot: Robot) -> bool:
+        """Start a function if it has a model, unless its arguments have no value."""
+        use = self._ensemble.setting.use(run.activity.name, robot)
+        if use is None:
+            return False
+        row = self._first + self._places[robot.name]
+        key = (use.function, use.kind.name)
+        try:
+            arguments = use.arguments(run.goal)
+        except (ExecutionError, ArithmeticError, ValueError) as error:
+            self._world.failed(run.instance, error)
+            self._world.clock.schedule(0, lambda: self._ended(run, "aborted", {}))
+            return True
+        running = self._ensemble.running(use)
+        if running.active[row]:
+            running.stop(row)
+        running.start(row, arguments)
+        self._runs.setdefault((row, key), []).append(run)
+        self._of[run] = (row, key)
+        self._wake()
+        return True
+
+    def stop(self, run: Run) -> None:
+        """Stop a function; of two calls in a robot, the last one decides."""
+        place = self._of.pop(run, None)
+        if place is None:
+            return
+        runs = self._runs[place]
+        was_last = runs[-1] is run
+        runs.remove(run)
+        if not runs:
+            del self._runs[place]
+        if was_last:
+            self._ensemble.functions[place[1]].stop(place[0])
+
+    def lose(self, robot: Robot) -> None:
+        """Let a robot lie where it is; one that flies falls."""
+        row = self._row(robot)
+        stage = self._stage
+        stage.alive[row] = False
+        stage.z[row] = 0.0
+        stage.halt(np.array([row]))
+        stage.targets.release(row)
+        stage.moved()
+
+    def restore(self, robot: Robot) -> None:
+        """Let a lost robot go on where it is."""
+        self._stage.alive[self._row(robot)] = True
+        self._stage.moved()
+        self._wake()
+
+    def reaches(self, one: Robot, other: Robot) -> bool:
+        """Return True if radio gets from one robot to another."""
+        if not self.has_radio or one is other:
+            return True
+        places = self._places[one.name], self._places[other.name]
+        return self._ensemble.links.reaches(self.number, *places)
+
+    def loss(self, one: Robot, other: Robot) -> float:
+        """Return the probability that an event gets lost on its way."""
+        places = self._places[one.name], self._places[other.name]
+        return self._ensemble.links.loss(self.number, *places)
+
+    def neighbors(self, robot: Robot, distance: float) -> int:
+        """Return the number of other robots within a distance, that are there."""
+        stage, row = self._stage, self._row(robot)
+        here = slice(self._first, self._first + stage.robots)
+        dx, dy = stage.x[here] - stage.x[row], stage.y[here] - stage.y[row]
+        dz = stage.z[here] - stage.z[row]
+        near = (dx * dx + dy * dy + dz * dz <= distance * distance) & stage.alive[here]
+        return int(np.count_nonzero(near)) - bool(stage.alive[row])
+
+    def at(self, robot: Robot) -> Place:
+        """Return where a robot is."""
+        stage, row = self._stage, self._row(robot)
+        return float(stage.x[row]), float(stage.y[row]), float(stage.z[row])
+
+    def measure(self, kind: str, subject: str) -> float | None:
+        """Return the distance, energy or covered share of a role, or the targets found."""
+        stage = self._stage
+        if kind == "found":
+            return stage.targets.found(subject, self.number)
+        if subject not in stage.roles:
+            return None
+        if kind == "covered":
+            return stage.covering.share(self.number, subject)
+        here = slice(self._first, self._first + stage.robots)
+        of = stage.role[here] == stage.roles.index(subject)
+        values = {"distance": stage.distance, "energy": stage.used}[kind]
+        return math.fsum(values[here][of].tolist())
+
+    # ---- steps
+
+    def react(self, happened: _Happened, links: Whole | None) -> None:
+        """Let the world know what has happened with a step."""
+        self._ticking = False
+        world, stage = self._world, self._stage
+        for row in happened.empty:
+            world.lose(self._robot(row), reason=EMPTY)
+        if links is not None and self.follows_links:
+            self._follow(self._own(links))
+        for sighting in happened.seen:
+            self._tell(sighting)
+        for row, key, status in happened.ended:
+            runs = self._runs.get((row, key))
+            if runs and self._ensemble.functions[key].active[row]:
+                self._end(row, key, status, runs[-1])
+        if stage.ticks[self.number] % self._gauges.every == 0:
+            for robot, topic, type_, facts in self._gauges.read(world, world.clock.now):
+                world.publish(robot, topic, self._ensemble.messages.message(type_, facts))
+        self._wake()
+        world.flush()
+
+    # ---- internal
+
+    def _wake(self) -> None:
+        """Schedule the next step, if anything can change until then."""
+        if self._ticking or not (self._always or self._of or self._gauges.is_needed):
+            return
+        self._ticking = True
+        length = self._stage.step_length
+        self._world.clock.schedule(length - self._world.clock.now % length, self._tick)
+
+    def _tick(self) -> None:
+        self.step_number = self._world.clock.now // self._stage.step_length
+        self.due = True
+        if not self._ensemble.together:
+            self._ensemble.advance()
+
+    def _row(self, robot: Robot) -> int:
+        return self._first + self._places[robot.name]
+
+    def _robot(self, row: int) -> Robot:
+        robot = self._stage.layout.units[row - self._first].robot
+        return self._robots.get(robot.name, robot)
+
+    def _own(self, links: Whole) -> Whole:
+        """Return the links of this run."""
+        stage = self._stage
+        ends = np.array([self._first, self._first + stage.robots]) * stage.rows
+        low, high = np.searchsorted(links, ends)
+        return links[low:high]
+
+    def _follow(self, links: Whole) -> None:
+        if np.array_equal(links, self._reached):
+            return
+        changed = np.setxor1d(links, self._reached, assume_unique=True)
+        self._reached = links
+        rows = self._stage.rows
+        self._world.links_changed(
+            [
+                (self._robot(number // rows), self._robot(number % rows))
+                for number in changed.tolist()
+            ]
+        )
+
+    def _tell(self, sighting: Sighting) -> None:
+        """Publish what a sensor sees."""
+        stage, world = self._stage, self._world
+        eye = stage.layout.units[sighting.row - self._first].eyes[sighting.eye]
+        robot = self._robot(sighting.row)
+        if eye.topic is None or eye.type is None:
+            return
+        if not stage.alive[sighting.row] or not world.awaits(robot, eye.topic):
+            return
+        place = (sighting.x, sighting.y, sighting.z)
+        here = self.at(robot)
+        name = stage.targets.names[sighting.target % stage.targets.count]
+        distance = float(np.sqrt(sum((a - b) * (a - b) for a, b in zip(place, here, strict=True))))
+        facts = Facts(world.clock.now, place, id=name, distance=distance)
+        world.publish(robot, eye.topic, self._ensemble.messages.message(eye.type, facts))
+
+    def _end(self, row: int, key: _Key, status: int, run: Run) -> None:
+        outcome = OUTCOMES.get(status)
+        if outcome is None:
+            raise ModelError(key[0], f"`step` returns status {status}, which is none")
+        fields: dict[str, Any] = {}
+        system = self._ensemble.setting.system
+        if outcome == "succeeded":
+            found = self._ensemble.functions[key].result(row)
+            if isinstance(found, Finding):
+                facts = Facts(
+                    self._world.clock.now, found.place, found.heading, found.id, found.distance
+                )
+                fields = self._ensemble.messages.result(system.function(key[0]), facts)
+            else:
+                fields = dict(found)
+        self._ended(run, outcome, fields)

@@ -1,0 +1,108 @@
+"""Sweep an area in parallel lanes, as an ox ploughs a field."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swarmdsl.execution.space.arrays import Rows, Small
+from swarmdsl.execution.space.functions.base import Arguments, Finding, Model, statuses
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.space.stage import Stage
+
+_ANY, _NO_TARGET = -1, -2
+
+
+class Coverage(Model):
+    """Lanes along the longer side of a share of the area: one for each robot of a role.
+
+    Where there are targets, it succeeds when the robot sees one, and is aborted at the end of the
+    last lane. Without any, it succeeds there.
+    """
+
+    def __init__(self, stage: Stage) -> None:
+        super().__init__(stage)
+        rows = stage.rows
+        self._low_x, self._low_y = np.zeros(rows), np.zeros(rows)
+        self._wide, self._deep, self._width = np.zeros(rows), np.zeros(rows), np.zeros(rows)
+        self._height, self._speed = np.zeros(rows), np.zeros(rows)
+        self._lane, self._end = np.zeros(rows, dtype=np.int64), np.zeros(rows, dtype=np.int64)
+        self._target = np.zeros(rows, dtype=np.int64)
+        self._found = np.zeros(rows, dtype=np.int64)
+
+    def start(self, who: Rows, arguments: Arguments) -> None:
+        """Divide the area, and begin with the first lane."""
+        stage = self.stage
+        low_x, low_y, high_x, high_y = self._bounds(arguments["area"])
+        long_x = high_x - low_x >= high_y - low_y
+        # The area is divided along its longer side, and the lanes lie along that of a share.
+        share = (high_x - low_x if long_x else high_y - low_y) / stage.count[who]
+        first = (low_x if long_x else low_y) + share * stage.index[who]
+        self._low_x[who] = first if long_x else low_x
+        self._low_y[who] = low_y if long_x else first
+        self._wide[who] = share if long_x else high_x - low_x
+        self._deep[who] = high_y - low_y if long_x else share
+        self._width[who] = arguments["width"]
+        self._lane[who], self._end[who] = 0, 0
+        self._height[who] = self.height(who, arguments)
+        self._speed[who] = self.speed(who, arguments)
+        self._target[who] = self._kind(arguments["target"])
+        reach = stage.covering.reach
+        reach[who] = np.maximum(reach[who], self._width[who] / 2)
+
+    def step(self, who: Rows, dt: float) -> Small:
+        """Go on to the next end of a lane; done when it sees a target, or after the last lane."""
+        stage = self.stage
+        wide, deep, width = self._wide[who], self._deep[who], self._width[who]
+        lanes_along_y = deep >= wide
+        across, along = np.where(lanes_along_y, wide, deep), np.where(lanes_along_y, deep, wide)
+        lanes = np.maximum(np.ceil(across / width), 1.0)
+        lane, end = self._lane[who], self._end[who]
+        aside = np.minimum((lane + 0.5) * width, across - np.minimum(width, across) / 2)
+        margin = np.minimum(width, along) / 2
+        ahead = np.where((lane + end) % 2 == 0, margin, along - margin)
+        x = self._low_x[who] + np.where(lanes_along_y, aside, ahead)
+        y = self._low_y[who] + np.where(lanes_along_y, ahead, aside)
+        radius = stage.radius[who]
+        if stage.bounds is not None:
+            left, bottom, right, top = stage.bounds
+            x = np.minimum(np.maximum(x, left + radius), right - radius)
+            y = np.minimum(np.maximum(y, bottom + radius), top - radius)
+        arrives = stage.steer(who, x, y, self._height[who], self._speed[who], dt)
+        self._lane[who] = lane + (arrives & (end == 1))
+        self._end[who] = np.where(arrives, 1 - end, end)
+        over = self._lane[who] >= lanes
+        seen, wanted = stage.eyes.latest[who], self._target[who]
+        sees = (seen >= 0) & (wanted != _NO_TARGET)
+        if sees.any():
+            kind = stage.targets.kind[np.maximum(seen, 0)]
+            sees &= (wanted == _ANY) | (wanted == kind)
+            self._found[who[sees]] = seen[sees]
+        return statuses(
+            sees | (over & (wanted == _NO_TARGET)), over & ~sees & (wanted != _NO_TARGET)
+        )
+
+    def result(self, row: int) -> Finding:
+        """Return the target that the robot has found, and where it takes it for."""
+        stage = self.stage
+        if self._target[row] == _NO_TARGET:
+            found = super().result(row)
+            assert isinstance(found, Finding)
+            return found
+        target = int(self._found[row])
+        x, y = float(stage.eyes.place_x[row]), float(stage.eyes.place_y[row])
+        return Finding((x, y, 0.0), id=stage.targets.names[target % stage.targets.count])
+
+    def _bounds(self, area: str | None) -> tuple[float, float, float, float]:
+        bounds = self.stage.layout.bounds(area)
+        if bounds is None:
+            raise ValueError("the environment has no size: name an area")
+        return bounds
+
+    def _kind(self, name: str | None) -> int:
+        kinds = self.stage.targets.kinds
+        if name:
+            return kinds.index(name) if name in kinds else _NO_TARGET
+        return _ANY if kinds and name is None else _NO_TARGET

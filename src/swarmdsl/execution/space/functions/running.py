@@ -1,0 +1,73 @@
+"""Functions that run in the robots of a stage, by their models."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from swarmdsl.execution.simulate.space import ModelError
+from swarmdsl.execution.space.arrays import Flags, Part, Rows
+from swarmdsl.execution.space.functions.base import ABORTED, RUNNING, Finding, Model
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.space.stage import Stage
+
+
+class Running:
+    """One function, with its model and the robots in which it runs."""
+
+    def __init__(self, name: str, make: Callable[[Stage], Model], stage: Stage) -> None:
+        self.name = name
+        self._stage = stage
+        self.active: Flags = np.zeros(stage.rows, dtype=np.bool_)
+        self._model = self._guarded(make, stage)
+        self._stepped: Rows = np.empty(0, dtype=np.int64)
+
+    def start(self, row: int, arguments: Mapping[str, Any]) -> None:
+        """Begin in a robot."""
+        self.active[row] = True
+        self._guarded(self._model.start, np.array([row]), arguments)
+
+    def stop(self, row: int) -> None:
+        """End in a robot, which halts."""
+        if self.active[row]:
+            self.active[row] = False
+            who = np.array([row])
+            self._stage.halt(who)
+            self._guarded(self._model.stop, who)
+
+    def step(self, part: Part) -> list[tuple[int, int]]:
+        """Decide what robots in some rows want; return those that have ended, with status."""
+        who = np.flatnonzero(self.active)
+        if not isinstance(part, slice):
+            who = who[np.isin(who, part, assume_unique=True)]
+        self._stepped = who
+        if not len(who):
+            return []
+        status = self._guarded(self._model.step, who, self._stage.dt)
+        shape = getattr(status, "shape", None)
+        if shape != who.shape:
+            raise ModelError(self.name, f"`step` returns {shape}, not a status for each robot")
+        ended = np.flatnonzero(status != RUNNING)
+        return list(zip(who[ended].tolist(), status[ended].tolist(), strict=True))
+
+    def contacts(self) -> list[tuple[int, int]]:
+        """Return the robots that something has stopped in this step, with their status."""
+        if not self._model.stops_on_contact or not len(self._stepped):
+            return []
+        touched = self._stepped[self._stage.touched[self._stepped]]
+        return [(row, ABORTED) for row in touched.tolist()]
+
+    def result(self, row: int) -> Finding | Mapping[str, Any]:
+        """Return what a robot has found."""
+        found: Finding | Mapping[str, Any] = self._guarded(self._model.result, row)
+        return found
+
+    def _guarded(self, call: Callable[..., Any], *given: Any) -> Any:
+        """Call a model, which may be that of a project: its errors are not ours."""
+        try:
+            return call(*given)
+        except Exception as error:
+            raise ModelError(self.name, error) from error

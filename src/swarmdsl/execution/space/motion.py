@@ -1,0 +1,62 @@
+"""Motion in one step: wanted velocities, wind, contact with what is in the way."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from swarmdsl.execution.space.arrays import Part
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.space.stage import Stage
+
+_LEAST_SPEED = 1e-9
+
+
+def move(stage: Stage, part: Part) -> None:
+    """Move robots; those that would touch something stay where they are."""
+    dt, z = stage.dt, stage.z[part]
+    alive = stage.alive[part]
+    air_x, air_y = stage.wanted_x[part] * alive, stage.wanted_y[part] * alive
+    blowing = stage.weather.blows
+    if blowing:
+        wind_x, wind_y = stage.weather.wind(stage.ticks[stage.run[part]] * stage.step_length)
+        exposed = alive & (z > 0)
+        wind_x, wind_y = wind_x * exposed, wind_y * exposed
+        air_x, air_y = air_x - wind_x, air_y - wind_y
+    length = np.sqrt(air_x * air_x + air_y * air_y)
+    speed = stage.speed[part]
+    moving = length > _LEAST_SPEED
+    safe = np.where(moving, length, 1.0)
+    share = np.minimum(speed / safe, 1.0)
+    vx, vy = air_x * share, air_y * share
+    stage.air_speed = np.minimum(length, speed)
+    stage.heading_x[part] = np.where(moving, air_x / safe, stage.heading_x[part])
+    stage.heading_y[part] = np.where(moving, air_y / safe, stage.heading_y[part])
+    if blowing:
+        vx, vy = vx + wind_x, vy + wind_y
+    x, y = stage.x[part], stage.y[part]
+    next_x, next_y = x + vx * dt, y + vy * dt
+    touched = np.zeros(len(x), dtype=np.bool_)
+    radius = stage.radius[part]
+    if stage.bounds is not None:
+        low_x, low_y, high_x, high_y = stage.bounds
+        inside_x = np.minimum(np.maximum(next_x, low_x + radius), high_x - radius)
+        inside_y = np.minimum(np.maximum(next_y, low_y + radius), high_y - radius)
+        touched |= (inside_x != next_x) | (inside_y != next_y)
+        next_x, next_y = inside_x, inside_y
+    climb = stage.climb[part]
+    vz = np.minimum(np.maximum(stage.wanted_z[part] * alive, -climb), climb)
+    next_z = np.minimum(np.maximum(z + vz * dt, 0.0), stage.ceiling)
+    if not stage.shapes.is_empty:
+        stopped = stage.shapes.touched((x, y), (next_x, next_y), next_z, radius)
+        if stopped.any():
+            touched |= stopped
+            next_x, next_y = np.where(stopped, x, next_x), np.where(stopped, y, next_y)
+            next_z = np.where(stopped, z, next_z)
+    dx, dy, dz = next_x - x, next_y - y, next_z - z
+    stage.vx[part], stage.vy[part], stage.vz[part] = dx / dt, dy / dt, dz / dt
+    stage.x[part], stage.y[part], stage.z[part] = next_x, next_y, next_z
+    stage.distance[part] += np.sqrt(dx * dx + dy * dy + dz * dz)
+    stage.touched[part] = touched

@@ -1,0 +1,188 @@
+"""Sensors of robots: which targets they see, miss, or take something else for."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.space.arrays import Floats, Part, Rows, Whole
+from swarmdsl.execution.space.hashing import key, shares
+from swarmdsl.execution.space.turning import direction, direction_of
+from swarmdsl.execution.space.weather import RAIN_SIGHT
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.space.stage import Stage
+
+_NONE = -1
+_WRONG, _WHICH = key("sees", "wrong"), key("sees", "which")
+_DISTANCE, _ANGLE = key("sees", "distance"), key("sees", "angle")
+
+
+class Sighting(NamedTuple):
+    """What a sensor tells: the robot, its sensor, the target that it takes it for, and where."""
+
+    row: int
+    eye: int
+    target: int
+    x: float
+    y: float
+    z: float
+
+
+class Eyes:
+    """All sensors for targets; each is one column of all runs.
+
+    `latest` is the target that each robot has seen with its last look, or -1.
+    """
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+        self.latest: Whole = np.full(stage.rows, _NONE)
+        self.place_x: Floats = np.zeros(stage.rows)
+        """Where each robot takes the target for that it saw last; likewise for y."""
+        self.place_y: Floats = np.zeros(stage.rows)
+        self.eyes = [
+            (robot, number, eye)
+            for robot, unit in enumerate(stage.layout.units)
+            for number, eye in enumerate(unit.eyes)
+            if eye.kind in stage.targets.kinds
+        ]
+        groups: dict[tuple[object, ...], list[int]] = {}
+        for place, (_, number, eye) in enumerate(self.eyes):
+            period = max(round(SECOND / (eye.rate * stage.step_length)), 1) if eye.rate else 0
+            group = (eye.kind, eye.range, eye.view, eye.miss, eye.wrong, period, number)
+            if period:
+                groups.setdefault(group, []).append(place)
+        self._groups = [_Group(stage, self, places) for places in groups.values()]
+
+    @property
+    def is_needed(self) -> bool:
+        """True if there is anything to see, and somebody to see it."""
+        return bool(self._groups)
+
+    def look(self, part: Part) -> list[Sighting]:
+        """Return what robots in some rows see now, in order."""
+        found: list[Sighting] = []
+        for group in self._groups:
+            found += group.look(part)
+        return sorted(found)
+
+
+class _Group:
+    """Sensors that are alike, of different robots."""
+
+    def __init__(self, stage: Stage, eyes: Eyes, places: list[int]) -> None:
+        self._stage = stage
+        first = eyes.eyes[places[0]]
+        self._number, eye = first[1], first[2]
+        self._robots = np.array([eyes.eyes[place][0] for place in places])
+        self._range = eye.range
+        self._miss, self._wrong = eye.miss, eye.wrong
+        self._width = min(eye.view, 2 * math.pi)
+        self._view = direction_of(eye.view / 2)[0] if eye.view < 2 * math.pi else -2.0
+        self._period = max(round(SECOND / (eye.rate * stage.step_length)), 1)
+        kind = stage.targets.kinds.index(eye.kind)
+        self._targets = np.flatnonzero(stage.targets.kind[: stage.targets.count] == kind)
+        self._missed = [
+            key("misses", self._number, stage.targets.names[target]) for target in self._targets
+        ]
+
+    def look(self, part: Part) -> list[Sighting]:
+        stage = self._stage
+        rows = np.arange(stage.rows)[part]
+        rows = rows[np.isin(rows % stage.robots, self._robots)]
+        ticks = stage.ticks[stage.run[rows]]
+        is_due = (ticks % self._period == 0) & stage.alive[rows]
+        rows, ticks = rows[is_due], ticks[is_due]
+        if not len(rows):
+            return []
+        stage.eyes.latest[rows] = _NONE
+        found = self._told(*self._seen(rows, ticks))
+        if self._wrong:
+            found += self._mistaken(rows, ticks)
+        return found
+
+    def _seen(self, rows: Rows, ticks: Whole) -> tuple[Rows, Whole]:
+        """Return the robots that see targets, with the numbers of these in the run."""
+        stage, targets = self._stage, self._stage.targets
+        which = stage.run[rows][:, None] * targets.count + self._targets
+        dx = targets.x[which] - stage.x[rows][:, None]
+        dy = targets.y[which] - stage.y[rows][:, None]
+        dz = targets.z[which] - stage.z[rows][:, None]
+        flat = dx * dx + dy * dy
+        square = flat + dz * dz
+        reach = np.full(len(rows), self._range)
+        if stage.weather.rains:
+            wet = stage.weather.is_raining(ticks * stage.step_length)
+            reach = np.where(wet, reach * RAIN_SIGHT, reach)
+        seen = (square <= (reach * reach)[:, None]) & ~targets.taken[which]
+        seen &= targets.carrier[which] != rows[:, None]
+        if self._view > -1:
+            ahead = dx * stage.heading_x[rows][:, None] + dy * stage.heading_y[rows][:, None]
+            seen &= ahead >= self._view * np.sqrt(flat)
+        line, column = np.nonzero(seen)
+        if self._miss and len(line):
+            asked = np.array(self._missed, dtype=np.uint64)[column]
+            drawn = shares(stage.keys[rows[line]] ^ asked, 0, ticks[line])
+            line, column = line[drawn >= self._miss], column[drawn >= self._miss]
+        if len(line) and not stage.shapes.is_empty:
+            there, here = which[line, column], rows[line]
+            free = (
+                stage.shapes.crossings(
+                    (stage.x[here], stage.y[here]),
+                    (targets.x[there], targets.y[there]),
+                    (stage.z[here], targets.z[there]),
+                )
+                == 0
+            )
+            line, column = line[free], column[free]
+        return rows[line], self._targets[column]
+
+    def _told(self, who: Rows, which: Whole) -> list[Sighting]:
+        """Note true sightings, and return them."""
+        if not len(who):
+            return []
+        stage, targets = self._stage, self._stage.targets
+        there = stage.run[who] * targets.count + which
+        targets.seen[there] = True
+        # Of several, the one with the least number.
+        eyes, backwards = stage.eyes, slice(None, None, -1)
+        eyes.latest[who[backwards]] = there[backwards]
+        eyes.place_x[who[backwards]] = targets.x[there][backwards]
+        eyes.place_y[who[backwards]] = targets.y[there][backwards]
+        places = targets.x[there], targets.y[there], targets.z[there]
+        return [
+            Sighting(row, self._number, target, x, y, z)
+            for row, target, x, y, z in zip(
+                who.tolist(), there.tolist(), *(each.tolist() for each in places), strict=True
+            )
+        ]
+
+    def _mistaken(self, rows: Rows, ticks: Whole) -> list[Sighting]:
+        """Return targets that robots take something else for."""
+        stage = self._stage
+        wrong = stage.chance(rows, _WRONG + self._number, ticks) < self._wrong
+        rows, ticks = rows[wrong], ticks[wrong]
+        if not len(rows):
+            return []
+        share = stage.chance(rows, _WHICH + self._number, ticks)
+        which = self._targets[(share * len(self._targets)).astype(np.int64)]
+        distance = self._range * np.sqrt(stage.chance(rows, _DISTANCE + self._number, ticks))
+        turn = (stage.chance(rows, _ANGLE + self._number, ticks) - 0.5) * self._width
+        cosine, sine = direction(turn)
+        ahead_x, ahead_y = stage.heading_x[rows], stage.heading_y[rows]
+        x = stage.x[rows] + distance * (ahead_x * cosine - ahead_y * sine)
+        y = stage.y[rows] + distance * (ahead_y * cosine + ahead_x * sine)
+        there = stage.run[rows] * stage.targets.count + which
+        unseen = stage.eyes.latest[rows] == _NONE
+        stage.eyes.latest[rows[unseen]] = there[unseen]
+        stage.eyes.place_x[rows[unseen]], stage.eyes.place_y[rows[unseen]] = x[unseen], y[unseen]
+        return [
+            Sighting(row, self._number, target, far, up, 0.0)
+            for row, target, far, up in zip(
+                rows.tolist(), there.tolist(), x.tolist(), y.tolist(), strict=True
+            )
+        ]

@@ -1,0 +1,220 @@
+"""Walls, obstacles and zones: contact of robots with them, and lines of sight past them.
+
+All are made of segments and discs. A box is four segments: what starts outside of it and comes to
+its inside comes through one of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from swarmdsl.execution.space.arrays import Flags, Floats, Whole
+
+UNBOUNDED = math.inf
+_MOST_CELLS = 256
+"""Maximum number of cells of the clearance map in each direction."""
+_LEAST_SIDE = 0.25
+"""Minimum length of a cell of that map, in metres."""
+
+
+class Edge(NamedTuple):
+    """Segment of a shape, between two heights; `opaque` if it is in the way of light and radio."""
+
+    x1: float
+    y1: float
+    x2: float
+    y2: float
+    low: float
+    high: float
+    opaque: bool
+    shape: int
+
+
+class Round(NamedTuple):
+    """Disc on the ground, up to a height."""
+
+    x: float
+    y: float
+    radius: float
+    high: float
+
+
+class Shapes:
+    """All shapes of an environment."""
+
+    def __init__(
+        self,
+        edges: Sequence[Edge],
+        rounds: Sequence[Round],
+        boxes: Sequence[tuple[float, float, float, float]] = (),
+    ) -> None:
+        self._boxes = boxes
+        self.is_empty = not (edges or rounds)
+        """True if there is nothing to run into."""
+        columns = np.array([each[:6] for each in edges], dtype=np.float64).reshape(-1, 6).T
+        self._x1, self._y1, self._x2, self._y2, self._low, self._high = columns
+        self._dx, self._dy = self._x2 - self._x1, self._y2 - self._y1
+        square = self._dx * self._dx + self._dy * self._dy
+        self._square = np.where(square > 0, square, 1.0)
+        self._opaque = np.array([each.opaque for each in edges], dtype=np.bool_)
+        shapes = [each.shape for each in edges]
+        self._firsts = np.flatnonzero(np.diff(shapes, prepend=-1))
+        """Index of the first segment of each shape; those of a shape are side by side."""
+        discs = np.array([each[:4] for each in rounds], dtype=np.float64).reshape(-1, 4).T
+        self._cx, self._cy, self._radius, self._top = discs
+        self._map: _Clearance | None = None
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Least and greatest coordinates of all shapes."""
+        xs = (*self._x1, *self._x2, *(self._cx - self._radius), *(self._cx + self._radius))
+        ys = (*self._y1, *self._y2, *(self._cy - self._radius), *(self._cy + self._radius))
+        return min(xs), min(ys), max(xs), max(ys)
+
+    def distances(self, x: Floats, y: Floats, z: Floats | None) -> Floats:
+        """Return the distance of each place from the nearest shape at its height, or at any."""
+        found = np.full(len(x), UNBOUNDED)
+        if len(self._x1):
+            px, py = x[:, None] - self._x1, y[:, None] - self._y1
+            along = np.clip((px * self._dx + py * self._dy) / self._square, 0.0, 1.0)
+            ox, oy = px - along * self._dx, py - along * self._dy
+            distance = np.sqrt(ox * ox + oy * oy)
+            if z is not None:
+                beside = (z[:, None] < self._low) | (z[:, None] >= self._high)
+                distance = np.where(beside, UNBOUNDED, distance)
+            found = distance.min(axis=1)
+        if len(self._cx):
+            ox, oy = x[:, None] - self._cx, y[:, None] - self._cy
+            distance = np.sqrt(ox * ox + oy * oy) - self._radius
+            if z is not None:
+                distance = np.where(z[:, None] >= self._top, UNBOUNDED, distance)
+            found = np.minimum(found, distance.min(axis=1))
+        return found
+
+    def inside(self, x: Floats, y: Floats) -> Flags:
+        """Return True for places in a box or a disc."""
+        found = np.zeros(len(x), dtype=np.bool_)
+        for low_x, low_y, high_x, high_y in self._boxes:
+            found |= (x > low_x) & (x < high_x) & (y > low_y) & (y < high_y)
+        if len(self._cx):
+            ox, oy = x[:, None] - self._cx, y[:, None] - self._cy
+            found |= (ox * ox + oy * oy < self._radius * self._radius).any(axis=1)
+        return found
+
+    def touched(
+        self,
+        start: tuple[Floats, Floats],
+        end: tuple[Floats, Floats],
+        z: Floats,
+        radius: Floats,
+    ) -> Flags:
+        """Return True where a body that goes from a place to another one touches a shape.
+
+        One that is too near already may go away from it.
+        """
+        touched = np.zeros(len(z), dtype=np.bool_)
+        if self.is_empty:
+            return touched
+        dx, dy = end[0] - start[0], end[1] - start[1]
+        length = np.sqrt(dx * dx + dy * dy)
+        near = np.flatnonzero(self._near(end[0], end[1], radius + length))
+        if not len(near):
+            return touched
+        first = (start[0][near], start[1][near])
+        last = (end[0][near], end[1][near])
+        height = z[near]
+        before = self.distances(*first, height)
+        after = self.distances(*last, height)
+        through = self._meets_edges(first, last, (height, height)).any(axis=1)
+        touched[near] = ((after < radius[near]) & (after < before)) | through
+        return touched
+
+    def crossings(
+        self,
+        start: tuple[Floats, Floats],
+        end: tuple[Floats, Floats],
+        heights: tuple[Floats, Floats],
+    ) -> Whole:
+        """Return how many opaque shapes are in the way of each line."""
+        count = len(start[0])
+        if self.is_empty or not count:
+            return np.zeros(count, dtype=np.int64)
+        found = np.zeros(count, dtype=np.int64)
+        if len(self._x1):
+            met = self._meets_edges(start, end, heights) & self._opaque
+            found += np.logical_or.reduceat(met, self._firsts, axis=1).sum(axis=1)
+        if len(self._cx):
+            found += self._meets_discs(start, end, heights).sum(axis=1)
+        return found
+
+    def _meets_edges(
+        self,
+        start: tuple[Floats, Floats],
+        end: tuple[Floats, Floats],
+        heights: tuple[Floats, Floats],
+    ) -> Flags:
+        """Return True where a line goes through a segment, at a height at which it is."""
+        dx, dy = (end[0] - start[0])[:, None], (end[1] - start[1])[:, None]
+        fx, fy = self._x1 - start[0][:, None], self._y1 - start[1][:, None]
+        across = dx * self._dy - dy * self._dx
+        parallel = across == 0
+        safe = np.where(parallel, 1.0, across)
+        along = (fx * self._dy - fy * self._dx) / safe
+        beside = (fx * dy - fy * dx) / safe
+        level = heights[0][:, None] + along * (heights[1] - heights[0])[:, None]
+        met: Flags = ~parallel & (along >= 0) & (along <= 1) & (beside >= 0) & (beside <= 1)
+        return met & (level >= self._low) & (level < self._high)
+
+    def _meets_discs(
+        self,
+        start: tuple[Floats, Floats],
+        end: tuple[Floats, Floats],
+        heights: tuple[Floats, Floats],
+    ) -> Flags:
+        """Return True where a line goes through a disc, below its top."""
+        dx, dy = (end[0] - start[0])[:, None], (end[1] - start[1])[:, None]
+        square = dx * dx + dy * dy
+        fx, fy = self._cx - start[0][:, None], self._cy - start[1][:, None]
+        along = np.clip((fx * dx + fy * dy) / np.where(square > 0, square, 1.0), 0.0, 1.0)
+        ox, oy = fx - along * dx, fy - along * dy
+        level = heights[0][:, None] + along * (heights[1] - heights[0])[:, None]
+        met: Flags = (ox * ox + oy * oy < self._radius * self._radius) & (level < self._top)
+        return met
+
+    def _near(self, x: Floats, y: Floats, reach: Floats) -> Flags:
+        """Return False where certainly no shape is within reach."""
+        if self._map is None:
+            self._map = _Clearance(self)
+        return self._map.below(x, y, reach)
+
+
+class _Clearance:
+    """Map of the distance that each place has at least from the nearest shape."""
+
+    def __init__(self, shapes: Shapes) -> None:
+        low_x, low_y, high_x, high_y = shapes.bounds
+        self._x, self._y = low_x, low_y
+        side = max(high_x - low_x, high_y - low_y) / _MOST_CELLS
+        self._side = max(side, _LEAST_SIDE)
+        self._columns = int((high_x - low_x) / self._side) + 1
+        self._lines = int((high_y - low_y) / self._side) + 1
+        middles = np.arange(self._columns, dtype=np.float64) + 0.5
+        centres: Floats = np.asarray(low_x + middles * self._side, dtype=np.float64)
+        half = self._side * 0.75  # more than half a diagonal
+        self._least = np.empty((self._lines, self._columns))
+        for line in range(self._lines):
+            y = np.full(self._columns, low_y + (line + 0.5) * self._side)
+            self._least[line] = shapes.distances(centres, y, None) - half
+
+    def below(self, x: Floats, y: Floats, reach: Floats) -> Flags:
+        """Return True where a shape may be nearer than a distance."""
+        column = ((x - self._x) / self._side).astype(np.int64)
+        line = ((y - self._y) / self._side).astype(np.int64)
+        inside = (x >= self._x) & (y >= self._y) & (column < self._columns) & (line < self._lines)
+        least = self._least[np.where(inside, line, 0), np.where(inside, column, 0)]
+        near: Flags = ~inside | (least < reach)
+        return near
