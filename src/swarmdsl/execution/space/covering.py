@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from swarmdsl.execution.space.arrays import Flags, Part, Whole
-
-if TYPE_CHECKING:
-    from swarmdsl.execution.space.stage import Stage
+from swarmdsl.execution.space.robots import Robots
 
 _MOST_CELLS = 200
 """Maximum number of cells in each direction."""
@@ -28,7 +25,7 @@ class Covering:
     least its body. It is noted whenever the robot has moved by a part of that.
     """
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: Robots) -> None:
         self.is_wanted = False
         """True if somebody asks for what has been covered."""
         self._stage = stage

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from swarmdsl.execution.space.arrays import Part
-
-if TYPE_CHECKING:
-    from swarmdsl.execution.space.stage import Stage
+from swarmdsl.execution.space.robots import Robots
 
 _LEAST_SPEED = 1e-9
 
 
-def move(stage: Stage, part: Part) -> None:
+def move(stage: Robots, part: Part) -> None:
     """Move robots; those that would touch something stay where they are."""
     dt, z = stage.dt, stage.z[part]
     alive = stage.alive[part]

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.space.arrays import Floats, Part, Rows, Whole
 from swarmdsl.execution.space.hashing import key, shares
+from swarmdsl.execution.space.robots import Robots
 from swarmdsl.execution.space.turning import direction, direction_of
 from swarmdsl.execution.space.weather import RAIN_SIGHT
-
-if TYPE_CHECKING:
-    from swarmdsl.execution.space.stage import Stage
 
 _NONE = -1
 _WRONG, _WHICH = key("sees", "wrong"), key("sees", "which")
@@ -38,7 +36,7 @@ class Eyes:
     `latest` is the target that each robot has seen with its last look, or -1.
     """
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: Robots) -> None:
         self._stage = stage
         self.latest: Whole = np.full(stage.rows, _NONE)
         self.place_x: Floats = np.zeros(stage.rows)
@@ -74,8 +72,9 @@ class Eyes:
 class _Group:
     """Sensors that are alike, of different robots."""
 
-    def __init__(self, stage: Stage, eyes: Eyes, places: list[int]) -> None:
+    def __init__(self, stage: Robots, eyes: Eyes, places: list[int]) -> None:
         self._stage = stage
+        self._eyes = eyes
         first = eyes.eyes[places[0]]
         self._number, eye = first[1], first[2]
         self._robots = np.array([eyes.eyes[place][0] for place in places])
@@ -99,7 +98,7 @@ class _Group:
         rows, ticks = rows[is_due], ticks[is_due]
         if not len(rows):
             return []
-        stage.eyes.latest[rows] = _NONE
+        self._eyes.latest[rows] = _NONE
         found = self._told(*self._seen(rows, ticks))
         if self._wrong:
             found += self._mistaken(rows, ticks)
@@ -149,7 +148,7 @@ class _Group:
         there = stage.run[who] * targets.count + which
         targets.seen[there] = True
         # Of several, the one with the least number.
-        eyes, backwards = stage.eyes, slice(None, None, -1)
+        eyes, backwards = self._eyes, slice(None, None, -1)
         eyes.latest[who[backwards]] = there[backwards]
         eyes.place_x[who[backwards]] = targets.x[there][backwards]
         eyes.place_y[who[backwards]] = targets.y[there][backwards]
@@ -177,9 +176,9 @@ class _Group:
         x = stage.x[rows] + distance * (ahead_x * cosine - ahead_y * sine)
         y = stage.y[rows] + distance * (ahead_y * cosine + ahead_x * sine)
         there = stage.run[rows] * stage.targets.count + which
-        unseen = stage.eyes.latest[rows] == _NONE
-        stage.eyes.latest[rows[unseen]] = there[unseen]
-        stage.eyes.place_x[rows[unseen]], stage.eyes.place_y[rows[unseen]] = x[unseen], y[unseen]
+        unseen = self._eyes.latest[rows] == _NONE
+        self._eyes.latest[rows[unseen]] = there[unseen]
+        self._eyes.place_x[rows[unseen]], self._eyes.place_y[rows[unseen]] = x[unseen], y[unseen]
         return [
             Sighting(row, self._number, target, far, up, 0.0)
             for row, target, far, up in zip(
