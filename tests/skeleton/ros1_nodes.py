@@ -23,8 +23,8 @@ FILLED = {
 SENDER = """
 import actionlib, demo.msg, rospy
 rospy.init_node('sender')
-client = actionlib.SimpleActionClient('cmd/climb', demo.msg.ClimbAction)
+client = actionlib.ActionClient('cmd/climb', demo.msg.ClimbAction)
 client.wait_for_server()
-client.send_goal(demo.msg.ClimbGoal(height=1.0))
+sent = client.send_goal(demo.msg.ClimbGoal(height=1.0))
 rospy.spin()
 """

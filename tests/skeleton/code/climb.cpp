@@ -13,7 +13,7 @@ Climb::Outcome Climb::execute(const Goal& goal, Result& result, std::string& tex
     Feedback feedback;
     feedback.now = 0.5;
     publish_feedback(feedback);
-    wait(1.0);  // a client forgets a goal with its result, and drops feedback that comes later
+    wait(0.1);
     if (const auto state = inputs().state)
     {
       outputs().pos_goal_position.publish(state);

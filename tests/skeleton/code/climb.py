@@ -10,7 +10,7 @@ class Climb(ClimbBase):
         """End in the way of the height."""
         if goal.height == 1:
             self.publish_feedback(self.Feedback(now=0.5))
-            self.wait(1.0)  # a client drops feedback that comes after the result
+            self.wait(0.1)
             if self.inputs.state is not None:
                 self.outputs.pos_goal_position.publish(self.inputs.state)
             return self.succeeded(self.Result(reached=goal.height + self.parameters.tolerance))
