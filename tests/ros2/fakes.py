@@ -60,6 +60,7 @@ class Fakes(Node):
 
         def execute(handle):
             plan = plans[-1]
+            self.tell(begun=name)
             for values in plan.get("feedback", ()):
                 handle.publish_feedback(fill(made.Feedback(), values))
             end = time.monotonic() + plan.get("after", 0.0)

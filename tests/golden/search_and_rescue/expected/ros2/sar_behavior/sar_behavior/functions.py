@@ -149,7 +149,10 @@ class _Call:
             self._missing_since = now
         if now - self._missing_since < self._host.server_timeout:
             return False
-        self._warn(_REPLACED if self._is_ready() else 'has no server')
+        if self._is_ready():
+            self._warn(_REPLACED)
+        else:
+            self._warn('has lost its server' if self._sent else 'has no server')
         self._end('aborted')
         return True
 
