@@ -38,6 +38,10 @@ _REASONS: dict[str, dict[str, str]] = {
             "State.docs StateMachine.doc "
             "StateMachine.docs Swarm.doc Swarm.docs System.doc"
         ),
+        "comments in space are not drawn": (
+            "Area.doc Obstacle.doc Rain.doc Sight.doc Sight.docs Targets.doc Wall.doc "
+            "Wind.doc Zone.doc"
+        ),
         "an event looks the same, whoever raises it": "Event.predefined",
         "interfaces are not drawn; types are drawn without package and bounds": (
             "Action.external Action.feedback Action.goal Action.result Action.type "
@@ -54,8 +58,9 @@ _REASONS: dict[str, dict[str, str]] = {
         ),
         "calls are drawn by the name of their function": (
             "Communication.name Communication.paradigm Communication.type "
-            "Function.communication Function.params Function.ports FunctionPort.direction "
-            "FunctionPort.topic FunctionPort.type"
+            "Function.communication Function.model Function.params Function.ports "
+            "FunctionPort.direction FunctionPort.topic FunctionPort.type ModelUse.arguments "
+            "ModelUse.doc ModelUse.name"
         ),
         "properties are not drawn": (
             "Chance.bound Chance.probability Count.comparison Count.number Count.role "
@@ -112,6 +117,18 @@ _REASONS: dict[str, dict[str, str]] = {
             "Swarm.docs Swarm.environment Swarm.fitness Swarm.name Swarm.roles "
             "System.components System.doc System.environments System.fitness System.members "
             "System.optimizations System.swarms"
+        ),
+        "SCXML has no space": (
+            "Area.box Area.doc Area.name Box.high Box.highest Box.low Box.lowest "
+            "Component.sights Disc.centre Disc.height Disc.radius Environment.areas "
+            "Environment.obstacles Environment.rains Environment.targets Environment.walls "
+            "Environment.winds Environment.zones Function.model Member.battery Member.body "
+            "Member.radio ModelUse.arguments ModelUse.doc ModelUse.name Obstacle.doc "
+            "Obstacle.name Obstacle.shape Point.x Point.y Rain.doc Rain.end Rain.start "
+            "RobotValues.start Role.start Sight.doc Sight.docs Sight.kind Sight.values "
+            "Targets.area Targets.count Targets.doc Targets.kind Targets.places Wall.doc "
+            "Wall.height Wall.points Wind.angle Wind.doc Wind.end Wind.speed Wind.start "
+            "Zone.box Zone.doc Zone.name"
         ),
         "SCXML has no properties": (
             "Chance.bound Chance.probability Count.comparison Count.number Count.role "

@@ -42,31 +42,6 @@ MODELS = (
     ROOT / "tests/golden/submachine/model.swarm",
     ROOT / "examples/search_and_rescue",
 )
-WITHOUT_SYNTAX = {
-    f"{owner}.{name}"
-    for owner, names in {
-        "Area": "name box doc",
-        "Box": "low high lowest highest",
-        "Component": "sights",
-        "Disc": "centre radius height",
-        "Environment": "areas zones walls obstacles targets winds rains",
-        "Function": "model",
-        "Member": "body battery radio",
-        "ModelUse": "name arguments doc",
-        "Obstacle": "shape name doc",
-        "Point": "x y",
-        "Rain": "start end doc",
-        "RobotValues": "start",
-        "Role": "start",
-        "Sight": "kind values doc",
-        "Targets": "kind count places area doc",
-        "Wall": "points height doc",
-        "Wind": "speed angle start end doc",
-        "Zone": "name box doc",
-    }.items()
-    for name in names.split()
-}
-"""Fields of the space that the grammar cannot write yet."""
 TRIES = 30
 """Places at which a field is changed until a consumer shows it."""
 
@@ -145,8 +120,7 @@ def all_fields() -> Iterator[str]:
     for name in set(ir.__all__) - {"PortGroup"}:
         cls = getattr(ir, name)
         if isinstance(cls, type) and dataclasses.is_dataclass(cls):
-            full = (f"{name}.{each}" for each in fields(cls))
-            yield from (each for each in full if each not in WITHOUT_SYNTAX)
+            yield from (f"{name}.{each}" for each in fields(cls))
 
 
 @cache

@@ -31,11 +31,14 @@ syn match swarmDeclaration #\<again\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<all\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<always\>\ze[ \t]*\%(possible\)\>#
 syn match swarmDeclaration #\<append\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<area\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<as\>\ze[ \t]*[A-Za-z_]#
-syn match swarmDeclaration #\<at\>\ze[ \t]*\%(all\|least\|most\)\>#
+syn match swarmDeclaration #\<at\>\ze[ \t]*\%(\%(all\|least\|most\|random\)\>\|[(]\)#
+syn match swarmDeclaration #\<battery\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<before\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmStatement #\<best\>\ze[ \t]*\%(effort\)\>#
 syn match swarmDeclaration #\<between\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<body\>\ze[ \t]*[{]#
 syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<cancel\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<cancels\>\ze[ \t]*[A-Za-z_]#
@@ -49,10 +52,12 @@ syn match swarmStatement #\<effort\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmStatement #\<evaluations\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<eventually\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<feedback\>\ze[ \t]*[{]#
+syn match swarmDeclaration #\<from\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<goal\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<has\>\ze[ \t]*[\[]#
 syn match swarmDeclaration #\<hears\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<heartbeat\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<height\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<internal\>\ze[ \t]*\%(\%(after\|monitor\|on\)\>\|[\[]\)#
 syn match swarmStatement #\<keep\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<latest\>\ze[ \t]*\%([,;}]\|$\)#
@@ -65,13 +70,19 @@ syn match swarmStatement #\<maximize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<mean\>\ze[ \t]*\%(count\|each\)\>#
 syn match swarmDeclaration #\<min\>\ze[ \t]*\%(count\|each\)\>#
 syn match swarmStatement #\<minimize\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<model\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<most\>\ze[ \t]*[0-9"]#
 syn match swarmDeclaration #\<never\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<no\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<obstacle\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<only\>\ze[ \t]*\%(after\)\>#
 syn match swarmDeclaration #\<other\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<possible\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<radio\>\ze[ \t]*[{]#
+syn match swarmDeclaration #\<radius\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<rain\>\ze[ \t]*\%(from\|until\)\>#
+syn match swarmDeclaration #\<random\>\ze[ \t]*\%(in\)\>#
 syn match swarmStatement #\<reliable\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmDeclaration #\<remove\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<request\>\ze[ \t]*[{]#
@@ -80,23 +91,28 @@ syn match swarmDeclaration #\<result\>\ze[ \t]*[{]#
 syn match swarmInclude #\<ros\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<seed\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<sends\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<senses\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<size\>\ze[ \t]*[0-9"]#
 syn match swarmDeclaration #\<some\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<starts\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<step\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<sum\>\ze[ \t]*\%(each\)\>#
+syn match swarmDeclaration #\<target\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<then\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<time\>\ze[ \t]*\%(\%(until\)\>\|[(]\)#
 syn match swarmDeclaration #\<times\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmStatement #\<to\>\ze[ \t]*[*A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<total\>\ze[ \t]*[(]#
-syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<wall\>\ze[ \t]*[:]#
 syn match swarmDeclaration #\<where\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<wind\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<within\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<world\>\ze[ \t]*[0-9"]#
 syn match swarmStatement #\<x\>\ze[ \t]*[0-9"]#
-syn match swarmName #\%(\<\%(actuator\|choice\|communication\|const\|controller\|enum\|environment\|event\|final\|fitness\|history\|member\|operation\|property\|region\|sensor\|state\|statemachine\|struct\|type\|virtual\)\)\@<=\s\+\h\w*#
+syn match swarmDeclaration #\<zone\>\ze[ \t]*[A-Za-z_]#
+syn match swarmName #\%(\<\%(actuator\|choice\|communication\|const\|controller\|enum\|environment\|event\|final\|fitness\|history\|member\|model\|operation\|property\|region\|sensor\|state\|statemachine\|struct\|type\|virtual\)\)\@<=\s\+\h\w*#
 " end
 
 syn match swarmNumber "\<\d\+\%(\.\d\+\)\=\%([eE][+-]\=\d\+\)\=\%(\s*\%(us\|ms\|s\|min\|h\|km\|cm\|mm\|m\)\>\)\="

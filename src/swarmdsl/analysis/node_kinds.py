@@ -5,6 +5,7 @@ from __future__ import annotations
 from swarmdsl.syntax.ast import (
     ActionType,
     AliasType,
+    Area,
     Choice,
     Component,
     Constant,
@@ -21,6 +22,7 @@ from swarmdsl.syntax.ast import (
     Member,
     MessageType,
     Node,
+    Obstacle,
     Operation,
     Parallel,
     Param,
@@ -35,7 +37,9 @@ from swarmdsl.syntax.ast import (
     StateMachine,
     StructType,
     Swarm,
+    Targets,
     Variable,
+    Zone,
 )
 
 KINDS: dict[type[Node], str] = {
@@ -55,6 +59,10 @@ KINDS: dict[type[Node], str] = {
     Environment: "an environment",
     Fitness: "a fitness",
     Property: "a property",
+    Area: "an area",
+    Zone: "a zone",
+    Obstacle: "an obstacle",
+    Targets: "a target",
     FitnessInput: "an input",
     Operation: "an operation",
     Parameter: "a parameter",

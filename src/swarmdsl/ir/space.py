@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
+from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 
 Values = tuple[tuple[str, Expression], ...]
@@ -77,8 +78,8 @@ class Wall:
 class Obstacle:
     """Solid body on the ground."""
 
+    name: str
     shape: Shape
-    name: str | None = None
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
 
@@ -130,6 +131,7 @@ class Sight:
     kind: str
     values: Values
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 

@@ -9,9 +9,16 @@ from swarmdsl.analysis.port_groups import PortKey, PortTopic, port_groups
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.base.naming import snake_case
 from swarmdsl.base.numerals import integer
+from swarmdsl.base.records import replace
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.docs import lower_docs
 from swarmdsl.lowering.interfaces import lower_params, lower_values
+from swarmdsl.lowering.space import (
+    lower_equipment,
+    lower_geometry,
+    lower_sights,
+    lower_start,
+)
 from swarmdsl.syntax.ast import (
     BehaviorUse,
     CommunicationSettings,
@@ -49,6 +56,7 @@ def lower_component(component: Component, context: Context) -> ir.Component:
         doc=component.doc,
         docs=lower_docs(all_items(component, BehaviorUse)),
         origin=component.name.span,
+        sights=lower_sights(component, context),
     )
 
 
@@ -59,6 +67,10 @@ def lower_member(member: Member, context: Context) -> ir.Member:
         ir.Connector(_end(item.source), _end(item.target), item.doc, item.span)
         for item in all_items(member, Connector)
     )
+    equipment = {
+        kind: lower_equipment(member, kind, context) for kind in ("body", "battery", "radio")
+    }
+    docs = (doc for _, found in equipment.values() for doc in found)
     return ir.Member(
         name=context.names[member],
         behavior=_behavior(member, context),
@@ -69,9 +81,10 @@ def lower_member(member: Member, context: Context) -> ir.Member:
         communication=_communication(member, context),
         base=context.name(member.base) if member.base is not None else None,
         doc=member.doc,
-        docs=lower_docs(all_items(member, BehaviorUse)),
+        docs=tuple(sorted((*lower_docs(all_items(member, BehaviorUse)), *docs))),
         origin=member.name.span,
         port_groups=tuple(_port_groups(member, ports, connectors, context)),
+        **{kind: values for kind, (values, _) in equipment.items()},
     )
 
 
@@ -126,12 +139,14 @@ def _role(role: Role, robots: Iterable[RobotValues], context: Context) -> ir.Rol
                 robot.doc,
                 lower_docs(robot.values),
                 robot.span,
+                lower_start(robot.start, context),
             )
             for robot in sorted(robots, key=lambda robot: integer(robot.index))
         ),
         role.doc,
         lower_docs(role.values),
         role.name.span,
+        lower_start(role.start, context),
     )
 
 
@@ -139,8 +154,8 @@ def lower_environment(environment: Environment, context: Context) -> ir.Environm
     """Lower an environment, lengths in metres."""
     world = next((item for item in environment.items if isinstance(item, World)), None)
     size = next((item for item in environment.items if isinstance(item, Size)), None)
-    return ir.Environment(
-        name=context.names[environment],
+    return replace(
+        lower_geometry(environment, context),
         world=str(world.file) if world else None,
         size=_size(size) if size else None,
         doc=environment.doc,

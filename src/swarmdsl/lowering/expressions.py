@@ -320,7 +320,7 @@ def _name(use: NameUse, context: Context) -> ir.Expression:
             return ir.ParamRef(use.name, type_, use.span)
         case Variable() as variable:
             return ir.VariableRef(context.variables.get(variable, use.name), type_, use.span)
-        case FitnessInput():
+        case FitnessInput() | Field():
             return ir.VariableRef(use.name, type_, use.span)
         case Element():
             return ir.ItemRef(use.name, type_, use.span)

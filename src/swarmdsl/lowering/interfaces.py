@@ -12,6 +12,7 @@ from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.types.enum_values import numbers, underlying
 from swarmdsl.lowering.context import Context, operations_of
 from swarmdsl.lowering.expressions import lower_expression, lower_fields, lower_optional
+from swarmdsl.lowering.space import lower_model
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -180,6 +181,7 @@ def lower_function(function: Function, context: Context) -> ir.Function:
         params=lower_params(function.items, context),
         doc=function.doc,
         origin=function.name.span,
+        model=lower_model(function, context),
     )
 
 

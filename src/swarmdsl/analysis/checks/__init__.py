@@ -19,8 +19,11 @@ from swarmdsl.analysis.checks.dataflow import check_variables
 from swarmdsl.analysis.checks.delays import check_undelayed_sends
 from swarmdsl.analysis.checks.delivery import check_delivery, check_lossy_events
 from swarmdsl.analysis.checks.enums import check_enum
+from swarmdsl.analysis.checks.equipment import check_equipment, check_sights
 from swarmdsl.analysis.checks.events import check_events
 from swarmdsl.analysis.checks.expressions import check_expressions
+from swarmdsl.analysis.checks.function_models import check_model, check_model_names
+from swarmdsl.analysis.checks.geometry import check_geometry
 from swarmdsl.analysis.checks.guards import check_guards
 from swarmdsl.analysis.checks.identities import check_identities
 from swarmdsl.analysis.checks.ignored_events import check_ignored_events
@@ -51,6 +54,7 @@ from swarmdsl.analysis.checks.putting_off import check_putting_off
 from swarmdsl.analysis.checks.reachability import check_reachability
 from swarmdsl.analysis.checks.robot_values import check_robot_values
 from swarmdsl.analysis.checks.shadowed_transitions import check_shadowed_transitions
+from swarmdsl.analysis.checks.starts import check_starts
 from swarmdsl.analysis.checks.structure import check_structure
 from swarmdsl.analysis.checks.style import check_style
 from swarmdsl.analysis.checks.submachines import check_submachines
@@ -94,6 +98,7 @@ PROJECT_PASSES: Sequence[Callable[[Project, Context], None]] = (
     check_identities,
     check_membership,
     check_subjects,
+    check_model_names,
 )
 """Passes over a whole project, in order."""
 
@@ -123,9 +128,9 @@ COMMON_PASSES: Sequence[Callable[[Declaration, Context], None]] = (
 
 PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
     Event: (check_event, check_delivery),
-    Function: (check_function,),
-    Component: (check_component,),
-    Member: (check_member,),
+    Function: (check_function, check_model),
+    Component: (check_component, check_sights),
+    Member: (check_member, check_equipment),
     StateMachine: STATE_MACHINE_PASSES,
     Constant: (check_constant,),
     EnumType: (check_enum,),
@@ -133,8 +138,8 @@ PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
     ServiceType: (check_standard,),
     ActionType: (check_standard,),
     Fitness: (check_fitness, check_measures),
-    Swarm: (check_swarm, check_heartbeat, check_robot_values, check_measured_swarm),
-    Environment: (check_environment,),
+    Swarm: (check_swarm, check_heartbeat, check_robot_values, check_starts, check_measured_swarm),
+    Environment: (check_environment, check_geometry),
     Property: (check_property,),
 }
 """Passes over declarations, by kind, in order."""

@@ -15,11 +15,13 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     ActionType,
+    Area,
     Component,
     Container,
     Declaration,
     EnumType,
     EnumValue,
+    Environment,
     Event,
     Field,
     Fitness,
@@ -29,6 +31,7 @@ from swarmdsl.syntax.ast import (
     Member,
     MessageType,
     Node,
+    Obstacle,
     Operation,
     Parallel,
     Param,
@@ -45,6 +48,7 @@ from swarmdsl.syntax.ast import (
     Variable,
     Vertex,
     Word,
+    Zone,
     by_class,
 )
 from swarmdsl.syntax.parser.patched_text import is_placeholder
@@ -64,6 +68,9 @@ Named = (
     | Vertex
     | Region
     | Role
+    | Area
+    | Zone
+    | Obstacle
 )
 
 N = TypeVar("N", bound=Named)
@@ -165,6 +172,7 @@ _NAMESPACES: Mapping[type[Node], Callable[[Any], Iterable[Sequence[Named]]]] = {
     Operation: lambda node: (node.parameters,),
     Fitness: _of(FitnessInput, Param),
     Swarm: _of(Role),
+    Environment: _of(Area, Zone, Obstacle),
     StateMachine: lambda node: (
         *_values(node),
         vertices(node),

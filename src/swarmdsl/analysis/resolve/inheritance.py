@@ -9,17 +9,29 @@ from swarmdsl.syntax.ast import (
     CommunicationSettings,
     Component,
     Connector,
+    Equipment,
     Member,
     Operation,
     Param,
     Part,
     Port,
+    Sight,
 )
 
-Item = Port | Param | Operation | Part | Connector | BehaviorUse | CommunicationSettings
+Item = (
+    Port
+    | Param
+    | Operation
+    | Part
+    | Connector
+    | BehaviorUse
+    | CommunicationSettings
+    | Equipment
+    | Sight
+)
 Kind = TypeVar("Kind", bound=Item)
 # Own items of these kinds replace inherited ones.
-_REPLACED = (Param, BehaviorUse, CommunicationSettings)
+_REPLACED = (Param, BehaviorUse, CommunicationSettings, Equipment, Sight)
 
 
 # More than real models have.
@@ -45,7 +57,7 @@ def all_items(owner: Component | Member, kind: type[Kind]) -> list[Kind]:
     """Return the items of a kind, the inherited ones first.
 
     An own param replaces an inherited one of its name; an own behaviour and own communication
-    settings replace the inherited ones.
+    settings replace the inherited ones, as do equipment of one kind and sight of one target.
     """
     bases = reversed(lineage(owner))
     items: list[Kind] = [item for each in bases for item in each.items if isinstance(item, kind)]
@@ -55,4 +67,11 @@ def all_items(owner: Component | Member, kind: type[Kind]) -> list[Kind]:
 
 
 def _place(item: Item) -> str:
-    return str(item.name) if isinstance(item, Param) else ""
+    match item:
+        case Param():
+            return str(item.name)
+        case Equipment():
+            return item.kind
+        case Sight():
+            return item.target.name
+    return ""

@@ -7,7 +7,7 @@ reported and stays None; later phases ignore it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from functools import cache
+from functools import cache, partial
 from typing import Any, TypeVar
 
 from swarmdsl.analysis.node_kinds import kind_name
@@ -22,6 +22,12 @@ from swarmdsl.analysis.resolve.report_unresolved import (
     report_reference,
 )
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes, Unresolved
+from swarmdsl.analysis.resolve.space import (
+    link_environment,
+    link_model,
+    link_sights,
+    link_starts,
+)
 from swarmdsl.analysis.resolve.types import TypeLinker
 from swarmdsl.analysis.resolve.values import ValueLinker, Values
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -118,6 +124,8 @@ class Linker:
         """Resolve the names of states, values, parts and ports in a declaration."""
         scope = self._scopes[file]
         values: Values = {}
+        linked: set[Expression] = set()
+        values_of_file = partial(ValueLinker, scope, self._enums, report)
         match owner:
             case StateMachine():
                 link_machine(owner, scope, report)
@@ -131,17 +139,25 @@ class Linker:
                 _link_member(owner, scope, report)
                 values = _named(all_items(owner, Param), Param)
             case Fitness():
-                link_fitness(owner, scope, ValueLinker(scope, self._enums, report), report)
+                link_fitness(owner, scope, values_of_file(), report)
                 return
             case Optimization():
                 _link_optimization(owner, scope, report)
             case Swarm():
                 _link_swarm(owner, scope, report)
+                link_starts(owner, scope, report)
+            case Environment():
+                link_environment(owner, scope, report)
+            case Component():
+                linked = link_sights(owner, scope, values_of_file(), report)
+            case Function():
+                linked = link_model(owner, scope, values_of_file())
             case Property():
-                link_property(owner, scope, ValueLinker(scope, self._enums, report), report)
+                link_property(owner, scope, values_of_file(), report)
                 return
-        if nodes_of(owner, Expression):
-            ValueLinker(scope, self._enums, report).link(owner, values)
+        others = [each for each in nodes_of(owner, Expression) if each not in linked]
+        if others:
+            values_of_file().link_only(others, owner, values)
 
 
 def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> None:

@@ -31,6 +31,7 @@ from swarmdsl.syntax.ast import (
     EnumType,
     Expression,
     ExpressionTree,
+    Field,
     FieldUse,
     FitnessInput,
     IndexUse,
@@ -52,7 +53,7 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import Named
 
-Values = Mapping[str, Variable | Param | FitnessInput | Element]
+Values = Mapping[str, Variable | Param | FitnessInput | Element | Field]
 # Unresolved names, each with the fields after it.
 Missing = list[tuple[NameUse, list[FieldUse]]]
 

@@ -83,6 +83,14 @@ CODES: dict[str, Code] = {
     "missing-fitness": Code("SW0309", "error", "swarm `{name}` is optimized but has no fitness"),
     "missing-robot-value": Code("SW0310", "error", "param `{name}` of {robots} has no value"),
     "unknown-robot": Code("SW0311", "error", "role `{role}` has no robot `{robot}`"),
+    "impossible-shape": Code("SW0312", "error", "{what} {fault}"),
+    "outside-environment": Code("SW0313", "error", "{what} is outside the environment"),
+    "blocked-start": Code("SW0314", "error", "{robots} cannot start here: {reason}"),
+    "missing-setting": Code("SW0315", "error", "{owner} has no `{name}`"),
+    "setting-range": Code("SW0316", "error", "`{name}` must be {expected}"),
+    "missing-speed": Code(
+        "SW0317", "error", "member `{member}` has no speed, but model `{model}` moves it"
+    ),
     "early-loss": Code("SW0320", "error", "a robot would be lost before its next heartbeat"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
@@ -198,6 +206,8 @@ CODES: dict[str, Code] = {
         silent=True,
     ),
     "wrong-unit": Code("SW0621", "error", "expected {expected}, found {found}"),
+    "unknown-model": Code("SW0622", "error", "there is no model `{name}` for functions"),
+    "unknown-argument": Code("SW0623", "error", "model `{model}` has no argument `{name}`"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

@@ -12,6 +12,7 @@ from swarmdsl.codegen.shared.property_texts import measure_text
 from swarmdsl.codegen.swarm_printer.composition import heartbeat
 from swarmdsl.codegen.swarm_printer.expressions import expression, with_names
 from swarmdsl.codegen.swarm_printer.layout import quoted
+from swarmdsl.codegen.swarm_printer.space import space_items, start, text
 
 
 def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
@@ -96,7 +97,7 @@ class _Role:
             groups.append((f"behavior {member.behavior}",))
         groups.append(tuple(map(param_line, self.role.configured(member).params)))
         for robot in self.role.robots:
-            lines = value_lines(robot.values)
+            lines = [*filter(None, [start(robot.start).strip()]), *value_lines(robot.values)]
             groups.append(tuple(f"{self.role.name}[{robot.index}] {line}" for line in lines))
         groups.append(tuple(f"{part.name} : {part.component}" for part in member.parts))
         groups.append(tuple(f"«{each.category}» {each.name}" for each in self.uses.functions))
@@ -117,7 +118,7 @@ class _Role:
             "composition",
             "swarm",
             self.id,
-            (f"{role.name} [{role.multiplicity}]",),
+            (f"{role.name} [{role.multiplicity}]{start(role.start)}",),
             doc=role.doc,
             origin=role.origin,
         )
@@ -154,7 +155,8 @@ def _environment(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edg
             lines = [f"world {quoted(each.world)}"] if each.world is not None else []
             if each.size is not None:
                 lines.append("size " + " x ".join(f"{side:g} m" for side in each.size))
-            yield _around(swarm, "environment", each, _groups(lines))
+            space = map(text, space_items(each))
+            yield _around(swarm, "environment", each, _groups(lines, space))
 
 
 def _fitness(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edge]]:

@@ -6,7 +6,13 @@ from collections.abc import Iterable, Mapping
 
 from swarmdsl import ir
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node, Port
-from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
+from swarmdsl.codegen.diagram.labels import (
+    equipment_groups,
+    param_line,
+    sight_line,
+    type_name,
+    value_lines,
+)
 
 
 def internal(member: ir.Member, components: Mapping[str, ir.Component]) -> Diagram:
@@ -19,6 +25,7 @@ def internal(member: ir.Member, components: Mapping[str, ir.Component]) -> Diagr
         _groups(
             [f"behavior {member.behavior}"] if member.behavior else [],
             map(param_line, member.params),
+            *equipment_groups(member),
         ),
         tuple(_part(part, components[part.component]) for part in member.parts),
         _ports("", member.ports),
@@ -38,6 +45,7 @@ def _part(part: ir.Part, component: ir.Component) -> Node:
         _groups(
             [f"behavior {component.behavior}"] if component.behavior else [],
             _params(part, component),
+            map(sight_line, component.sights),
             (f"operation {name}" for name in part.operations or component.operations),
         ),
         ports=_ports(part.name, component.ports),

@@ -12,10 +12,12 @@ from swarmdsl.ir import (
     Effect,
     EventTrigger,
     Expression,
+    Member,
     Named,
     OutcomeTrigger,
     Param,
     Primitive,
+    Sight,
     State,
     TimeTrigger,
     Transition,
@@ -81,6 +83,22 @@ def variable_line(variable: Variable, within: str = "") -> str:
 def value_lines(values: Iterable[tuple[str, Expression]]) -> tuple[str, ...]:
     """Return values that are set, one a line."""
     return tuple(f"{name} = {expression(with_names(value))}" for name, value in values)
+
+
+def equipment_groups(member: Member) -> Iterator[tuple[str, ...]]:
+    """Yield the body, the battery and the radio of a member, a value a line."""
+    for kind, values in (
+        ("body", member.body),
+        ("battery", member.battery),
+        ("radio", member.radio),
+    ):
+        if values:
+            yield (kind, *value_lines(values))
+
+
+def sight_line(sight: Sight) -> str:
+    """Return what a component finds and how well."""
+    return " ".join([f"senses {sight.kind}", ", ".join(value_lines(sight.values))]).rstrip()
 
 
 def type_name(type_: Type) -> str:

@@ -9,6 +9,7 @@ from swarmdsl.codegen.swarm_printer.expressions import expression
 from swarmdsl.codegen.swarm_printer.interfaces import on_topic, print_params
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError, block, documented, indented
 from swarmdsl.codegen.swarm_printer.names import Names, operation_name, own_operations
+from swarmdsl.codegen.swarm_printer.space import print_sights
 from swarmdsl.ir import (
     Component,
     Connector,
@@ -19,9 +20,11 @@ from swarmdsl.ir import (
     Part,
     Port,
     Service,
+    Sight,
     System,
     doc_of,
 )
+from swarmdsl.ir.space import Values
 
 T = TypeVar("T")
 
@@ -38,6 +41,7 @@ def print_component(component: Component, system: System, names: Names) -> list[
                 *_ports(own(component.ports, base.ports if base else (), component), names),
                 *print_params(own_params(component, base), names),
             ],
+            print_sights(_own_sights(component, base)),
             [
                 line
                 for function in own_operations(component, system)
@@ -57,6 +61,7 @@ def print_member(member: Member, system: System, names: Names) -> list[str]:
             [
                 *_behavior(member, base),
                 *_communication(member, base),
+                *_equipment(member, base),
                 *_ports(own(member.ports, base.ports if base else (), member), names),
                 *print_params(own_params(member, base), names),
             ],
@@ -112,6 +117,45 @@ def _communication(member: Member, base: Member | None) -> list[str]:
         f"communication {settings.technology}", print_values(settings.values, settings.docs)
     )
     return documented(settings.doc, lines)
+
+
+def _equipment(member: Member, base: Member | None) -> list[str]:
+    """Print the body, battery and radio of a member that are not inherited."""
+    lines = []
+    for kind in ("body", "battery", "radio"):
+        values, docs = equipment(member, kind)
+        if base is not None and (values, docs) == equipment(base, kind):
+            continue
+        if not values:
+            if base is not None and equipment(base, kind)[0]:
+                raise UnprintableError(f"`{member.name}` lacks the {kind} of `{base.name}`")
+            continue
+        inside = block(kind, print_values(values, docs))
+        lines += documented(doc_of(docs, ""), inside)
+    return lines
+
+
+def equipment(member: Member, kind: str) -> tuple[Values, Docs]:
+    """Return what a member is in space, of one kind, with the comments of the values by name.
+
+    The comment of all of them has no name.
+    """
+    values: dict[str, Values] = {
+        "body": member.body,
+        "battery": member.battery,
+        "radio": member.radio,
+    }
+    docs = ((name.partition("."), doc) for name, doc in member.docs)
+    return values[kind], tuple((name, doc) for (head, _, name), doc in docs if head == kind)
+
+
+def _own_sights(component: Component, base: Component | None) -> list[Sight]:
+    """Return the sights that are new, or replace an inherited one."""
+    inherited = base.sights if base is not None else ()
+    kinds = [sight.kind for sight in inherited]
+    if [sight.kind for sight in component.sights[: len(kinds)]] != kinds:
+        raise UnprintableError(f"`{component.name}` lacks a sight of `{component.base}`")
+    return [sight for sight in component.sights if sight not in inherited]
 
 
 def print_values(values: Iterable[tuple[str, Expression]], docs: Docs) -> list[str]:

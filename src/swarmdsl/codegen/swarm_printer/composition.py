@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from decimal import Decimal
-
 from swarmdsl.codegen.shared.property_texts import measure_text, parts_text, sentence_text
 from swarmdsl.codegen.swarm_printer.architecture import print_values
 from swarmdsl.codegen.swarm_printer.expressions import duration, expression
 from swarmdsl.codegen.swarm_printer.interfaces import print_params
 from swarmdsl.codegen.swarm_printer.layout import block, documented, quoted
 from swarmdsl.codegen.swarm_printer.names import Names
+from swarmdsl.codegen.swarm_printer.space import metres, print_space, start
 from swarmdsl.ir import (
     CountRange,
     Environment,
@@ -54,15 +53,15 @@ def heartbeat(beat: Heartbeat) -> str:
 def _role(role: Role) -> list[str]:
     """Print a role and the values of its robots."""
     number = "" if role.multiplicity == _ONE else f"[{role.multiplicity}]"
-    lines = _configured(f"{role.name} : {role.member}{number}", role)
+    lines = _configured(f"{role.name} : {role.member}{number}{start(role.start)}", role)
     for robot in role.robots:
-        lines += _configured(f"{role.name}[{robot.index}]", robot)
+        lines += _configured(f"{role.name}[{robot.index}]{start(robot.start)}", robot)
     return lines
 
 
 def _configured(head: str, owner: Role | RobotValues) -> list[str]:
     values = print_values(owner.values, owner.docs)
-    is_block = values or isinstance(owner, RobotValues)
+    is_block = values or (isinstance(owner, RobotValues) and owner.start is None)
     return documented(owner.doc, block(head, values) if is_block else [head])
 
 
@@ -73,8 +72,9 @@ def print_environment(environment: Environment) -> list[str]:
         world = [f"world {quoted(environment.world)}"]
         lines += documented(doc_of(environment.docs, "world"), world)
     if environment.size is not None:
-        size = ["size " + " x ".join(map(_metres, environment.size))]
+        size = ["size " + " x ".join(map(metres, environment.size))]
         lines += documented(doc_of(environment.docs, "size"), size)
+    lines += print_space(environment)
     return documented(environment.doc, block(f"environment {environment.name}", lines))
 
 
@@ -120,9 +120,3 @@ def print_property(property_: Property) -> list[str]:
 
 def _range(values: CountRange | ParamRange) -> str:
     return f"in {expression(values.lower)} .. {expression(values.upper)}"
-
-
-def _metres(length: float) -> str:
-    """Return a length as a decimal number: without exponent, and without `.0`."""
-    text = f"{Decimal(repr(length)):f}"
-    return f"{text.removesuffix('.0')} m"

@@ -9,6 +9,7 @@ from swarmdsl.codegen.swarm_printer.delivery import delivery_settings
 from swarmdsl.codegen.swarm_printer.expressions import default, expression
 from swarmdsl.codegen.swarm_printer.layout import block, documented, quoted
 from swarmdsl.codegen.swarm_printer.names import Names
+from swarmdsl.codegen.swarm_printer.space import model
 from swarmdsl.ir import (
     Action,
     Communication,
@@ -62,9 +63,15 @@ def print_function(function: Function, names: Names) -> list[str]:
                 *_communication(function.communication, names),
                 *(line for port in function.ports for line in _port(port, names)),
                 *print_params(function.params, names),
+                *_model(function),
             ],
         ),
     )
+
+
+def _model(function: Function) -> list[str]:
+    use = function.model
+    return documented(use.doc, [f"model {model(use)}"]) if use is not None else []
 
 
 def print_params(params: Iterable[Param], names: Names) -> list[str]:

@@ -1,4 +1,7 @@
-"""Params that are one by their name: those of a member or component and of its behaviour."""
+"""Elements that are one by their name.
+
+They are params of a member or component and of its behaviour, and the targets of one kind.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +9,30 @@ from collections.abc import Iterator
 
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
 from swarmdsl.driver.workspace import Workspace
-from swarmdsl.syntax.ast import BehaviorUse, Component, Member, Node, Param
+from swarmdsl.syntax.ast import (
+    BehaviorUse,
+    Component,
+    Environment,
+    Member,
+    Node,
+    Param,
+    Targets,
+    nodes_of,
+)
 
 
 def bound_together(node: Node, workspace: Workspace) -> list[Node]:
-    """Return the params that are bound to this one by its name; of other nodes it alone."""
+    """Return what is bound to a param or targets by its name; of other nodes it alone."""
     found = [node]
+    if isinstance(node, Targets):
+        environments = (
+            owner
+            for file in workspace.project.files
+            for owner in file.model.declarations
+            if isinstance(owner, Environment)
+        )
+        targets = (each for owner in environments for each in nodes_of(owner, Targets))
+        return [*found, *(each for each in targets if each.name == node.name and each is not node)]
     if not isinstance(node, Param):
         return found
     groups = [

@@ -14,7 +14,18 @@ from swarmdsl.driver.workspace.fragments import Fragment, with_users
 from swarmdsl.project.loader import File, Project
 from swarmdsl.project.rosidl import standard
 from swarmdsl.syntax.action_messages import generated_names
-from swarmdsl.syntax.ast import ActionType, Fitness, Interface, Property, Swarm
+from swarmdsl.syntax.ast import (
+    ActionType,
+    Component,
+    Declaration,
+    Environment,
+    Fitness,
+    Interface,
+    Property,
+    Sight,
+    Swarm,
+    nodes_of,
+)
 
 
 @dataclass
@@ -87,10 +98,13 @@ def affected(
     if change.declarations_changed:
         # Diagnostics of unresolved names depend on all names.
         found.update(noted)
-    if change.declarations_changed or any(map(_has_swarm, found)):
+    if change.declarations_changed or any(_has(Swarm, each) for each in found):
         # The subject of a property or fitness that names none depends on all declarations, that of
         # a fitness also on the swarms that have it.
         found.update(each for each in fragments if _names_no_subject(each))
+    if change.declarations_changed or any(_has(Environment, each) for each in found):
+        # What a sensor finds is in any environment.
+        found.update(each for each in fragments if _has_sight(each))
     if change.names:
         found.update(_containing(change.names, fragments))
     return with_users(found).intersection(fragments)
@@ -104,8 +118,13 @@ def _names_no_subject(fragment: Fragment) -> bool:
     )
 
 
-def _has_swarm(fragment: Fragment) -> bool:
-    return any(isinstance(each, Swarm) for each in fragment.parsed.model.declarations)
+def _has(kind: type[Declaration], fragment: Fragment) -> bool:
+    return any(isinstance(each, kind) for each in fragment.parsed.model.declarations)
+
+
+def _has_sight(fragment: Fragment) -> bool:
+    components = (each for each in fragment.parsed.model.declarations if type(each) is Component)
+    return any(nodes_of(each, Sight) for each in components)
 
 
 def _containing(names: Collection[str], fragments: Iterable[Fragment]) -> Iterator[Fragment]:

@@ -8,7 +8,8 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast.behaviour import StateMachine
 from swarmdsl.syntax.ast.interfaces import Operation
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, TypeRef, Word
-from swarmdsl.syntax.ast.values import Expression, Param
+from swarmdsl.syntax.ast.space import Equipment, Sight
+from swarmdsl.syntax.ast.values import Param, PartValue
 
 
 @dataclass(slots=True, eq=False)
@@ -28,7 +29,7 @@ class Component(TopLevel):
     kind: Literal["sensor", "actuator", "controller", "virtual"]
     name: Word
     base: Ref[Component] | None
-    items: list[Port | Param | Operation | BehaviorUse]
+    items: list[Port | Param | Operation | BehaviorUse | Sight]
 
 
 @dataclass(slots=True, eq=False)
@@ -36,14 +37,6 @@ class BehaviorUse(Documented):
     """`behavior Machine`."""
 
     machine: Ref[StateMachine]
-
-
-@dataclass(slots=True, eq=False)
-class PartValue(Documented):
-    """`name = value` in a part, a role or a robot of a role."""
-
-    name: Word
-    value: Expression
 
 
 @dataclass(slots=True, eq=False)
@@ -85,4 +78,4 @@ class Member(TopLevel):
 
     name: Word
     base: Ref[Member] | None
-    items: list[BehaviorUse | CommunicationSettings | Port | Param | Connector | Part]
+    items: list[BehaviorUse | CommunicationSettings | Equipment | Port | Param | Connector | Part]

@@ -7,6 +7,7 @@ from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast.interfaces import Event, Function, Operation
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, TypeRef, Word
 from swarmdsl.syntax.ast.values import (
+    Argument,
     Expression,
     ExpressionTree,
     IndexUse,
@@ -14,14 +15,6 @@ from swarmdsl.syntax.ast.values import (
     Param,
     Variable,
 )
-
-
-@dataclass(slots=True, eq=False)
-class Argument(Node):
-    """`name = value` in a call or a send."""
-
-    name: Word
-    value: Expression
 
 
 @dataclass(slots=True, eq=False)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Literal
 
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.syntax.ast.architecture import Member, PartValue
+from swarmdsl.syntax.ast.architecture import Member
 from swarmdsl.syntax.ast.behaviour import StateMachine, Vertex
 from swarmdsl.syntax.ast.interfaces import Event, Function
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, Word
-from swarmdsl.syntax.ast.values import Expression, Input, Param
+from swarmdsl.syntax.ast.space import Area, Obstacle, Rain, Start, Targets, Wall, Wind, Zone
+from swarmdsl.syntax.ast.values import Expression, Input, Param, PartValue
 
 
 @dataclass(slots=True, eq=False)
@@ -22,20 +23,22 @@ class Multiplicity(Node):
 
 @dataclass(slots=True, eq=False)
 class Role(Documented):
-    """`name : Member[multiplicity] { ... }`; `values` set params of its members."""
+    """`name : Member[multiplicity] in area { ... }`; `values` set params of its members."""
 
     name: Word
     member: Ref[Member]
     multiplicity: Multiplicity | None
+    start: Start | None
     values: list[PartValue]
 
 
 @dataclass(slots=True, eq=False)
 class RobotValues(Documented):
-    """`role[index] { ... }`: params of one robot."""
+    """`role[index] at (x, y) { ... }`: start and params of one robot."""
 
     role: Ref[Role]
     index: str
+    start: Start | None
     values: list[PartValue]
 
 
@@ -238,7 +241,7 @@ class Environment(TopLevel):
     """`environment Name { ... }`."""
 
     name: Word
-    items: list[World | Size]
+    items: list[World | Size | Area | Zone | Wall | Obstacle | Targets | Wind | Rain]
 
 
 _MOST_DIGITS = 9

@@ -6,15 +6,8 @@ from typing import Literal
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast.nodes import Documented, TopLevel, TypeRef, Word
-from swarmdsl.syntax.ast.values import Constant, Expression, Param
-
-
-@dataclass(slots=True, eq=False)
-class Field(Documented):
-    """A field of a message or struct."""
-
-    name: Word
-    type: TypeRef
+from swarmdsl.syntax.ast.space import ModelUse
+from swarmdsl.syntax.ast.values import Constant, Expression, Field, Param
 
 
 @dataclass(slots=True, eq=False)
@@ -107,7 +100,7 @@ class Function(TopLevel):
 
     name: Word
     category: Literal["abstraction", "swarm"]
-    items: list[Communication | FunctionPort | Param]
+    items: list[Communication | FunctionPort | Param | ModelUse]
 
 
 @dataclass(slots=True, eq=False)

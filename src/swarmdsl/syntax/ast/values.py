@@ -28,11 +28,12 @@ class Value(Node):
 class NameUse(Node):
     """Name of a value, or of an enum before one of its values.
 
-    `event` and `self` are names too; nothing declares them.
+    `event` and `self` are names too; nothing declares them. A field is one of the goal of a
+    function, in the arguments of its model.
     """
 
     name: str
-    target: Variable | Param | Constant | EnumType | Input | Element | None = field(
+    target: Variable | Param | Constant | EnumType | Input | Element | Field | None = field(
         default=None, init=False, metadata={"elsewhere": True}
     )
 
@@ -181,6 +182,14 @@ class EnumType(TopLevel):
 
 
 @dataclass(slots=True, eq=False)
+class Field(Documented):
+    """A field of a message or struct."""
+
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
 class Param(Documented):
     """`param name : Type = default`."""
 
@@ -204,3 +213,19 @@ class Input(Documented):
 
     name: Word
     type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class PartValue(Documented):
+    """`name = value` in a part, a role or a robot of a role."""
+
+    name: Word
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Argument(Node):
+    """`name = value` in a call or a send."""
+
+    name: Word
+    value: Expression

@@ -18,12 +18,23 @@ from swarmdsl.syntax.ast import (
     interfaces,
     nodes,
     properties,
+    space,
     values,
 )
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel
 from swarmdsl.syntax.ast.values import Input
 
-_MODULES = (nodes, values, interfaces, behaviour, architecture, composition, properties, file)
+_MODULES = (
+    nodes,
+    values,
+    space,
+    interfaces,
+    behaviour,
+    architecture,
+    composition,
+    properties,
+    file,
+)
 
 _ABSTRACT = (Node, Documented, TopLevel, Input)
 NODES: dict[str, type[Node]] = {

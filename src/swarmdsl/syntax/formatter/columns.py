@@ -6,27 +6,33 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from swarmdsl.syntax.ast import (
     AliasType,
+    Area,
     Branch,
     Communication,
     Connector,
     Constant,
     CountRange,
     EnumValue,
+    Equipment,
     Event,
     Field,
     FitnessInput,
     Function,
     FunctionPort,
     Node,
+    Obstacle,
     Param,
     ParamRange,
     Part,
     PartValue,
     Port,
     Role,
+    Sight,
+    Targets,
     Transition,
     Variable,
     Word,
+    Zone,
 )
 from swarmdsl.syntax.formatter.lines import WIDTH, Line
 from swarmdsl.syntax.formatter.tokens import Token
@@ -38,28 +44,34 @@ _WIDEST_CELL = 40
 _NAME = "name"
 _COLUMNS: dict[type[Node], tuple[str, ...]] = {
     AliasType: ("=",),
+    Area: (":",),
     Branch: ("->",),
     Communication: (_NAME, ":"),
     Connector: ("->",),
     Constant: (":", "="),
     CountRange: ("in",),
     EnumValue: ("=",),
+    Equipment: ("{",),
     Event: (_NAME, ":"),
     Field: (":",),
     FitnessInput: (":", "="),
     Function: (":", "{"),
     FunctionPort: (_NAME, ":"),
+    Obstacle: (":",),
     Param: (":", "="),
     ParamRange: ("in",),
     Part: (":",),
     PartValue: ("=",),
     Port: (_NAME, ":"),
     Role: (":",),
+    Sight: ("{",),
+    Targets: ("at",),
     Transition: ("->",),
     Variable: (":", "="),
+    Zone: (":",),
 }
 _SECTION: tuple[str, ...] = ("{",)
-_SAME_GROUP: dict[type[Node], type[Node]] = {ParamRange: CountRange}
+_SAME_GROUP: dict[type[Node], type[Node]] = {ParamRange: CountRange, Zone: Area, Obstacle: Area}
 
 
 def set_cells(line: Line, node: Node | None, tokens: Sequence[Token], starts: list[int]) -> None:

@@ -18,6 +18,7 @@ from swarmdsl.syntax.ast import (
     Measure,
     MessageType,
     Model,
+    ModelUse,
     Multiplicity,
     Node,
     Operation,
@@ -28,6 +29,7 @@ from swarmdsl.syntax.ast import (
     Send,
     ServiceType,
     State,
+    Targets,
     Transition,
     TypeRef,
     Value,
@@ -75,6 +77,12 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                 upper = f"..{node.upper}" if node.upper else ""
                 _join(marks, tokens, opener.start, f"[{node.lower}{upper}]")
                 marks.tight.add(opener.start)
+            case Targets(count=str(count)) if count:
+                opener = tokens.code(node.name.span.end)[0]
+                _join(marks, tokens, opener.start, f"[{count}]")
+                marks.tight.add(opener.start)
+            case ModelUse():
+                _mark_list(marks, tokens, node.name.span.start, node.name)
             case RobotValues():
                 _join(marks, tokens, start, f"{node.role.name}[{node.index}]")
             case OperatorUse(operands=(_,)) if node.operator == "-":

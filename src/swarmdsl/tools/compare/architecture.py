@@ -6,8 +6,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TypeVar
 
 from swarmdsl.analysis.resolve.properties import matches
+from swarmdsl.codegen.swarm_printer.architecture import equipment
 from swarmdsl.codegen.swarm_printer.composition import heartbeat
 from swarmdsl.codegen.swarm_printer.delivery import delivery_settings
+from swarmdsl.codegen.swarm_printer.space import model, start
 from swarmdsl.ir import (
     Action,
     Component,
@@ -50,6 +52,7 @@ from swarmdsl.tools.compare.elements import (
     with_doc,
     with_names,
 )
+from swarmdsl.tools.compare.space import sight_elements, space_elements
 
 T = TypeVar("T")
 
@@ -132,12 +135,13 @@ def _event(event: Event) -> Element:
 
 
 def _function(function: Function) -> Element:
-    call = function.communication
+    call, use = function.communication, function.model
     values = properties(
         category=function.category,
         paradigm=call.paradigm,
         server=call.name,
         type=type_value(call.type),
+        model=model(use) if use is not None else "",
     )
     ports = (
         with_doc(
@@ -153,8 +157,10 @@ def _function(function: Function) -> Element:
     )
     children = (*ports, *param_elements(function.params))
     ref = Ref("function", function.name)
-    element = Element("function", (function.name,), values, children, ref, function.origin)
-    return with_doc(element, function.doc, (("call", call.doc),))
+    places = (("model", use.origin),) if use is not None else ()
+    element = Element("function", (function.name,), values, children, ref, function.origin, places)
+    docs = (("call", call.doc), ("model", use.doc if use is not None else ""))
+    return with_doc(element, function.doc, docs)
 
 
 def _ports(ports: Iterable[Port]) -> Iterator[Element]:
@@ -183,6 +189,7 @@ def _components(system: System) -> Iterator[Element]:
         children = (
             *_ports(_own(each.ports, base.ports if base else ())),
             *param_elements(_own(each.params, base.params if base else ())),
+            *sight_elements(_own(each.sights, base.sights if base else ())),
         )
         ref = Ref("component", each.name)
         yield with_doc(
@@ -207,6 +214,7 @@ def _members(system: System) -> Iterator[Element]:
             if base is None or each.behavior != base.behavior
             else (),
             communication=_communication(each, base),
+            **{kind: _equipment(each, base, kind) for kind in ("body", "battery", "radio")},
         )
         children = (
             *_ports(_own(each.ports, base.ports if base else ())),
@@ -243,6 +251,12 @@ def _communication(member: Member, base: Member | None) -> Value:
     return (settings.technology, *((" ", *values) if values else ()))
 
 
+def _equipment(member: Member, base: Member | None, kind: str) -> Value:
+    values, _ = equipment(member, kind)
+    inherited = base is not None and values == equipment(base, kind)[0]
+    return () if inherited else argument_values(values)
+
+
 def _part(part: Part) -> Element:
     values = properties(
         component=_named(part.component, "component"), values=argument_values(part.values)
@@ -255,7 +269,8 @@ def _others(system: System) -> Iterator[Element]:
         size = " x ".join(f"{length:g}" for length in world.size or ())
         values = properties(world=world.world, size=f"{size} m" if size else "")
         ref = Ref("environment", world.name)
-        element = Element("environment", (world.name,), values, (), ref, world.origin)
+        children = tuple(space_elements(world))
+        element = Element("environment", (world.name,), values, children, ref, world.origin)
         yield with_doc(element, world.doc, world.docs)
     for fitness in system.fitness:
         values = ((fitness.goal, expression_value(fitness.value)),)
@@ -269,7 +284,7 @@ def _others(system: System) -> Iterator[Element]:
 
 def _robot(swarm: Swarm, role: Role, robot: RobotValues) -> Element:
     name = (Ref(role_kind(swarm.name), role.name), f"[{robot.index}]")
-    values = properties(values=argument_values(robot.values))
+    values = properties(start=start(robot.start).strip(), values=argument_values(robot.values))
     return with_doc(Element(ROBOT_KIND, name, values, origin=robot.origin), robot.doc, robot.docs)
 
 
@@ -282,6 +297,7 @@ def _swarm(swarm: Swarm) -> Element:
                 properties(
                     member=_named(role.member, "member"),
                     number=str(role.multiplicity),
+                    start=start(role.start).strip(),
                     values=argument_values(role.values),
                 ),
                 ref=Ref(role_kind(swarm.name), role.name),

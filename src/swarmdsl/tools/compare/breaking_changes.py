@@ -28,6 +28,8 @@ _REMOVAL_RULES = {
     "param": "PARAM_REMOVED",
     "port": "PORT_REMOVED",
     "role": "ROLE_REMOVED",
+    "area": "AREA_REMOVED",
+    "target": "TARGET_REMOVED",
     **dict.fromkeys(("component", "member", "statemachine", "swarm"), "DECLARATION_REMOVED"),
 }
 _PROPERTY_RULES = {

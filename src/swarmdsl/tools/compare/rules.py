@@ -32,6 +32,8 @@ RULES = {
     "ROLE_REMOVED": "a role of a swarm was removed or renamed",
     "ROLE_MEMBER": "a role of a swarm changed its member",
     "ROLE_NUMBER": "the multiplicity of a role was narrowed",
+    "AREA_REMOVED": "an area of an environment was removed or renamed",
+    "TARGET_REMOVED": "targets of a kind were removed from an environment, or renamed",
     "OUTCOME_LOST": "a final state of a state machine was removed or renamed",
     "DECLARATION_REMOVED": "a component, member, state machine or swarm was removed or renamed",
 }

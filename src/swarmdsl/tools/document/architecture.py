@@ -40,6 +40,7 @@ from swarmdsl.tools.document.elements import Element
 from swarmdsl.tools.document.entry_builder import EntryBuilder, link, links
 from swarmdsl.tools.document.names import doc_of
 from swarmdsl.tools.document.page import Cell, Code, Entry, Prose, Row, Table
+from swarmdsl.tools.document.space import equipment_table, geometry_tables, sights_table, weather
 
 
 def swarm(element: Element, builder: EntryBuilder) -> Entry:
@@ -56,7 +57,8 @@ def swarm(element: Element, builder: EntryBuilder) -> Entry:
         if isinstance(role, Role) and inner is not None:
             many = role.multiplicity
             count = _count(many.lower, many.upper) if many is not None else "one"
-            values = [builder.code(value, inner) for value in role.values]
+            values = [builder.code(role.start, inner)] if role.start is not None else []
+            values += [builder.code(value, inner) for value in role.values]
             values += [_robot(robot, element, builder) for robot in own.get(str(role.name), ())]
             cells = (_target(builder, role.member.target), (count,), _joined(values))
             roles.append(builder.row(inner, cells))
@@ -92,6 +94,7 @@ def member(element: Element, builder: EntryBuilder) -> Entry:
         _connectors(element, node, builder),
         _ports(element, node, builder),
         builder.params(element, all_items(node, Param)),
+        equipment_table(element, node, builder),
     )
     facts = [
         *_heritage(element, node, builder),
@@ -111,7 +114,11 @@ def component(element: Element, builder: EntryBuilder) -> Entry:
         ("inherits", links([each for each in inherited if each and each.kind == "operation"])),
         ("used by", builder.used_by(element)),
     ]
-    blocks = (_ports(element, node, builder), builder.params(element, all_items(node, Param)))
+    blocks = (
+        _ports(element, node, builder),
+        builder.params(element, all_items(node, Param)),
+        sights_table(element, node, builder),
+    )
     operations = [
         _operation(each, builder) for each in element.children if each.kind == "operation"
     ]
@@ -134,7 +141,7 @@ def _operation(element: Element, builder: EntryBuilder) -> Entry:
 
 
 def environment(element: Element, builder: EntryBuilder) -> Entry:
-    """Entry of an environment: its world and size."""
+    """Entry of an environment: its world, size and geometry."""
     assert isinstance(element.node, Environment)
     facts: list[tuple[str, Cell]] = []
     for item in element.node.items:
@@ -144,7 +151,10 @@ def environment(element: Element, builder: EntryBuilder) -> Entry:
         elif isinstance(item, Size):
             lengths = filter(None, (item.width, item.depth, item.height))
             facts.append(("size", (" x ".join(lengths), *doc)))
-    return builder.entry(element, [*facts, ("used by", builder.used_by(element))])
+    facts += weather(element, builder)
+    used = ("used by", builder.used_by(element))
+    blocks = (builder.figures.get(element), *geometry_tables(element, builder))
+    return builder.entry(element, [*facts, used], blocks)
 
 
 def fitness(element: Element, builder: EntryBuilder) -> Entry:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.analysis.event_topics import topic_of
 from swarmdsl.analysis.types.enum_values import numbers, underlying
 from swarmdsl.base.naming import incoming_topic
+from swarmdsl.ir.function_models import MODELS
 from swarmdsl.syntax.ast import (
     ActionType,
     Activity,
@@ -20,12 +21,14 @@ from swarmdsl.syntax.ast import (
     FunctionPort,
     Interface,
     MessageType,
+    ModelUse,
     OutcomeTrigger,
     Param,
     ServiceType,
     State,
     StructType,
     Transition,
+    nodes_of,
 )
 from swarmdsl.tools.document.elements import Element
 from swarmdsl.tools.document.entry_builder import EntryBuilder, link, links
@@ -61,6 +64,7 @@ def function(element: Element, builder: EntryBuilder) -> Entry:
             (Code(((str(call.name), None),)), *((" ", Prose(call.doc)) if call.doc else ())),
         ),
         ("interface", builder.type(call.type, element)),
+        *_model(element, node, builder),
     ]
     blocks = (
         *(_parts(interface, builder, linked=True) if interface is not None else ()),
@@ -69,6 +73,14 @@ def function(element: Element, builder: EntryBuilder) -> Entry:
         _calls(element, builder),
     )
     return builder.entry(element, facts, blocks)
+
+
+def _model(element: Element, node: Function, builder: EntryBuilder) -> Iterator[tuple[str, Cell]]:
+    for use in nodes_of(node, ModelUse):
+        known = MODELS.get(str(use.name))
+        meaning = f" {known.doc}" if known is not None else ""
+        doc = (" ", Prose(use.doc)) if use.doc else ()
+        yield "in space", (*builder.code(use, element), meaning, *doc)
 
 
 def functions_table(builder: EntryBuilder) -> Table:

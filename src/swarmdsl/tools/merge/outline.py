@@ -16,6 +16,7 @@ from swarmdsl.syntax.ast import (
     Documented,
     Entry,
     EnvironmentUse,
+    Equipment,
     Exit,
     FitnessUse,
     Heartbeat,
@@ -24,8 +25,11 @@ from swarmdsl.syntax.ast import (
     ImportRos,
     Initial,
     Model,
+    ModelUse,
     Node,
     Package,
+    RobotValues,
+    Sight,
     Transition,
     children,
 )
@@ -120,6 +124,14 @@ def _key(node: Documented) -> Key:
             return (kind,)
         case EnvironmentUse() | FitnessUse() | Heartbeat():
             return (kind,)
+        case Equipment(kind=equipment):
+            return kind, equipment
+        case Sight(target=target):
+            return kind, target.name
+        case ModelUse():
+            return (kind,)
+        case RobotValues(role=role, index=index):
+            return kind, role.name, index
         case Transition(triggers=triggers):
             return kind, *(_normalized(each) for each in triggers)
         case Branch(guard=guard):

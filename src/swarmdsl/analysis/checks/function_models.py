@@ -1,0 +1,87 @@
+"""Checks of the models that functions have in space."""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.resolve.report_unresolved import report_missing
+from swarmdsl.analysis.resolve.space import areas_of, targets_of
+from swarmdsl.analysis.types.space_types import argument_type
+from swarmdsl.base.suggest import suggest
+from swarmdsl.ir.function_models import MODELS, Argument
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import Environment, Expression, Function, ModelUse, nodes_of
+from swarmdsl.syntax.types import Named
+
+
+def check_model(function: Function, context: Context) -> None:
+    """Check that a function has one model, and that the model exists and has the arguments."""
+    uses = nodes_of(function, ModelUse)
+    context.check_single([use.span for use in uses], "the model")
+    for use in uses:
+        context.check_repeated((argument.name for argument in use.arguments), "argument")
+        model = MODELS.get(str(use.name))
+        if model is None:
+            context.report.report(
+                "unknown-model",
+                use.name.span,
+                name=use.name,
+                help=suggest(use.name, MODELS, "models"),
+            )
+            continue
+        for given in use.arguments:
+            argument = model.argument(str(given.name))
+            if argument is not None:
+                _check_value(given.value, argument, context)
+                continue
+            names = [each.name for each in model.arguments]
+            context.report.report(
+                "unknown-argument",
+                given.name.span,
+                model=model.name,
+                name=given.name,
+                help=suggest(given.name, names, "arguments") if names else "it has none",
+            )
+
+
+def _check_value(value: Expression, argument: Argument, context: Context) -> None:
+    expected = argument_type(argument.kind)
+    if expected is not None:
+        context.expect(value, expected, context.typing)
+        return
+    found = context.typing.infer(value.tree) if value.tree is not None else None
+    if found is not None and not isinstance(found, Named):
+        context.report.report(
+            "type-mismatch",
+            value.span,
+            expected="a message with a position",
+            found=f"`{found}`",
+        )
+
+
+def check_model_names(project: Project, context: Context) -> None:
+    """Check the names of areas and targets that are given to models as strings.
+
+    A model without areas or targets is a part of others: they have the environment.
+    """
+    areas = {
+        name
+        for _, node in project.declarations()
+        if isinstance(node, Environment)
+        for name in areas_of(node)
+    }
+    known = {"area": ("area", areas), "target": ("target", set(targets_of(project)))}
+    for _, node in project.declarations():
+        for use in nodes_of(node, ModelUse) if isinstance(node, Function) else ():
+            model = MODELS.get(str(use.name))
+            for given in use.arguments if model is not None else ():
+                argument = model.argument(str(given.name)) if model is not None else None
+                kind: str = argument.kind if argument is not None else ""
+                kind = "target" if given.name == "target" and kind == "text" else kind
+                if kind in known:
+                    _check_name(given.value, *known[kind], context)
+
+
+def _check_name(value: Expression, kind: str, known: set[str], context: Context) -> None:
+    name = context.typing.folding.value(value.tree) if value.tree is not None else None
+    if known and isinstance(name, str) and name and name not in known:
+        report_missing(kind, name, value.span, known, context.report)
