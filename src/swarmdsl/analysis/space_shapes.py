@@ -8,7 +8,6 @@ from typing import NamedTuple
 from swarmdsl.analysis.types.constant_folding import Folding
 from swarmdsl.syntax.ast import (
     Area,
-    Box,
     Environment,
     Expression,
     Height,
@@ -81,19 +80,26 @@ def place_of(point: Point, folding: Folding) -> Place | None:
     return (x, y) if x is not None and y is not None else None
 
 
-def rectangle_of(box: Box, folding: Folding) -> Rectangle | None:
-    """Return the rectangle between the corners of a box as they are given."""
-    low, high = place_of(box.low, folding), place_of(box.high, folding)
-    return Rectangle(*low, *high) if low is not None and high is not None else None
+def rectangle_of(low: Point, high: Point, folding: Folding) -> Rectangle | None:
+    """Return the rectangle between two corners as they are given."""
+    first, second = place_of(low, folding), place_of(high, folding)
+    return Rectangle(*first, *second) if first is not None and second is not None else None
+
+
+def corners_of(item: Area | Zone | Obstacle) -> tuple[Point, Point | None]:
+    """Return the corners of an item, or the centre of a round one."""
+    if isinstance(item, Obstacle):
+        return item.corner, item.opposite
+    return item.box.low, item.box.high
 
 
 def shape_of(item: Area | Zone | Obstacle, folding: Folding) -> Shape | None:
     """Return the shape of an item on the ground."""
-    if item.box is not None:
-        return rectangle_of(item.box, folding)
-    if not isinstance(item, Obstacle) or item.centre is None:
-        return None
-    centre, radius = place_of(item.centre, folding), number_of(item.radius, folding)
+    low, high = corners_of(item)
+    if high is not None:
+        return rectangle_of(low, high, folding)
+    centre = place_of(low, folding)
+    radius = number_of(item.radius, folding) if isinstance(item, Obstacle) else None
     return Circle(*centre, radius) if centre is not None and radius is not None else None
 
 

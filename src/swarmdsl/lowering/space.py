@@ -15,7 +15,6 @@ from swarmdsl.lowering.docs import lower_docs
 from swarmdsl.lowering.expressions import lower_expression
 from swarmdsl.syntax.ast import (
     Area,
-    Box,
     Component,
     Environment,
     Equipment,
@@ -46,10 +45,10 @@ def lower_geometry(environment: Environment, context: Context) -> ir.Environment
     for item in environment.items:
         match item:
             case Area():
-                box = space.box(item.box, item.height)
+                box = space.box(item.box.low, item.box.high, item.height)
                 areas.append(ir.Area(str(item.name), box, item.doc, item.name.span))
             case Zone():
-                box = space.box(item.box, item.height)
+                box = space.box(item.box.low, item.box.high, item.height)
                 zones.append(ir.Zone(str(item.name), box, item.doc, item.name.span))
             case Wall():
                 points = tuple(map(space.point, item.points))
@@ -94,11 +93,11 @@ class _Space:
     def point(self, given: Point) -> ir.Point:
         return ir.Point(self.number(given.x), self.number(given.y))
 
-    def box(self, given: Box, height: Height | None) -> ir.Box:
+    def box(self, low: Point, high: Point, height: Height | None) -> ir.Box:
         lowest = 0.0
         if height is not None and height.upper is not None:
             lowest = self.number(height.lower)
-        return ir.Box(self.point(given.low), self.point(given.high), lowest, self.top(height))
+        return ir.Box(self.point(low), self.point(high), lowest, self.top(height))
 
     def top(self, height: Height | None) -> float | None:
         if height is None:
@@ -106,11 +105,10 @@ class _Space:
         return self.number(height.lower if height.upper is None else height.upper)
 
     def shape(self, item: Obstacle) -> ir.Box | ir.Disc:
-        if item.box is not None:
-            return self.box(item.box, item.height)
-        assert item.centre is not None
+        if item.opposite is not None:
+            return self.box(item.corner, item.opposite, item.height)
         assert item.radius is not None
-        return ir.Disc(self.point(item.centre), self.number(item.radius), self.top(item.height))
+        return ir.Disc(self.point(item.corner), self.number(item.radius), self.top(item.height))
 
     def targets(self, item: Targets) -> ir.Targets:
         places = tuple(map(self.point, item.places))

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.space_shapes import (
     Circle,
+    Rectangle,
+    corners_of,
     heights_of,
     number_of,
     place_of,
@@ -58,19 +60,20 @@ def what_is(item: Area | Zone | Obstacle) -> str:
 
 
 def _check_shape(item: Area | Zone | Obstacle, context: Context) -> None:
-    shape = shape_of(item, context.typing.folding)
+    shape, what = shape_of(item, context.typing.folding), what_is(item)
+    low, high = corners_of(item)
     if isinstance(item, Obstacle) and item.radius is not None:
         context.check_constant(item.radius, LENGTH)
-    if isinstance(shape, Circle):
-        if shape.radius <= 0 and isinstance(item, Obstacle) and item.radius is not None:
-            _report(what_is(item), "has no room", item.radius.span, context, "give it a radius")
-    elif shape is not None and item.box is not None:
+        if isinstance(shape, Circle) and shape.radius <= 0:
+            _report(what, "has no room", item.radius.span, context, "give it a radius")
+    if isinstance(shape, Rectangle) and high is not None:
+        at = Span(low.span.source, low.span.start, high.span.end)
         if shape.right < shape.left or shape.top < shape.bottom:
             order = "write the lower left corner first, then the upper right one"
-            _report(what_is(item), "ends before it begins", item.box.span, context, order)
+            _report(what, "ends before it begins", at, context, order)
         elif shape.right == shape.left or shape.top == shape.bottom:
             help_ = "a thin obstacle is a `wall`" if isinstance(item, Obstacle) else None
-            _report(what_is(item), "has no room", item.box.span, context, help_)
+            _report(what, "has no room", at, context, help_)
     _check_height(item.height, what_is(item), context)
 
 
@@ -163,10 +166,7 @@ def _outside(item: object, size: Sequence[float], context: Context) -> Iterator[
     match item:
         case Area() | Zone() | Obstacle():
             what, height = what_is(item), item.height
-            if item.box is not None:
-                points = [item.box.low, item.box.high]
-            else:
-                points = [item.centre] if isinstance(item, Obstacle) and item.centre else []
+            points = [point for point in corners_of(item) if point is not None]
         case Wall():
             what, height, points = "this wall", item.height, item.points
         case Targets():

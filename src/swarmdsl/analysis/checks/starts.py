@@ -18,7 +18,6 @@ from swarmdsl.analysis.space_shapes import (
     heights_of,
     number_of,
     place_of,
-    rectangle_of,
     shape_of,
     size_of,
 )
@@ -78,8 +77,8 @@ def check_starts(swarm: Swarm, context: Context) -> None:
             found = _at_point(item, radius, count, environment, context)
             points += [found] if found is not None else []
         elif item.start.area is not None and item.start.area.target is not None:
-            box = rectangle_of(item.start.area.target.box, context.typing.folding)
-            if box is not None:
+            box = shape_of(item.start.area.target, context.typing.folding)
+            if isinstance(box, Rectangle):
                 _check_area(item, box, radius, count, environment, context)
     _check_apart(points, context)
 

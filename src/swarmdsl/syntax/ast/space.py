@@ -61,11 +61,11 @@ class Wall(Documented):
 
 @dataclass(slots=True, eq=False)
 class Obstacle(Documented):
-    """`obstacle name : box`, or `obstacle name : (30 m, 30 m) radius 3 m`."""
+    """`obstacle name : (1 m, 2 m) .. (3 m, 4 m)`, or around one point, `radius 3 m`."""
 
     name: Word
-    box: Box | None
-    centre: Point | None
+    corner: Point
+    opposite: Point | None
     radius: Expression | None
     height: Height | None
 

@@ -149,7 +149,8 @@ def _textmate(text: str, keywords: Keywords) -> str:
             begins += rf"|\b{word}\s+{following[0]}\b"
         else:
             begins += rf"|\b{word}\s+(?:{'|'.join(following)})\b"
-    ends = keywords.first["ComponentItem"] - {"in", "out"}
+    # A contextual word can be a parameter.
+    ends = (keywords.first["ComponentItem"] & keywords.reserved) - {"in", "out"}
     grammar = json.loads(text)
     reserved = grammar["repository"]["reserved"]["match"]
     for old in sorted({*_strings(grammar)}, key=len, reverse=True):
