@@ -450,3 +450,32 @@ def test_a_role_in_comparisons_of_two_swarms(swarmc, yard) -> None:
     assert ran.code == 1
     assert "it is also a role of another swarm that runs `Watching`" in ran.err
     assert (yard / "yard.swarm").read_text() == model
+
+
+def test_targets_of_one_kind_have_one_name_and_areas_their_own(swarmc, folder: Path) -> None:
+    (folder / "fields.swarm").write_text(
+        """environment Field {
+  area meadow : (0 m, 0 m) .. (5 m, 5 m)
+  target person at random in meadow
+}
+environment Town {
+  area meadow : (0 m, 0 m) .. (5 m, 5 m)
+  target person at (1 m, 1 m)
+}
+sensor Eye { senses person { range = 5 m } }
+member Car { eye : Eye }
+swarm S {
+  environment Field
+  car : Car in meadow
+}
+""",
+        encoding="utf-8",
+    )
+    assert swarmc("rename", "Field.person", "walker", folder).code == 0
+    assert swarmc("rename", "Field.meadow", "pasture", folder).code == 0
+
+    text = (folder / "fields.swarm").read_text(encoding="utf-8")
+    assert (text.count("walker"), text.count("person")) == (3, 0)
+    assert "target walker at random in pasture" in text
+    assert "car : Car in pasture" in text
+    assert "area meadow" in text.partition("environment Town")[2]

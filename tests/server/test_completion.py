@@ -97,7 +97,52 @@ fitness F {
   """
 FOUND = HEAD + "message Seen { x : float64, mode : Mode }\nswarm event Found : Seen\n"
 DO = "do sweep(speed = 1.0, area = nothing)"
+SPACE = """\
+environment Field {
+  area meadow : (0 m, 0 m) .. (5 m, 5 m)
+  target person at random in meadow
+}
+environment Town { area square : (0 m, 0 m) .. (5 m, 5 m) }
+action Fly { goal { height : float64 in m } }
+"""
 PLACES = {
+    "area where a role starts": (
+        HEAD + SPACE + "member Car { } swarm S { environment Field car : Car in | }",
+        {"meadow"},
+        {"square", "person", "Field"},
+    ),
+    "area of targets": (
+        HEAD + SPACE + "environment Here { area yard : (0 m, 0 m) .. (5 m, 5 m)\n"
+        "target dog at random in | }",
+        {"yard"},
+        {"square", "meadow"},
+    ),
+    "target of a sensor": (
+        HEAD + SPACE + "sensor Eye { senses | { range = 5 m } }",
+        {"person"},
+        {"meadow"},
+    ),
+    "setting of a sensor": (
+        HEAD + SPACE + "sensor Eye { senses person { range = 5 m, | } }",
+        {"view", "miss"},
+        {"range", "mass"},
+    ),
+    "setting of a body": (HEAD + "member Car { body { | } }", {"mass", "speed"}, {"range"}),
+    "model of a function": (
+        HEAD + SPACE + "function fly : swarm { action \"fly\" : Fly\nmodel | }",
+        {"go_to", "coverage"},
+        {"height"},
+    ),
+    "argument of a model": (
+        HEAD + SPACE + "function fly : swarm { action \"fly\" : Fly\nmodel coverage(|) }",
+        {"height", "width"},
+        {"coverage"},
+    ),
+    "value of an argument of a model": (
+        HEAD + SPACE + "function fly : swarm { action \"fly\" : Fly\nmodel coverage(width = |) }",
+        {"height", "MOST"},
+        {"meadow"},
+    ),
     "param of a role": (
         HEAD + WORK + "member Car { param length : int32 } swarm S { car : Car { | } }",
         {"length"},

@@ -38,6 +38,7 @@ PLACES = {
     "optimization": FILE + "optimize W {\n",
     "swarm": FILE + "swarm W {\n",
     "fitness": FILE + "fitness F {\n",
+    "environment": FILE + "environment E {\n",
 }
 STOP = re.compile(r"\$(?:(\d+)|\{(\d+)(?::([^}]*)|\|([^}]*)\|)\})")
 

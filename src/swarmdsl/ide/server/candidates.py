@@ -19,6 +19,7 @@ from swarmdsl.analysis.resolve.properties import (
 )
 from swarmdsl.analysis.resolve.properties import roles_of as property_roles
 from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.space import areas_of, goal_fields, targets_of
 from swarmdsl.analysis.resolve.states import content, regions, vertices
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.fields import fields_of
@@ -27,12 +28,15 @@ from swarmdsl.syntax.ast import (
     NODES,
     Activity,
     Address,
+    Area,
     Component,
     Constant,
     Container,
     DeferredEvent,
     DoneTrigger,
     EnumType,
+    Environment,
+    EnvironmentUse,
     Event,
     EventTrigger,
     Fact,
@@ -40,6 +44,7 @@ from swarmdsl.syntax.ast import (
     FinalState,
     Fitness,
     FitnessInput,
+    Function,
     Measure,
     Member,
     NameUse,
@@ -59,6 +64,7 @@ from swarmdsl.syntax.ast import (
     State,
     StateMachine,
     Swarm,
+    Targets,
     TopLevel,
     Variable,
     nodes_of,
@@ -107,6 +113,8 @@ class Candidates:
                 if isinstance(self._around, StateMachine):
                     seen = {each for around in self._containers() for each in around.items}
                     own = [node for node in own if node in seen]
+                if isinstance(owner, Function):
+                    own += goal_fields(owner, self._scope.interfaces) or ()
                 roles = self._roles() if _is_address(use, owner) else []
                 yield [*roles, *own, *self._visible((Constant, EnumType))]
 
@@ -130,6 +138,8 @@ class Candidates:
             case Activity(owner=Component() | Part() | None as of), _:
                 return self._callables(path, of)
         kind = NODES.get(ref.kind)
+        if kind is Area or kind is Targets:
+            return self._in_space(kind)
         if ref.kind == "Vertex" and isinstance(around, StateMachine):
             if path != [""]:
                 named: list[State | Parallel] = [
@@ -161,6 +171,18 @@ class Candidates:
             for node in self._visible((kind,))
             if not package or self._scope.find(f"{package}.{node.name}")  # type: ignore[attr-defined]
         ]
+
+    def _in_space(self, kind: type[Node]) -> Iterable[Node]:
+        """Return the areas around the offset, or the targets of all environments."""
+        if kind is Targets:
+            return list(targets_of(self._workspace.project).values())
+        around = self._around
+        if isinstance(around, Swarm):
+            uses = [item for item in around.items if isinstance(item, EnvironmentUse)]
+            found = self._scope.one(uses[0].environment.name, Environment) if uses else None
+        else:
+            found = around if isinstance(around, Environment) else None
+        return list(areas_of(found).values()) if found is not None else ()
 
     def _in_sentence(
         self, holder: Node, ref: Ref[Node], owner: Property | Fitness, path: list[str]

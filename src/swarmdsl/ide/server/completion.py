@@ -19,6 +19,7 @@ from swarmdsl.ide.server.candidates import Candidates
 from swarmdsl.ide.server.fields import facts_of, fields_of, is_placeholder_name, slots
 from swarmdsl.ide.server.identity import is_own, own_fields
 from swarmdsl.ide.server.outcomes import unhandled_outcomes
+from swarmdsl.ide.server.space_words import words_at
 from swarmdsl.ide.server.speculative_parse import (
     ARGUMENT,
     COMMENT_OR_STRING,
@@ -32,6 +33,7 @@ from swarmdsl.ide.server.type_names import type_names
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     Assignment,
+    Component,
     FieldUse,
     Member,
     NameUse,
@@ -162,7 +164,8 @@ class _NameCompletion:
         """Yield the names that fit."""
         # In parentheses, or in the braces of a part.
         inside = closing_brackets(self._around[0]).split("\n")
-        given = inside[0] == ")" or (isinstance(self._owner, Member) and len(inside) > 1)
+        blocks = isinstance(self._owner, (Component, Member)) and len(inside) > 1
+        given = inside[0] == ")" or blocks
         words = (*NAME, *ARGUMENT) if given else NAME
         for owner in parse_with_placeholder(
             self._workspace, self._file, self._around, self._owner, words
@@ -174,6 +177,9 @@ class _NameCompletion:
 
     def _matching(self, owner: TopLevel) -> Iterable[Completion] | None:
         """Return the completions of the placeholder; None if it names no existing element."""
+        words = words_at(owner)
+        if words is not None:
+            return [Completion(word, detail, None, text) for word, detail, text in words]
         if is_placeholder_name(owner):
             given = slots(owner, self._workspace.project)
             left = given.unassigned if given is not None else []

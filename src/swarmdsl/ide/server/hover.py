@@ -11,6 +11,7 @@ from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import occurrence_at, owner_at
 from swarmdsl.ide.server.identity import described_at
+from swarmdsl.ide.server.space_words import described_word
 from swarmdsl.ide.server.speculative_parse import declaration_at
 from swarmdsl.ide.server.support import support
 from swarmdsl.project.loader import File
@@ -45,6 +46,8 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
     if found is None:
         owner = owner_at(file, offset)
         own = described_at(owner, offset, workspace.project) if owner is not None else None
+        if own is None and owner is not None:
+            own = described_word(owner, offset)
         return own or _built_in(file, offset)
     targets = "\n".join(f"- {line}" for line in support(found.node, workspace.settings))
     text = described(found.node)

@@ -30,6 +30,10 @@ SYMBOL_KINDS: dict[type[Node], lsp.SymbolKind] = {
     ast.Region: lsp.SymbolKind.Namespace,
     ast.Swarm: lsp.SymbolKind.Package,
     ast.Role: lsp.SymbolKind.Field,
+    ast.Area: lsp.SymbolKind.Field,
+    ast.Zone: lsp.SymbolKind.Field,
+    ast.Obstacle: lsp.SymbolKind.Field,
+    ast.Targets: lsp.SymbolKind.Field,
     ast.Fitness: lsp.SymbolKind.Function,
     ast.Property: lsp.SymbolKind.Boolean,
 }
@@ -56,4 +60,6 @@ COMPLETION_KINDS: dict[type[Node], lsp.CompletionItemKind] = {
     ast.State: lsp.CompletionItemKind.Reference,
     ast.Parallel: lsp.CompletionItemKind.Reference,
     ast.Role: lsp.CompletionItemKind.Field,
+    ast.Area: lsp.CompletionItemKind.Field,
+    ast.Targets: lsp.CompletionItemKind.Field,
 }
