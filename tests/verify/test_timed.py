@@ -149,6 +149,28 @@ endless statemachine N {{
     assert _outcome(modelled, text, scenario=Scenario(latency=latency), exact=True) == exact
 
 
+def test_events_do_not_arrive_before_their_latency(modelled: Modelled) -> None:
+    text = f"""endless statemachine M {{
+  initial S0
+  state S0 {{ after 1 s / send Ask -> S1 }}
+  state S1 {{ on Go -> S1 }}
+}}
+endless statemachine N {{
+  initial S0
+  state S0 {{
+    on Ask -> Heard
+    after 1100 ms -> Missed
+  }}
+  state Heard {{ on Go -> Heard }}
+  state Missed {{ on Go -> Missed }}
+}}
+{_TWO}property P of S : never b in Heard"""
+
+    for milliseconds, expected in ((100, "fails"), (200, "holds")):
+        scenario = Scenario(latency=Fixed(milliseconds * MILLISECOND))
+        assert _outcome(modelled, text, scenario=scenario, exact=True) == expected
+
+
 def test_a_race_is_decided_by_times(modelled: Modelled) -> None:
     text = f"""endless statemachine M {{
   initial S0

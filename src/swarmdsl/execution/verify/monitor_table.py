@@ -99,7 +99,6 @@ class MonitorTable:
         grown = True
         while grown:
             more = {s for (s, _), target in self._steps.items() if target in dangerous}
-            more |= {s for s, target in self._late.items() if target in dangerous}
             grown = not more <= dangerous
             dangerous |= more
         self._settled = set(range(number)) - dangerous
