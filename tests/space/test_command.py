@@ -304,3 +304,22 @@ arguments = { width = 20 }
     code = run(["test", "demo.swarmtest.toml"])
     said = capsys.readouterr()
     assert code == 0, said.out + said.err
+
+
+def test_the_summary_tells_how_far_robots_went(simulate: Simulate) -> None:
+    scenario = '[functions.walk]\nmodel = "random_walk"\narguments = { time = "20 s" }\n'
+    code, _, err = simulate("--trace", "none", scenario=scenario)
+    assert code == 0
+    lines = err.splitlines()
+    (head,) = (
+        n
+        for n, line in enumerate(lines)
+        if line.split() == ["member", "distance", "covered", "first"]
+    )
+    rows = [line.split() for line in lines[head + 1 : head + 4]]
+    assert [row[0] for row in rows] == ["rover[0]", "rover[1]", "together"]
+    distances = [float(row[1]) for row in rows]
+    assert distances[:2] == [20, 20]
+    assert distances[2] == 40
+    shares = [float(row[3]) for row in rows]
+    assert 0 < shares[0] + shares[1] == pytest.approx(shares[2], abs=0.11)

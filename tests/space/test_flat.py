@@ -148,15 +148,16 @@ def test_runs_together_are_as_alone(tmp_path: Path, size: int) -> None:
         hear = [lambda line, seed=seed: lines[seed].append(json.loads(as_json(line)))]
         world = World(system, cast, Scenario(), seed, hear, None, space)
         # They end at different times, and so are not always all due.
-        steps.append(run_by_steps(world, [], (40 - seed) * SECOND))
+        steps.append((space, run_by_steps(world, [], (40 - seed) * SECOND)))
     while steps:
         still = []
-        for each in steps:
+        for space, each in steps:
             try:
-                next(each)
-                still.append(each)
+                if not space.due:
+                    next(each)
+                still.append((space, each))
             except StopIteration:
-                pass
+                space.due = False
         steps = still
         if steps:
             ensemble.advance()

@@ -88,6 +88,9 @@ class Runner:
             while going:
                 still = []
                 for each, steps in going:
+                    if each.world.space.due:
+                        still.append((each, steps))
+                        continue
                     try:
                         each.world.space.check()
                         next(steps)

@@ -11,6 +11,7 @@ from typing import Literal
 from swarmdsl.base import interrupts
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.simulate.inputs import Input
+from swarmdsl.execution.simulate.space import ABSTRACT
 from swarmdsl.execution.simulate.world import World
 
 DEFAULT_UNTIL = 10 * 60 * SECOND
@@ -115,11 +116,14 @@ def _arrival(world: World, each: Input) -> Callable[[], None]:
 
 def _let_happen(world: World, until: int, pace: Pace | None) -> Iterator[None]:
     """Execute everything that is due until then; yield when its space must move on."""
+    space = world.space
+    if space is not ABSTRACT:
+        space.limit = until if pace is None else -1
     while not world.over and (due := world.clock.next) is not None and due <= until:
         if pace is not None:
             pace.wait(due)
         world.step()
-        if world.space.due:
+        if space.due:
             yield
 
 

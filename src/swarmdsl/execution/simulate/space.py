@@ -60,6 +60,8 @@ class Space:
     """True if distances decide what reaches whom."""
     due = False
     """True if time must not pass before this space has moved on; a driver of many lets it."""
+    limit = -1
+    """Time until which this space may move on by itself while nothing else can happen."""
 
     def begin(self, world: Surroundings, ended: Ended) -> None:
         """Begin with a world; `ended` is called when the space ends the run of a function."""

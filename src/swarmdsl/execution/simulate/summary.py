@@ -55,6 +55,8 @@ class Summary:
         yield from format_table(("state", "time", "entered"), self._states())
         yield from format_table(("function", "called", *_OUTCOMES, "unfinished"), self._functions())
         yield from format_table(("event", "sent", *_counts(world)), self._events())
+        head, *moved = world.space.rows() or ((),)
+        yield from format_table(head, moved[:_MOST])
         yield from format_table(
             ("ignored event", "in state", "times"), self._ignored_events(), left=2
         )

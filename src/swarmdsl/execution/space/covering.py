@@ -40,6 +40,11 @@ class Covering:
         self._noted_y = np.full(stage.rows, math.inf)
         self._side = 0.0
 
+    @property
+    def is_noted(self) -> bool:
+        """True if something has been noted."""
+        return bool(self._side)
+
     def _begin(self) -> None:
         """Make the map, when it is first needed."""
         stage = self._stage

@@ -41,6 +41,8 @@ class Ensemble:
         self.messages = Messages(setting.system)
         self.functions: dict[_Key, Running] = {}
         self.together = together
+        self._links: Whole | None = None
+        """Who reached whom after the step before."""
         self.spaces = [FlatSpace(self, run) for run in range(len(seeds))]
 
     def running(self, use: Use) -> Running:
@@ -53,12 +55,22 @@ class Ensemble:
         return self.functions[key]
 
     def advance(self) -> None:
-        """Move on all spaces that are due, and let their worlds know what happens."""
+        """Move on all spaces that are due, and let their worlds know what happens.
+
+        Go on while nothing else can happen in any of them.
+        """
         due = [space for space in self.spaces if space.due]
+        while due:
+            self._step(due)
+            if not all(space.due for space in due):
+                return
+
+    def _step(self, due: Sequence[FlatSpace]) -> None:
+        """Do one step of some spaces, which stay due if they must do nothing but the next one."""
         stage = self.stage
-        for space in due:
-            stage.ticks[space.number] = space.step_number
-        part = stage.rows_of([space.number for space in due])
+        numbers = [space.number for space in due]
+        stage.ticks[numbers] = [space.step_number for space in due]
+        part = stage.rows_of(numbers)
         ended: list[tuple[int, _Key, int]] = []
         functions = list(self.functions.items())
         for key, running in functions:
@@ -68,25 +80,35 @@ class Ensemble:
         for key, running in functions:
             ended += [(row, key, status) for row, status in running.contacts()]
         seen = stage.eyes.look(part) if stage.eyes.is_needed else []
-        links = self.links.within() if any(space.follows_links for space in due) else None
+        links = self._changed_links() if any(space.follows_links for space in due) else None
         first: dict[tuple[int, _Key], int] = {}
         for row, key, status in ended:
             first.setdefault((row, key), status)
-        happened = [_Happened([], [], []) for _ in self.spaces]
+        happened: dict[int, _Happened] = {}
         for row in empty.tolist():
-            happened[row // stage.robots].empty.append(row)
+            _in_run(happened, row // stage.robots).empty.append(row)
         for sighting in seen:
-            happened[sighting.row // stage.robots].seen.append(sighting)
+            _in_run(happened, sighting.row // stage.robots).seen.append(sighting)
         for (row, key), status in sorted(first.items()):
-            happened[row // stage.robots].ended.append((row, key, status))
+            _in_run(happened, row // stage.robots).ended.append((row, key, status))
         for space in due:
+            if space.number not in happened and links is None and space.goes_on():
+                continue
             space.due = False
             try:
-                space.react(happened[space.number], links)
+                space.react(happened.get(space.number, _NOTHING), links)
             except LoopError as error:
                 if not self.together:
                     raise
                 space.failure = error
+
+    def _changed_links(self) -> Whole | None:
+        """Return who reaches whom, or None if that is as after the step before."""
+        links = self.links.within()
+        if self._links is not None and np.array_equal(links, self._links):
+            return None
+        self._links = links
+        return links
 
 
 class _Happened(NamedTuple):
@@ -95,6 +117,16 @@ class _Happened(NamedTuple):
     empty: list[int]
     seen: list[Sighting]
     ended: list[tuple[int, _Key, int]]
+
+
+_NOTHING = _Happened([], [], [])
+
+
+def _in_run(happened: dict[int, _Happened], run: int) -> _Happened:
+    found = happened.get(run)
+    if found is None:
+        found = happened[run] = _Happened([], [], [])
+    return found
 
 
 class FlatSpace(Space):
@@ -215,7 +247,7 @@ class FlatSpace(Space):
     def neighbors(self, robot: Robot, distance: float) -> int:
         """Return the number of other robots within a distance, that are there."""
         stage, row = self._stage, self._row(robot)
-        here = slice(self._first, self._first + stage.robots)
+        here = self._here
         dx, dy = stage.x[here] - stage.x[row], stage.y[here] - stage.y[row]
         dz = stage.z[here] - stage.z[row]
         near = (dx * dx + dy * dy + dz * dz <= distance * distance) & stage.alive[here]
@@ -235,12 +267,52 @@ class FlatSpace(Space):
             return None
         if kind == "covered":
             return stage.covering.share(self.number, subject)
-        here = slice(self._first, self._first + stage.robots)
+        here = self._here
         of = stage.role[here] == stage.roles.index(subject)
         values = {"distance": stage.distance, "energy": stage.used}[kind]
         return math.fsum(values[here][of].tolist())
 
+    def rows(self) -> list[tuple[str, ...]]:
+        """Return the lines of the summary: distance, energy and coverage, where there are any."""
+        stage = self._stage
+        energy, covers = stage.consumption.is_needed, stage.covering.is_noted
+        head = ["member", "distance"]
+        head += ["energy used", "energy left"] if energy else []
+        head += ["covered first"] if covers else []
+        lines = [tuple(head)]
+        for robot in self._world.robots:
+            row = self._row(robot)
+            line = [robot.name or "", f"{stage.distance[row]:.1f} m"]
+            if energy:
+                capacity = stage.layout.units[row - self._first].battery
+                left = stage.energy[row] / capacity.capacity if capacity else math.nan
+                line += [f"{stage.used[row] / 3600:.2f} Wh"]
+                line += [f"{100 * left:.1f} %" if capacity else "-"]
+            if covers:
+                line += [f"{100 * stage.covering.first(row):.1f} %"]
+            lines.append(tuple(line))
+        if covers and len(lines) > 2:
+            line = ["together", f"{math.fsum(stage.distance[self._here].tolist()):.1f} m"]
+            if energy:
+                line += [f"{math.fsum(stage.used[self._here].tolist()) / 3600:.2f} Wh", ""]
+            lines.append((*line, f"{100 * stage.covering.share(self.number):.1f} %"))
+        return lines
+
     # ---- steps
+
+    def goes_on(self) -> bool:
+        """Go on to the time of the next step, if nothing else happens until then."""
+        clock, number = self._world.clock, self.step_number + 1
+        time = number * self._stage.step_length
+        if time > self.limit or not (self._always or self._of):
+            return False
+        if self._gauges.is_needed and self.step_number % self._gauges.every == 0:
+            return False
+        following = clock.next
+        if following is not None and following <= time:
+            return False
+        clock.now, self.step_number = time, number
+        return True
 
     def react(self, happened: _Happened, links: Whole | None) -> None:
         """Let the world know what has happened with a step."""
@@ -277,6 +349,11 @@ class FlatSpace(Space):
         self.due = True
         if not self._ensemble.together:
             self._ensemble.advance()
+
+    @property
+    def _here(self) -> slice:
+        """Rows of this run."""
+        return slice(self._first, self._first + self._stage.robots)
 
     def _row(self, robot: Robot) -> int:
         return self._first + self._places[robot.name]

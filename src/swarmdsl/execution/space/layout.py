@@ -28,11 +28,12 @@ class Body:
     mass: float = 1.0
     speed: float = 1.0
     climb: float = 0.0
+    turn: float = 2 * math.pi
 
 
 @dataclass(frozen=True)
 class Battery:
-    """Energy of a robot, and what it needs: of moving and hovering at most one at a time."""
+    """Energy of a robot, and what it needs: for moving, hovering or idling, and for sensing."""
 
     capacity: float
     moving: float = 0.0

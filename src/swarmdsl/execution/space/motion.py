@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swarmdsl.execution.space.arrays import Part
+from swarmdsl.execution.space.arrays import Flags, Floats, Part
 from swarmdsl.execution.space.robots import Robots
 
 _LEAST_SPEED = 1e-9
@@ -28,8 +28,7 @@ def move(stage: Robots, part: Part) -> None:
     share = np.minimum(speed / safe, 1.0)
     vx, vy = air_x * share, air_y * share
     stage.air_speed = np.minimum(length, speed)
-    stage.heading_x[part] = np.where(moving, air_x / safe, stage.heading_x[part])
-    stage.heading_y[part] = np.where(moving, air_y / safe, stage.heading_y[part])
+    _turn(stage, part, air_x / safe, air_y / safe, moving)
     if blowing:
         vx, vy = vx + wind_x, vy + wind_y
     x, y = stage.x[part], stage.y[part]
@@ -56,3 +55,20 @@ def move(stage: Robots, part: Part) -> None:
     stage.x[part], stage.y[part], stage.z[part] = next_x, next_y, next_z
     stage.distance[part] += np.sqrt(dx * dx + dy * dy + dz * dz)
     stage.touched[part] = touched
+
+
+def _turn(stage: Robots, part: Part, x: Floats, y: Floats, moving: Flags) -> None:
+    """Turn robots that move towards where they go, as far as they can in a step."""
+    old_x, old_y = stage.heading_x[part], stage.heading_y[part]
+    most_x = stage.turn_x[part]
+    ahead, aside = old_x * x + old_y * y, old_x * y - old_y * x
+    short = moving & (ahead < most_x)
+    if short.any():
+        most_y = stage.turn_y[part]
+        sine = np.where(aside >= 0, most_y, -most_y)
+        turned_x, turned_y = old_x * most_x - old_y * sine, old_y * most_x + old_x * sine
+        # Many small turns must not make the direction longer or shorter.
+        length = np.sqrt(turned_x * turned_x + turned_y * turned_y)
+        x, y = np.where(short, turned_x / length, x), np.where(short, turned_y / length, y)
+    stage.heading_x[part] = np.where(moving, x, old_x)
+    stage.heading_y[part] = np.where(moving, y, old_y)

@@ -19,6 +19,7 @@ from swarmdsl.execution.space.layout import Layout, Unit
 from swarmdsl.execution.space.placing import places_in
 from swarmdsl.execution.space.shapes import Shapes
 from swarmdsl.execution.space.targets import TargetsOfRuns
+from swarmdsl.execution.space.turning import direction
 from swarmdsl.execution.space.weather import Weather
 
 
@@ -48,6 +49,9 @@ class Robots:
         self.speed = self._each(units, [each.body.speed for each in units])
         """Greatest speed of each robot, through the air if it flies."""
         self.climb = self._each(units, [each.body.climb for each in units])
+        turns = np.minimum(self._each(units, [each.body.turn for each in units]) * self.dt, math.pi)
+        self.turn_x, self.turn_y = direction(turns)
+        """Cosine and sine of the greatest angle by which each robot turns in a step."""
         self.index: Whole = self._each(units, [each.robot.index for each in units]).astype(np.int64)
         """Number of each robot in its role."""
         self.count: Whole = self._each(units, [each.robot.count for each in units]).astype(np.int64)

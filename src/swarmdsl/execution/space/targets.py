@@ -60,6 +60,8 @@ class TargetsOfRuns:
 
     def follow(self, x: Floats, y: Floats, z: Floats) -> None:
         """Let targets be where those who carry them are."""
+        if not self.count:
+            return
         carried = np.flatnonzero(self.carrier >= 0)
         if len(carried):
             by = self.carrier[carried]

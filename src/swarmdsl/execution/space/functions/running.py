@@ -22,25 +22,31 @@ class Running:
         self.name = name
         self._stage = stage
         self.active: Flags = np.zeros(stage.rows, dtype=np.bool_)
+        self._who: Rows | None = None
+        """Rows in which it is active, until that changes."""
         self._model = self._guarded(make, stage)
         self._stepped: Rows = np.empty(0, dtype=np.int64)
 
     def start(self, row: int, arguments: Mapping[str, Any]) -> None:
         """Begin in a robot."""
         self.active[row] = True
+        self._who = None
         self._guarded(self._model.start, np.array([row]), arguments)
 
     def stop(self, row: int) -> None:
         """End in a robot, which halts."""
         if self.active[row]:
             self.active[row] = False
+            self._who = None
             who = np.array([row])
             self._stage.halt(who)
             self._guarded(self._model.stop, who)
 
     def step(self, part: Part) -> list[tuple[int, int]]:
         """Decide what robots in some rows want; return those that have ended, with status."""
-        who = np.flatnonzero(self.active)
+        if self._who is None:
+            self._who = np.flatnonzero(self.active)
+        who = self._who
         if not isinstance(part, slice):
             who = who[np.isin(who, part, assume_unique=True)]
         self._stepped = who
