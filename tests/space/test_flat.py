@@ -53,7 +53,7 @@ def full(folder: Path, robots: int = 4) -> System:
         environment={
             "targets": (Targets("person", 6),),
             "walls": (Wall((Point(0, 50), Point(40, 50), Point(40, 70)), 3.0),),
-            "obstacles": (Obstacle(Disc(Point(70, 30), 5.0)),),
+            "obstacles": (Obstacle("silo", Disc(Point(70, 30), 5.0)),),
             "zones": (Zone("village", Box(Point(20, 20), Point(30, 30))),),
             "winds": (Wind(2.0, 1.0, 10 * SECOND),),
         },
@@ -96,8 +96,8 @@ def test_no_robot_is_ever_in_an_obstacle(tmp_path: Path) -> None:
         environment={
             "walls": (Wall((Point(50, 0), Point(50, 60))),),
             "obstacles": (
-                Obstacle(Disc(Point(20, 20), 6.0)),
-                Obstacle(Box(Point(60, 10), Point(80, 30))),
+                Obstacle("silo", Disc(Point(20, 20), 6.0)),
+                Obstacle("barn", Box(Point(60, 10), Point(80, 30))),
             ),
         },
         member={"body": BODY},
@@ -169,7 +169,7 @@ def test_an_empty_battery_loses_the_robot(tmp_path: Path) -> None:
     system = changed(
         system_of(tmp_path, robots=1),
         role={"start": Point(10, 10)},
-        member={"body": BODY, "battery": numbers(capacity=1000, moving=96, idling=4)},
+        member={"body": BODY, "battery": numbers(capacity=1000, moving=100, idling=4)},
         model=ModelUse("random_walk"),
     )
     played = Played(system, until=200)

@@ -48,6 +48,7 @@ def check(paths: Sequence[Path], settings: Settings = _DEFAULTS) -> Result:
     """Check a model and the files that it imports."""
     report = Diagnostics(settings.levels)
     project = load(paths, report, settings.libraries)
+    project.models = frozenset(settings.models)
     if not paths:
         report.report("nothing-to-compile", path="[]")
     link(project, report)

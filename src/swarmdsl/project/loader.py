@@ -78,6 +78,8 @@ class Project:
     """
 
     files: list[File] = field(default_factory=list)
+    models: frozenset[str] = frozenset()
+    """Names of the function models that the project has beside those of swarmdsl."""
 
     @property
     def size(self) -> int:

@@ -51,6 +51,7 @@ class Context:
     `incomplete` are the declarations with a part that could not be parsed: a check for missing
     items would mislead there. `used` are the declarations of the system with their files, set
     by a pass over the project. `errors_only` is set for a library, whose warnings are dropped.
+    `models` are the function models of the project itself.
     """
 
     report: Diagnostics
@@ -59,6 +60,7 @@ class Context:
     incomplete: set[TopLevel]
     facts: FactCache
     errors_only: bool = False
+    models: frozenset[str] = frozenset()
     used: list[tuple[File, Declaration]] = field(default_factory=list)
     conditions: dict[Transition | Branch, Condition] = field(default_factory=dict)
     guard_values: dict[Transition | Branch, bool | None] = field(default_factory=dict)
@@ -228,4 +230,5 @@ def make_context(project: Project, report: Diagnostics, facts: FactCache | None 
         read_packages(project),
     )
     typing = Typing(interfaces, report)
-    return Context(report, interfaces, typing, incomplete, facts or FactCache())
+    found = facts or FactCache()
+    return Context(report, interfaces, typing, incomplete, found, models=project.models)

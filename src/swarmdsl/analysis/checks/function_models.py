@@ -20,12 +20,14 @@ def check_model(function: Function, context: Context) -> None:
     for use in uses:
         context.check_repeated((argument.name for argument in use.arguments), "argument")
         model = MODELS.get(str(use.name))
+        if str(use.name) in context.models:
+            continue  # its arguments are known when a run loads it
         if model is None:
             context.report.report(
                 "unknown-model",
                 use.name.span,
                 name=use.name,
-                help=suggest(use.name, MODELS, "models"),
+                help=suggest(use.name, [*MODELS, *sorted(context.models)], "models"),
             )
             continue
         for given in use.arguments:

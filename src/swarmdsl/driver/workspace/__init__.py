@@ -200,6 +200,7 @@ class Workspace:
         store.requested.clear()
         self._loaded = self._collector()
         self.project = load(self._paths, self._loaded, self.settings.libraries, store)
+        self.project.models = frozenset(self.settings.models)
         if not self._paths:
             self._loaded.report("nothing-to-compile", path="[]")
         store.drop_unused()

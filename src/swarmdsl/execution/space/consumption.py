@@ -28,4 +28,5 @@ class Consumption:
         ]
         self.moving = column([each.moving for each in batteries])
         self.hovering = column([each.hovering for each in batteries])
-        self.always = column([e.idling + s for e, s in zip(batteries, sensing, strict=True)])
+        self.idling = column([each.idling for each in batteries])
+        self.sensing = column(sensing)

@@ -19,8 +19,9 @@ def drain(stage: Robots, part: Part) -> Rows:
     alive = stage.alive[part]
     moves = (stage.air_speed > _STILL) | (np.abs(stage.vz[part]) > _STILL)
     hovers = ~moves & (stage.z[part] > 0)
-    power = consumption.always[part] + consumption.moving[part] * moves
-    power = (power + consumption.hovering[part] * hovers) * alive
+    power = np.where(hovers, consumption.hovering[part], consumption.idling[part])
+    power = np.where(moves, consumption.moving[part], power) + consumption.sensing[part]
+    power = power * alive
     used = power * stage.dt
     stage.used[part] += used
     left = stage.energy[part] - used

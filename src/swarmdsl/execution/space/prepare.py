@@ -51,5 +51,12 @@ def _of_project(subject: Subject, scenario: Scenario, report: Diagnostics) -> Ma
                 help_ = suggest(key, known, "arguments")
                 owner = f"model `{name}`"
                 report.report("unknown-key", name=key, owner=owner, help=help_)
+        for function in system.functions if system is not None else ():
+            use = function.model
+            for key, _ in use.arguments if use is not None and use.name == name else ():
+                if key not in known:
+                    help_ = suggest(key, known, "arguments")
+                    place = use.origin if use is not None else None
+                    report.report("unknown-argument", place, model=name, name=key, help=help_)
         found[name] = kind
     return found

@@ -16,7 +16,9 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.write_stream import write_stream
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
+from swarmdsl.execution.simulate.choose_space import has_geometry
 from swarmdsl.execution.simulate.properties import watchable
+from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject, choose
 from swarmdsl.execution.verify import diagnostics
 from swarmdsl.execution.verify.any_size import enough, prove_any
@@ -243,6 +245,9 @@ class _Session:
         surveys: Sequence[Survey],
     ) -> None:
         self._say(f"{subject.name}: {shown(subject, results.sizes, results.free)}")
+        if has_geometry(subject, Scenario()):
+            self._say("  places are left out: any robot may reach any other one, functions may end")
+            self._say("  in any way, and nobody sees anything or runs out of energy")
         if results.free and surveys:
             self._say(f"  of {shown(subject, results.sizes)}:")
         for found in surveys:
