@@ -6,6 +6,7 @@ import json
 import os
 import re
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -197,7 +198,7 @@ def test_an_interrupt_leaves_what_there_is(
     assert "Crew: 7 of 50 runs (interrupted), seeds 0 to 6" in capsys.readouterr().out
 
 
-def _die(_seed: int) -> one_run.Outcome:
+def _die(_seeds: Sequence[int]) -> list[one_run.Outcome]:
     os._exit(3)
 
 
@@ -205,7 +206,7 @@ def test_a_process_that_dies_is_reported(
     simulate: Simulate, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     simulate(MODEL, scenario=SCENARIO)
-    monkeypatch.setattr(many, "run_seed", _die)
+    monkeypatch.setattr(many, "run_seeds", _die)
     assert run(["simulate", "model.swarm", "--runs", "8", "--jobs", "2"]) == 1
     assert "error[SW1612]: a process ended by itself, after 0 runs" in capsys.readouterr().err
 

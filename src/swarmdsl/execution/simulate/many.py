@@ -105,6 +105,9 @@ def _gather(
 
 def _outcomes(request: Request, jobs: int, runner: Runner, seeds: range) -> Iterator[Outcome]:
     """Yield the outcomes in the order of the seeds, whoever is done first."""
+    if jobs == 1 and not runner.is_together:
+        yield from map(runner.run, seeds)
+        return
     size = runner.batch
     batches = [seeds[first : first + size] for first in range(0, len(seeds), size)]
     if jobs == 1:

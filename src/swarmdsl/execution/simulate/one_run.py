@@ -76,7 +76,7 @@ class Runner:
 
     def run_all(self, seeds: Sequence[int]) -> list[Outcome]:
         """Run the subject with some seeds; robots with places move together."""
-        if len(seeds) < 2 or not self._prepared.spaces.is_flat:
+        if len(seeds) < 2 or not self.is_together:
             return [self.run(seed) for seed in seeds]
         ensemble = self._prepared.spaces.together(seeds)
         started = [
@@ -109,9 +109,14 @@ class Runner:
         return [found[seed] for seed in seeds]
 
     @property
+    def is_together(self) -> bool:
+        """True if the robots of several runs move together."""
+        return self._prepared.spaces.is_flat
+
+    @property
     def batch(self) -> int:
         """Number of runs to do at a time."""
-        if not self._prepared.spaces.is_flat:
+        if not self.is_together:
             return _CHUNK
         subject = self._prepared.subject
         robots = max(subject.size(self._prepared.scenario.counts), 1)
