@@ -24,7 +24,7 @@ from swarmdsl.execution.simulate.durations import (
 from swarmdsl.execution.simulate.inputs import Input
 from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.run import run as simulate
-from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
+from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Scenario
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.execution.verify.model import Model, Options
 
@@ -169,6 +169,26 @@ endless statemachine N {{
     for milliseconds, expected in ((100, "fails"), (200, "holds")):
         scenario = Scenario(latency=Fixed(milliseconds * MILLISECOND))
         assert _outcome(modelled, text, scenario=scenario, exact=True) == expected
+
+
+def test_a_reliable_event_is_late_where_robots_may_be_out_of_reach(modelled: Modelled) -> None:
+    text = f"""swarm event Call : std_msgs/Empty {{ reliable }}
+endless statemachine M {{
+  initial S0
+  state S0 {{ after 1 s / send Call -> S1 }}
+  state S1 {{ on Go -> S1 }}
+}}
+endless statemachine N {{
+  initial S0
+  state S0 {{ on Call -> S1 }}
+  state S1 {{ on Go -> S1 }}
+}}
+{_TWO}property P of S : a sends Call leads to b in S1 within 1 s"""
+    apart = Fault(at=Fixed(0), lasts=10 * SECOND, apart=(("a",), ("b",)))
+
+    assert _outcome(modelled, text, exact=True) == "holds"
+    assert _outcome(modelled, text, scenario=Scenario(faults=(apart,)), exact=True) == "fails"
+    assert _outcome(modelled, text, lossy=True, exact=True) == "fails"
 
 
 def test_a_race_is_decided_by_times(modelled: Modelled) -> None:

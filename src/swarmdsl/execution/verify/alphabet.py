@@ -42,8 +42,8 @@ class Alphabet:
             assert self.system is not None
             delivery = self.system.event(event.name).delivery
             # Of events that wait for a robot out of reach, `keep` drops the oldest.
-            repeats = delivery is not None and bool(delivery.reliable)
-            reliable = repeats and delivery is not None and delivery.keep is None
+            reliable = delivery is not None and bool(delivery.reliable) and delivery.keep is None
+            repeats = delivery is not None and bool(delivery.reliable or delivery.latest)
             self.messages.append(Message(len(self.messages), event, reliable, repeats))
         return self._known[key]
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
 
@@ -28,19 +26,13 @@ class Timing:
     def message(self, *, repeats: bool) -> Bounds:
         """Return the times after which an event can arrive at another robot.
 
-        One that `repeats` is sent again if it is lost.
+        One that `repeats` is sent again if it is lost, or waits for a robot out of reach.
         """
         least, most = self.scenario.latency.bounds
-        is_late = repeats and (self.lossy or self.scenario.loss > 0)
-        return least, None if is_late else most
+        may_be_lost = self.lossy or self.scenario.loss > 0
+        may_be_lost |= any(fault.apart for fault in self.scenario.faults)
+        return least, None if repeats and may_be_lost else most
 
     def stops_late(self, name: str, robot: Robot) -> bool:
         """Return True if a cancelled function of a robot takes time to stop."""
         return self.scenario.behavior(name, robot).stopping.bounds != AT_ONCE
-
-    def lengths(self, calls: Iterable[tuple[str, Robot]], *, messages: bool) -> Iterator[int]:
-        """Yield the lengths that clocks must measure."""
-        for name, robot in calls:
-            yield from (each for each in self.function(name, robot) if each)
-        if messages:
-            yield from (each for each in self.message(repeats=False) if each)
