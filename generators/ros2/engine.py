@@ -18,7 +18,8 @@ _NOUNS = ("A", "An", "The", "What", "Which")
 _ENGINE = ("table", "activity", "world", "arrays", "step", "configuration", "instance")
 _MONITORS = (
     *("patterns", "monitor", "automaton", "claims", "facts"),
-    *("truth", "meters", "plan", "progress", "watch"),
+    *("truth", "meters", "rule", "joint", "plan", "progress"),
+    *("outcomes", "watch"),
 )
 _GONE = "\0"
 _TOKEN = re.compile(r'"""[\s\S]*?"""|#[^\n]*|f?"(?:[^"\\\n]|\\.)*"')

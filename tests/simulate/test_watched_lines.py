@@ -14,7 +14,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.toml import parse_toml
-from swarmdsl.execution.monitor import automaton, plan, progress
+from swarmdsl.execution.monitor import automaton, joint, plan, progress, watch
 from swarmdsl.execution.simulate import properties
 from swarmdsl.execution.simulate.actors import actors
 from swarmdsl.execution.simulate.inputs import Input
@@ -181,9 +181,17 @@ def test_only_what_changes(
     found = [verdicts(example, events, seed) for seed in range(3)]
 
     def all_of_them(planned: plan.Plan, _facts: int) -> object:
-        return range(len(planned.rules)), range(len(planned.gauges))
+        return planned.swarm_rules, range(len(planned.gauges))
+
+    look = watch.Watch._look_what_matters
+
+    def at_all(monitors: watch.Watch) -> None:
+        look(monitors)
+        monitors._common = -1
 
     monkeypatch.setattr(plan.Plan, "about", all_of_them)
+    monkeypatch.setattr(watch.Watch, "_look_what_matters", at_all)
+    monkeypatch.setattr(joint.Joint, "_about", lambda found, _facts: found.numbers)
     monkeypatch.setattr(progress.Progress, "affected", lambda each, *_changed: each.robots.values())
     monkeypatch.setattr(automaton.Automaton, "is_final", lambda _self, _state: False)
     assert found == [verdicts(example, events, seed) for seed in range(3)]

@@ -21,9 +21,10 @@ from .facts import (
 )
 from .meters import Gauge, Meter, Reading, aggregated
 from .monitor import FALSE, OPEN, TRUE, Monitor, Sentence, Verdict
+from .outcomes import PropertyResult, ViolatedError, Violation
 from .patterns import Pattern, pattern_of
 from .plan import Plan
-from .watch import PropertyResult, ViolatedError, Violation, Watch
+from .watch import Watch
 
 __all__ = [
     "FALSE",

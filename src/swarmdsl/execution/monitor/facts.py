@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from typing import Any, Protocol
 
 from .claims import Count, Fact
@@ -129,8 +129,8 @@ class Kind:
 
     `acts` are the bits of what machines do and hear, by act and name, `values` those of what
     robots have, and `conditional` those of all facts with a condition.
-    `places` are the facts that hold in known configurations, `heard` those that can change with an
-    event: all with the start or the loss of a robot.
+    `places` are the facts that hold in known configurations, `from_outside` and `from_robots` those
+    about the events of a robot and about values.
     """
 
     def __init__(self, facts: Iterable[tuple[int, Fact]], states: Sequence[str]) -> None:
@@ -152,9 +152,13 @@ class Kind:
                 acts = self.acts[fact.act]
                 acts[fact.name] = acts.get(fact.name, 0) | bit
         hears, arrives = self.acts["hears"], self.acts["arrives"]
-        self.heard: dict[str | None, int] = {None: -1, LOST: -1}
+        self._hears: Mapping[str | None, int] = dict(hears.items())
+        self._arrives: Mapping[str | None, int] = dict(arrives.items())
+        self.from_outside: dict[str | None, int] = {}
+        self.from_robots: dict[str | None, int] = {}
         for event in (*hears, *arrives):
-            self.heard[event] = hears.get(event, 0) | arrives.get(event, 0) | self.values
+            self.from_robots[event] = hears.get(event, 0) | self.values
+            self.from_outside[event] = self.from_robots[event] | arrives.get(event, 0)
 
     def holding(self, line: LineLike, has: Has) -> int:
         """Return the facts that hold for the machine of a line, after it."""
@@ -186,16 +190,24 @@ class Kind:
         event = line.event
         if event == LOST:
             return 0
+        found |= self.arriving(event, line.envelope.sender, line.deferred, line.recalled)
+        return self.under_conditions(line, has, found) if found & self.conditional else found
+
+    def arriving(self, event: str | None, sender: str, deferred: bool, recalled: bool) -> int:
+        """Return the facts about an event and about values, with conditions or without them."""
+        found = self.values
         # A deferred event arrives once, and is heard once.
-        if event in self.acts["hears"] and not line.deferred:
-            found |= self.acts["hears"][event]
-        if event in self.acts["arrives"] and not line.recalled and not line.envelope.sender:
-            found |= self.acts["arrives"][event]
-        found |= self.values
-        if found & self.conditional:
-            for bit, fact in self._conditions:
-                if found & bit and not has(line, fact):
-                    found ^= bit
+        if not deferred:
+            found |= self._hears.get(event, 0)
+        if not (recalled or sender):
+            found |= self._arrives.get(event, 0)
+        return found
+
+    def under_conditions(self, line: LineLike, has: Has, found: int) -> int:
+        """Leave out the facts whose conditions do not hold."""
+        for bit, fact in self._conditions:
+            if found & bit and not has(line, fact):
+                found ^= bit
         return found
 
 

@@ -3,34 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
-from dataclasses import replace
 from itertools import chain
 
-from .automaton import Automaton, Move, State
 from .claims import Measure, Property
 from .facts import ActorLike, Facts, Kind, can_hold
+from .joint import Joint
 from .meters import Gauge
-from .truth import Claims, is_momentary
-
-
-class Rule:
-    """A property with its automaton."""
-
-    def __init__(self, property_: Property, facts: Facts) -> None:
-        self.property = property_
-        self.each = property_.each
-        self.claims = Claims(property_.each, facts)
-        self.facts = facts
-        claims, scope = property_.claims, property_.scope
-        self._truths = [self.claims.truth(each) for each in (*claims, *scope)]
-        sentence = replace(property_.sentence, momentary=is_momentary(claims[0]))
-        self.automaton = Automaton(sentence, len(claims), len(scope))
-
-    def move(self, state: State, key: int) -> Move:
-        """Return the step of a state at a moment with this key, and remember it."""
-        truths = [truth(key) for truth in self._truths]
-        found = state.moves[key] = self.automaton.step(state, truths)
-        return found
+from .rule import Rule
 
 
 class Plan:
@@ -40,15 +19,19 @@ class Plan:
         self.facts = Facts()
         self.rules = [Rule(each, self.facts) for each in properties]
         self.gauges = [Gauge(each, self.facts) for each in measures]
-        claims = [each.claims for each in self.rules], [each.claims for each in self.gauges]
-        self._masks = [[each.mask for each in some] for some in claims]
         self.shared = 0
         """Facts of which the number of robots matters."""
-        for each in chain(*claims):
-            self.shared |= each.shared
+        for claims in chain(
+            (each.claims for each in self.rules), (each.claims for each in self.gauges)
+        ):
+            self.shared |= claims.shared
+        self._joints: dict[str, Joint] = {}
+        self.swarm_rules = [n for n, each in enumerate(self.rules) if not _is_alone(each)]
+        """Numbers of the properties that are not in a joint automaton."""
         self._kinds: dict[Hashable, Kind] = {}
         self._bits: dict[int, tuple[int, ...]] = {}
-        self._about: dict[int, tuple[Sequence[int], Sequence[int]]] = {}
+        self.known: dict[int, tuple[Sequence[int], Sequence[int]]] = {}
+        """Results of `about`, by facts."""
 
     def kind(self, actor: ActorLike) -> Kind:
         """Return the facts that the lines of a machine can change."""
@@ -57,15 +40,25 @@ class Plan:
             self._kinds[key] = self.facts.kind_of(actor)
         return self._kinds[key]
 
-    def about(self, facts: int) -> tuple[Sequence[int], Sequence[int]]:
-        """Return the numbers of the properties and of the measures that some facts can change."""
-        found = self._about.get(facts)
+    def joint(self, role: str) -> Joint:
+        """Return the joint automaton of the properties about each robot of a role alone."""
+        found = self._joints.get(role)
         if found is None:
-            sentences, gauges = (
-                [number for number, mask in enumerate(masks) if mask & facts]
-                for masks in self._masks
-            )
-            found = self._about[facts] = sentences, gauges
+            rules = [(n, each) for n, each in enumerate(self.rules) if each.each == role]
+            alone = [(number, rule) for number, rule in rules if _is_alone(rule)]
+            found = self._joints[role] = Joint(alone, self.facts.momentary, self.shared_bits)
+        return found
+
+    def about(self, facts: int) -> tuple[Sequence[int], Sequence[int]]:
+        """Return the numbers of the properties and of the measures that some facts can change.
+
+        Those in joint automata are left out.
+        """
+        found = self.known.get(facts)
+        if found is None:
+            sentences = [n for n in self.swarm_rules if self.rules[n].claims.mask & facts]
+            gauges = [n for n, each in enumerate(self.gauges) if each.claims.mask & facts]
+            found = self.known[facts] = sentences, gauges
         return found
 
     def shared_bits(self, facts: int) -> tuple[int, ...]:
@@ -76,3 +69,8 @@ class Plan:
             bits = (1 << number for number in range(shared.bit_length()))
             found = self._bits[facts] = tuple([bit for bit in bits if bit & shared])
         return found
+
+
+def _is_alone(rule: Rule) -> bool:
+    """Return True if a property is about each robot, and nothing of the others matters."""
+    return rule.each is not None and not rule.claims.shared

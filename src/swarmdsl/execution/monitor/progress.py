@@ -6,23 +6,34 @@ from collections.abc import Hashable, Iterable, Mapping, Sequence
 
 from .automaton import Move, State
 from .facts import ActorLike
+from .joint import Leap, Stand
 from .meters import Gauge, Meter
 from .monitor import FALSE, OPEN, TRUE, Verdict
-from .plan import Rule
+from .rule import Rule
 from .truth import Claims, Roll
+
+Violators = Sequence["tuple[str | None, int]"]
+"""Robots that violate a property, with the times."""
 
 
 class Followed:
     """Robot with the facts that hold for it, in `bits`; `first` is its first machine."""
 
-    def __init__(self, name: str | None) -> None:
+    def __init__(self, name: str | None, role: str = "") -> None:
         self.name = name
+        self.role = role
         self.bits = 0
+        self.stand: Stand | None = None
+        """Place in the joint automaton of its role, if it is known."""
         self.there = 0
         """Facts about its machines that have started and are not lost."""
         self.lasting: dict[Hashable, int] | None = None
         """Facts that last, by machine, if there are several."""
         self.first: ActorLike | None = None
+
+
+Steps = Sequence["tuple[Followed, Leap]"]
+"""Robots with their steps at one moment."""
 
 
 class Progress:
@@ -37,12 +48,12 @@ class Progress:
         self._claims = claims
         self._roll = roll
 
-    def affected(self, facts: int, changed: Mapping[Followed, int]) -> Iterable[Followed]:
+    def affected(self, facts: int, steps: Steps) -> Iterable[Followed]:
         """Return the robots for which a claim can have changed, with the facts that have."""
         if facts & self.shared:
             return self.robots.values()
         mask, known = self.mask, self.robots
-        return [robot for robot, bits in changed.items() if bits & mask and robot.name in known]
+        return [robot for robot, leap in steps if leap.facts & mask and robot.name in known]
 
 
 class Measured(Progress):
@@ -94,11 +105,11 @@ class Watched(Progress):
         self.robots[robot.name] = robot
         self.states[robot.name] = self.rule.automaton.first
 
-    def step(self, time: int, robots: Iterable[Followed]) -> Sequence[tuple[str | None, int]]:
-        """Take a step; return the robots that violate the property now, with the times."""
+    def step(self, time: int, robots: Iterable[Followed]) -> list[tuple[str | None, int]] | None:
+        """Take a step; return the robots that violate it now, None if no automaton has moved."""
         states, roll, claims = self.states, self._roll, self._claims
         own, quantified = claims.own, claims.quantified
-        violated: list[tuple[str | None, int]] = []
+        moved: list[tuple[str | None, Move]] = []
         for robot in robots:
             name = robot.name
             state = states[name]
@@ -108,12 +119,30 @@ class Watched(Progress):
                 key = key << 1 | holds(roll, name)
             move = state.moves.get(key) or self.rule.move(state, key)
             if move is not state.stay:
-                self._take(name, move, time, violated)
+                moved.append((name, move))
+        if not moved:
+            return None
+        violated: list[tuple[str | None, int]] = []
+        for name, move in moved:
+            self.take(name, move, time, violated)
         return violated
 
-    def _take(
+    def step_alone(self, time: int) -> list[tuple[str | None, int]] | None:
+        """Take a step in a sentence that is not about each robot, likewise."""
+        key, roll, state = 0, self._roll, self.states[None]
+        for holds in self._claims.quantified:
+            key = key << 1 | holds(roll, None)
+        move = state.moves.get(key) or self.rule.move(state, key)
+        if move is state.stay:
+            return None
+        violated: list[tuple[str | None, int]] = []
+        self.take(None, move, time, violated)
+        return violated
+
+    def take(
         self, name: str | None, move: Move, time: int, violated: list[tuple[str | None, int]]
     ) -> None:
+        """Go to another state for a robot; add it to those that violate the property now."""
         state = self.states[name] = move.target
         if move.begins:
             due = self._dues[name] = time + self.rule.automaton.within
@@ -123,13 +152,14 @@ class Watched(Progress):
         if state.is_violated:
             violated.append((name, time))
         if self.rule.automaton.is_final(state):
-            self.robots = {key: robot for key, robot in self.robots.items() if key != name}
+            self.robots.pop(name, None)
 
-    def advance(self, time: int) -> Sequence[tuple[str | None, int]]:
+    def advance(self, time: int) -> Violators:
         """Let time pass, likewise."""
         violated = []
         for name, due in [(name, due) for name, due in self._dues.items() if time > due]:
             state = self.states[name] = self.rule.automaton.late(self.states[name])
+            self.robots[name].stand = None
             del self._dues[name]
             if state.is_violated:
                 violated.append((name, due))
@@ -138,9 +168,7 @@ class Watched(Progress):
         self.due = min(self._dues.values(), default=None)
         return violated
 
-    def finish(
-        self, time: int, *, ended: bool
-    ) -> tuple[Mapping[str | None, Verdict], Sequence[tuple[str | None, int]]]:
+    def finish(self, time: int, *, ended: bool) -> tuple[Mapping[str | None, Verdict], Violators]:
         """Return the verdicts by robot, and the robots that violate the property in the end."""
         verdicts: dict[str | None, Verdict] = {}
         violated = []

@@ -4,11 +4,21 @@ from __future__ import annotations
 
 import operator
 from collections import defaultdict
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, Protocol
 
 from .claims import Claim, Count, Fact, Junction, facts_in
 from .facts import MOMENTARY, Facts
+
+Shared = Callable[[int], Sequence[int]]
+"""Bits of those facts of which the number of robots matters."""
+
+
+class Present(Protocol):
+    """Robot with the facts about its machines that have started and are not lost."""
+
+    name: str | None
+    there: int
 
 
 class Roll:
@@ -17,6 +27,29 @@ class Roll:
     def __init__(self) -> None:
         self.holding: dict[int, set[str | None]] = defaultdict(set)
         self.there: dict[int, set[str | None]] = defaultdict(set)
+
+    def count(self, name: str | None, gained: Sequence[int], lost: Sequence[int]) -> None:
+        """Note for which facts a robot is one of those for which they hold, and for which not."""
+        for bit in gained:
+            self.holding[bit].add(name)
+        for bit in lost:
+            self.holding[bit].discard(name)
+
+    def come(self, robot: Present, mask: int, shared: Shared) -> int:
+        """Let facts about a robot count; return those for which this is new."""
+        new = mask & ~robot.there
+        robot.there |= new
+        for bit in shared(new):
+            self.there[bit].add(robot.name)
+        return new
+
+    def leave(self, robot: Present, mask: int, shared: Shared) -> int:
+        """Let facts about a robot count no more; return those that did."""
+        gone = mask & robot.there
+        robot.there ^= gone
+        for bit in shared(gone):
+            self.there[bit].discard(robot.name)
+        return gone
 
 
 Truth = Callable[[int], bool]

@@ -3,47 +3,24 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable
+from typing import Any
 
+from .automaton import NEVER
 from .claims import Property
 from .facts import LOST, ActorLike, Has, Kind, LineLike
+from .joint import Leap, Stand
 from .meters import Reading
 from .monitor import FALSE, OPEN, TRUE, Verdict
+from .outcomes import PropertyResult, ViolatedError, Violation
 from .plan import Plan
-from .progress import Followed, Measured, Watched
+from .progress import Followed, Measured, Steps, Violators, Watched
 from .truth import Roll
 
 REMEMBERED = 8
 """Number of trace lines kept with a violation, of those that changed a fact."""
 START = 5_000_000_000
 """Time in nanoseconds in which machines start at one moment if nothing else happens."""
-
-
-class Violation(NamedTuple):
-    """Violation of a property, by a robot if it is about each one, with the last trace lines."""
-
-    property: Property
-    robot: str | None
-    time: int
-    last: tuple[Any, ...]
-
-
-class PropertyResult(NamedTuple):
-    """Verdict on a property at the end of a run; `robots` are those with the same verdict.
-
-    `remark` says why a true one says nothing of the run.
-    """
-
-    property: Property
-    verdict: Verdict
-    robots: tuple[str, ...]
-    violations: tuple[Violation, ...]
-    remark: str = ""
-
-
-class ViolatedError(Exception):
-    """A property is violated, and the run must stop then."""
 
 
 class Watch:
@@ -67,23 +44,34 @@ class Watch:
         self.plan = plan
         self.violations: list[Violation] = []
         self.has = has
+        self.open: Callable[[Any], Any] = _itself
+        """Return the line of a record."""
         self._stops = stops
         self._told = told
         self._roll = Roll()
         self._watched = [Watched(each, self._roll) for each in plan.rules]
         self._measured = [Measured(each, self._roll) for each in plan.gauges]
         self._every: list[Watched | Measured] = [*self._watched, *self._measured]
+        self._of_swarm: list[Watched | Measured] = [
+            *(self._watched[n] for n in plan.swarm_rules),
+            *self._measured,
+        ]
         self._robots: dict[str | None, Followed] = {}
         self._joined: dict[ActorLike, tuple[Followed, Kind]] = {}
-        self.late_after: int | None = None
-        """Time until which nothing is late; it may be too early."""
+        self._plain: dict[ActorLike, Followed] = {}
+        """Robots with one machine, which has begun; a loss takes it out."""
+        self.late_after = -1
+        """Time until which nothing is late; it may be too early, and is before the first step."""
         self.happened: dict[Followed, int] = {}
         """Facts that the next line ends."""
         self.wanted = -1
         """Facts on which a verdict or a measure can still depend."""
+        self._common = -1
+        """Those of them that are not only in joint automata; all if all steps are told."""
+        self._about = plan.known
         self._momentary = plan.facts.momentary
-        self._shared = plan.shared
-        self._last: deque[LineLike] = deque(maxlen=REMEMBERED)
+        self._lasting = ~self._momentary
+        self._last: deque[Any] = deque(maxlen=REMEMBERED)
         self._begun = False
 
     @property
@@ -97,110 +85,168 @@ class Watch:
 
         Something may then be late, or the first moment over.
         """
-        return self.late_after if self._begun else START
+        if not self._begun:
+            return START
+        return self.late_after if self.late_after != NEVER else None
 
-    def see(self, line: LineLike, holding: int | None = None) -> None:
-        """Process a line; those of the start are one step.
+    def see(self, line: LineLike) -> None:
+        """Process a line; those of the start are one step."""
+        actor = line.actor
+        _, kind = self._joined.get(actor) or self._join(actor)
+        self.take(line.time, actor, line.event, kind.holding(line, self.has), line)
 
-        `holding` are the facts that hold for its machine after it, if they are known.
+    def take(
+        self, time: int, actor: ActorLike, event: str | None, holding: int, record: Any
+    ) -> None:
+        """Process the step of a machine with an event, after which some facts hold for it.
+
+        The `record` stands for the line in violations.
         """
-        time = line.time
-        if not self._begun and (line.event is not None or time > START):
+        if time > self.late_after:
+            self._attend(time, event)
+        robot = self._plain.get(actor)
+        if robot is None or event == LOST:
+            robot, found = self._gather(actor, event, holding, record)
+            if found is None:
+                return
+            leap = found
+        else:
+            stand = robot.stand or self._stand(robot)
+            leap = stand.leaps.get(holding) or self._leap(robot, stand, holding)
+        over = self.happened
+        if leap.moment:
+            self.happened = {robot: leap.moment}
+        elif over:
+            self.happened = {}
+        stand = robot.stand = leap.target
+        robot.bits = stand.bits
+        if leap.counts:
+            self._roll.count(robot.name, leap.gained, leap.lost)
+        for number, state in leap.silent:
+            self._watched[number].states[robot.name] = state
+        if leap.different & self.wanted:
+            self._last.append(record)
+        if over:
+            self._step(time, self._forget(over, robot, leap))
+        elif leap.moves or leap.facts & self._common:
+            self._step(time, ((robot, leap),))
+
+    def _attend(self, time: int, event: str | None) -> None:
+        """Take the first step with the first event or late enough; look at what is late."""
+        if not self._begun and (event is not None or time > START):
             self._begin()
-        if self.late_after is not None and time > self.late_after:
+        if self._begun and time > self.late_after:
             self._let_pass(time)
-        robot, kind = self._joined.get(line.actor) or self._join(line.actor)
-        changed: dict[Followed, int] = {}
-        if self.happened and self._begun:
-            changed, self.happened = self.happened, changed
-            self._forget(changed)
-        if holding is None:
-            holding = kind.holding(line, self.has)
-        before, now, moment = robot.bits, holding, holding & self._momentary
+
+    def _gather(
+        self, actor: ActorLike, event: str | None, holding: int, record: Any
+    ) -> tuple[Followed, Leap | None]:
+        """Return the robot of a machine with its step, which it does not take before the first."""
+        robot, kind = self._joined.get(actor) or self._join(actor)
+        more = 0
+        if event == LOST:
+            more, holding = self._roll.leave(robot, kind.mask, self.plan.shared_bits), 0
+            self._plain.pop(actor, None)
+        elif kind.mask & ~robot.there:
+            more = self._roll.come(robot, kind.mask, self.plan.shared_bits)
         if robot.lasting is not None:
-            robot.lasting[line.actor] = holding ^ moment
+            robot.lasting[actor] = holding & self._lasting
             for each in robot.lasting.values():
-                now |= each
+                holding |= each
+        elif self._begun and event != LOST:
+            self._plain[actor] = robot
+        if not self._begun:
+            self._start(robot, holding, more, record)
+            return robot, None
+        return robot, self._leap(robot, robot.stand or self._stand(robot), holding, more)
+
+    def _start(self, robot: Followed, holding: int, more: int, record: Any) -> None:
+        """Collect the facts of the start, which are those of one step."""
+        before, moment = robot.bits, holding & self._momentary
         if moment:
             self.happened[robot] = self.happened.get(robot, 0) | moment
-        if not self._begun:
-            now |= before & self._momentary
-        robot.bits = now
-        different = before ^ now | moment
-        if line.event == LOST:
-            different |= self._go(robot, kind)
-        elif robot.there & kind.mask != kind.mask:
-            different |= self._come(robot, kind)
-        if different & self._shared:
-            self._count(robot, different)
-        different &= self.wanted
-        if different:
-            self._last.append(line)
-            changed[robot] = changed.get(robot, 0) | different
-        if changed and self._begun:
-            self._step(time, changed)
+        robot.bits = holding | before & self._momentary
+        new, gone = robot.bits & ~before, before & ~robot.bits
+        self._roll.count(robot.name, self.plan.shared_bits(new), self.plan.shared_bits(gone))
+        if (new | gone | moment | more) & self.wanted:
+            self._last.append(record)
 
-    def _forget(self, over: Mapping[Followed, int]) -> None:
-        """End the facts of the last moment."""
-        for robot, bits in over.items():
-            robot.bits &= ~bits
-            if bits & self._shared:
-                self._count(robot, bits)
+    def _stand(self, robot: Followed) -> Stand:
+        """Return the place of a robot in its joint automaton."""
+        joint = self.plan.joint(robot.role)
+        states = tuple([self._watched[number].states[robot.name] for number in joint.numbers])
+        return joint.at(robot.bits, states)
 
-    def _count(self, robot: Followed, facts: int) -> None:
-        """Note for which of some facts a robot is one of those for which they hold."""
-        for bit in self.plan.shared_bits(facts):
-            if robot.bits & bit:
-                self._roll.holding[bit].add(robot.name)
-            else:
-                self._roll.holding[bit].discard(robot.name)
+    def _leap(self, robot: Followed, stand: Stand, holding: int, more: int = 0) -> Leap:
+        """Return the step of a robot after which some facts hold."""
+        known = None if more else stand.leaps.get(holding)
+        return known or self.plan.joint(robot.role).leap(stand, holding, more)
 
-    def _come(self, robot: Followed, kind: Kind) -> int:
-        """Let facts about a robot count; return those for which this is new."""
-        new = kind.mask & ~robot.there
-        robot.there |= new
-        for bit in self.plan.shared_bits(new):
-            self._roll.there[bit].add(robot.name)
-        return new
+    def _forget(self, over: Iterable[Followed], robot: Followed, leap: Leap) -> Steps:
+        """End what happened at the last moment, for others than a robot that takes a step itself.
 
-    def _go(self, robot: Followed, kind: Kind) -> int:
-        """Let facts about a robot count no more; return those that did."""
-        gone = kind.mask & robot.there
-        robot.there ^= gone
-        for bit in self.plan.shared_bits(gone):
-            self._roll.there[bit].discard(robot.name)
-        return gone
+        Return all steps.
+        """
+        steps = [(robot, leap)]
+        for other in over:
+            if other is not robot:
+                stand, bits = other.stand or self._stand(other), other.bits & self._lasting
+                leap = stand.leaps.get(bits) or self._leap(other, stand, bits)
+                other.stand, other.bits = leap.target, bits
+                if leap.counts:
+                    self._roll.count(other.name, leap.gained, leap.lost)
+                for number, state in leap.silent:
+                    self._watched[number].states[other.name] = state
+                steps.append((other, leap))
+        return steps
 
-    def _step(self, time: int, changed: Mapping[Followed, int]) -> None:
-        """Take a step, in which facts about some robots have changed."""
+    def _step(self, time: int, steps: Steps) -> None:
+        """Let some robots take a step."""
+        found: dict[int, list[tuple[str | None, int]]] = {}
         facts = 0
-        for bits in changed.values():
-            facts |= bits
-        sentences, gauges = self.plan.about(facts)
-        for number in gauges:
-            gauge = self._measured[number]
-            gauge.step(time, gauge.affected(facts, changed))
-        for number in sentences:
-            each = self._watched[number]
-            if not each.robots:
-                continue
-            violated = each.step(time, each.affected(facts, changed))
-            if violated or self._told is not None:
-                self._note(each, violated, time)
-            if not each.robots:
-                self._look_what_matters()
-            due = each.due
-            if due is not None and (self.late_after is None or due < self.late_after):
-                self.late_after = due
-        if self._stops:
+        for robot, leap in steps:
+            facts |= leap.facts
+            for number, move in leap.moves:
+                violators = found.setdefault(number, [])
+                self._watched[number].take(robot.name, move, time, violators)
+        if facts & self._common:
+            sentences, gauges = self._about.get(facts) or self.plan.about(facts)
+            for number in gauges:
+                gauge = self._measured[number]
+                gauge.step(time, gauge.affected(facts, steps))
+            for number in sentences:
+                each = self._watched[number]
+                if each.robots:
+                    if each.each is None:
+                        violated = each.step_alone(time)
+                    else:
+                        violated = each.step(time, each.affected(facts, steps))
+                    if violated is not None:
+                        found[number] = violated
+        if self._told is not None:
+            for number, rule in enumerate(self.plan.rules):
+                if rule.claims.mask & facts and self._watched[number].robots:
+                    found.setdefault(number, [])
+        if found:
+            for number in sorted(found):
+                self._judge(self._watched[number], found[number], time)
+        if self._stops and self.violations:
             self._look_whether_to_stop()
+
+    def _judge(self, watched: Watched, violators: Violators, time: int) -> None:
+        """Note what a step says of a property."""
+        if violators or self._told is not None:
+            self._note(watched, violators, time)
+        if not watched.robots:
+            self._look_what_matters()
+        due = watched.due
+        if due is not None and due < self.late_after:
+            self.late_after = due
 
     def advance(self, time: int) -> None:
         """Let time pass without a line."""
-        if not self._begun and time > START:
-            self._begin()
-        if self.late_after is not None and time > self.late_after:
-            self._let_pass(time)
+        if time > self.late_after:
+            self._attend(time, None)
             self._look_whether_to_stop()
 
     def results(self, time: int, *, ended: bool) -> list[PropertyResult]:
@@ -214,10 +260,12 @@ class Watch:
             self._note(each, violated, time)
             property_ = each.rule.property
             worst = next((v for v in (FALSE, OPEN) if v in verdicts.values()), TRUE)
-            robots = tuple(name for name, v in verdicts.items() if v == worst and name is not None)
+            names = tuple(name for name, v in verdicts.items() if v == worst and name is not None)
             violations = tuple(v for v in self.violations if v.property is property_)
             remark = each.remark if worst == TRUE else ""
-            found.append(PropertyResult(property_, worst, robots, violations, remark))
+            found.append(PropertyResult(property_, worst, names, violations, remark))
+        for robot in self._robots.values():
+            robot.stand = None
         return found
 
     def readings(self, time: int, limit: int | None = None) -> list[Reading]:
@@ -229,11 +277,12 @@ class Watch:
     def _join(self, actor: ActorLike) -> tuple[Followed, Kind]:
         """Follow a machine from its first line on."""
         name, role = actor.robot.name, actor.robot.role
-        robot = self._robots.setdefault(name, Followed(name))
+        robot = self._robots.setdefault(name, Followed(name, role))
         if robot.first is None:
             robot.first = actor
         elif robot.lasting is None:
             robot.lasting = {robot.first: robot.bits & ~self._momentary}
+            self._plain.pop(robot.first, None)
         found = self._joined[actor] = robot, self.plan.kind(actor)
         for each in self._every:
             if each.each == role:
@@ -244,10 +293,15 @@ class Watch:
 
     def _look_what_matters(self) -> None:
         """Note the facts on which something can still depend."""
-        self.wanted = 0
+        self.wanted = self._common = 0
         for each in self._every:
             if each.robots or each.can_grow:
                 self.wanted |= each.mask
+        for each in self._of_swarm:
+            if each.robots or each.can_grow:
+                self._common |= each.mask
+        if self._told is not None:
+            self._common = -1
 
     def _begin(self) -> None:
         """Take the first step, when all machines have started."""
@@ -255,11 +309,10 @@ class Watch:
         for gauge in self._measured:
             gauge.step(0, gauge.robots.values())
         for each in self._watched:
-            self._note(each, each.step(0, each.robots.values()), 0)
+            self._note(each, each.step(0, [*each.robots.values()]) or (), 0)
         self._look_what_matters()
-        self.late_after = min(
-            (each.due for each in self._watched if each.due is not None), default=None
-        )
+        dues = [each.due for each in self._watched if each.due is not None]
+        self.late_after = min(dues, default=NEVER)
 
     def _let_pass(self, time: int) -> None:
         for each in self._watched:
@@ -267,17 +320,14 @@ class Watch:
                 self._note(each, each.advance(time), time)
                 if not each.robots:
                     self._look_what_matters()
-        self.late_after = min(
-            (each.due for each in self._watched if each.due is not None), default=None
-        )
+        dues = [each.due for each in self._watched if each.due is not None]
+        self.late_after = min(dues, default=NEVER)
 
-    def _note(
-        self, watched: Watched, violators: Iterable[tuple[str | None, int]], now: int
-    ) -> None:
+    def _note(self, watched: Watched, violators: Violators, now: int) -> None:
         property_ = watched.rule.property
         for robot, time in violators:
             now = min(now, time)
-            last = tuple(self._last)
+            last = tuple(map(self.open, self._last))
             self.violations.append(Violation(property_, robot, time, last))
         if self._told is not None and watched.state != watched.told:
             watched.told = watched.state
@@ -286,3 +336,7 @@ class Watch:
     def _look_whether_to_stop(self) -> None:
         if self._stops and any(each.property.chance is None for each in self.violations):
             raise ViolatedError
+
+
+def _itself(line: Any) -> Any:
+    return line

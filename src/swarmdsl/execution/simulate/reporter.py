@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Container, Iterable
+from functools import partial
+from typing import Any, cast
 
 from swarmdsl.execution.engine import (
     NO_ENVELOPE,
@@ -13,186 +15,189 @@ from swarmdsl.execution.engine import (
     Run,
     State,
 )
-from swarmdsl.execution.monitor import Kind, Watch
+from swarmdsl.execution.monitor import Watch
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.statistics import Life
-from swarmdsl.execution.simulate.trace import Line, ReportingObserver, Trace
+from swarmdsl.execution.simulate.trace import Audience, Line, ReportingLife, Trace
 
 
 def observe(trace: Trace, watch: Watch, clock: Clock) -> None:
     """Let reporters observe all instances, for monitors that are the only listener of a run."""
     for instance, life in trace.lives.items():
-        kind = watch.plan.kind(life.actor)
-        trace.reporters[instance] = Reporter(life, kind, watch, clock, trace)
+        trace.lives[instance] = Reporter(life, watch, clock, trace)
+    trace.spread = partial(spread, trace, watch)
+    watch.open = Note
+
+
+def spread(
+    trace: Trace, watch: Watch, event: Event, sender: Robot, audience: Iterable[Audience]
+) -> None:
+    """Let the instances of other robots process an event, which may be one of millions."""
+    name = event.name
+    for robot, lives in audience:
+        if robot is sender:
+            continue
+        for life in cast("list[Reporter]", lives):
+            instance = life.instance
+            if instance.running:
+                life.arrives()
+                life.arrived = event
+                trace.reporting = life
+                instance.receive(event)
+                # If none of this is so, it ends when the next one begins.
+                if life.noted or watch.happened or name in life.wakes:
+                    trace.flush()
+
+
+Record = tuple[int, Actor, "str | None", object, Envelope, "list[Noted]", "Place"]
+"""Parts of a note."""
+Place = str | Configuration
+"""Configuration of an instance or, at its end, its final state."""
+Noted = State | Run | tuple[str, object]
+"""State that was entered, run that was started, or the name of a field of a line with its value."""
+IGNORED, DEFERRED, RECALLED = (("ignored", True), ("deferred", True), ("recalled", True))
+
+
+class _Everything:
+    """Container of all names."""
+
+    def __contains__(self, name: object) -> bool:
+        return True
+
+
+EVERYTHING = _Everything()
 
 
 class Note:
     """Line of a trace, without exited states, that is made when somebody asks for more of it.
 
-    `noted` is what the instance has done, as fields of a line with their values; `place` is its
-    configuration or, at its end, its final state.
+    `noted` is what the instance has done.
     """
 
     __slots__ = (
         "_line",
+        "_place",
         "actor",
         "data",
         "envelope",
         "event",
-        "messages",
         "noted",
-        "place",
         "time",
     )
 
-    def __init__(
-        self,
-        time: int,
-        actor: Actor,
-        event: str | None,
-        data: object,
-        envelope: Envelope,
-        messages: list[object],
-        noted: list[tuple[str, object]],
-        place: str | Configuration,
-    ) -> None:
-        self.time = time
-        self.actor = actor
-        self.event = event
-        self.data = data
-        self.envelope = envelope
-        self.messages = messages
-        self.noted = noted
-        self.place = place
+    def __init__(self, record: Record) -> None:
+        self.time, self.actor, self.event, self.data, self.envelope = record[:5]
+        self.noted, self._place = record[5:]
         self._line: Line | None = None
 
     @property
     def deferred(self) -> bool:
         """True if the event is kept for later."""
-        return ("deferred", True) in self.noted
+        return DEFERRED in self.noted
 
     @property
     def recalled(self) -> bool:
         """True if the event has been kept before."""
-        return ("recalled", True) in self.noted
+        return RECALLED in self.noted
 
     def __getattr__(self, field: str) -> Any:
         """Return another field of the line."""
         if self._line is None:
             line = Line(self.time, self.actor, self.event, envelope=self.envelope)
-            line.configuration = innermost(self.place)
-            line.data, line.messages = self.data, self.messages
-            for name, value in self.noted:
-                if value is True:
-                    setattr(line, name, value)
+            line.configuration = innermost(self._place)
+            line.data = self.data
+            for each in self.noted:
+                if isinstance(each, State):
+                    line.entered.append(each.id)
+                elif isinstance(each, Run):
+                    line.started.append(each.activity.name)
+                elif each in (IGNORED, DEFERRED, RECALLED):
+                    setattr(line, each[0], True)
                 else:
-                    getattr(line, name).append(value)
+                    getattr(line, each[0]).append(each[1])
             self._line = line
         return getattr(self._line, field)
 
 
-def innermost(place: str | Configuration) -> list[str]:
+def innermost(place: Place) -> list[str]:
     """Return the innermost states of a configuration, or the final state."""
     return [place] if isinstance(place, str) else place.innermost
 
 
-class Reporter(ReportingObserver):
-    """Observer of an instance that notes what it does, and makes a line only where it matters.
+class Reporter(ReportingLife):
+    """Statistics of an instance that note what it does, and pass on what matters to monitors.
 
-    The statistics of the instance see all of it. `noted` is what it has done since its last event
-    arrived, as fields of a line with their values.
+    `noted` is what it has done since its last event arrived.
     """
 
     __slots__ = (
         "_cancels",
-        "_clock",
+        "_conditional",
+        "_from_outside",
+        "_from_robots",
         "_happening",
-        "_holding",
+        "_is_odd",
         "_kind",
-        "_life",
         "_places",
         "_sends",
         "_starts",
         "_trace",
         "_values",
         "_watch",
-        "data",
-        "envelope",
-        "event",
-        "exited",
-        "heard",
-        "messages",
         "noted",
-        "taken",
+        "wakes",
     )
 
-    def __init__(self, life: Life, kind: Kind, watch: Watch, clock: Clock, trace: Trace) -> None:
-        self._life, self._watch, self._clock, self._trace = life, watch, clock, trace
-        self._kind = kind
+    def __init__(self, life: Life, watch: Watch, clock: Clock, trace: Trace) -> None:
+        super().__init__(life.instance, life.actor, clock, trace.statistics)
+        self._watch, self._trace = watch, trace
+        kind = self._kind = watch.plan.kind(life.actor)
         self._places = kind.places
         self._starts, self._cancels = kind.acts["starts"], kind.acts["cancels"]
         self._sends = kind.acts["sends"]
-        self._holding = self._happening = 0
-        self.heard = kind.heard
+        self._happening = 0
+        self._from_outside, self._from_robots = kind.from_outside, kind.from_robots
+        self.wakes: Container[str] = EVERYTHING if kind.values else kind.acts["hears"]
+        """Events that can change a fact, even if the instance does nothing."""
+        self._is_odd = False
+        """True if the event is kept, or has been."""
         self._values = kind.values
-        self.event: str | None = None
-        self.data: object = None
-        self.envelope = NO_ENVELOPE
-        self.noted: list[tuple[str, object]] = []
-        self.messages: list[object] = []
-        """Messages of the events in `noted` that were sent."""
-        # Nobody asks for these: they need no call more than that of the statistics.
-        self.taken = life.taken  # type: ignore[method-assign]
-        self.exited = life.exited  # type: ignore[method-assign]
-
-    def receive(self, event: Event) -> None:
-        """Let the instance process an event from others, which may be one of millions."""
-        life, name = self._life, event.name
-        life.arrives()
-        self.event, self.data, self.envelope = name, event.data, event.envelope
-        self._trace.reporting = self
-        life.instance.receive(event)
-        # If none of this is so, it ends when the next one begins.
-        if self.noted or name in self.heard or self._values or self._watch.happened:
-            self._trace.flush()
-
-    def begin(self, event: str | None, data: object, envelope: Envelope) -> None:
-        """Begin with an event from outside, or with the start of the instance."""
-        self.event, self.data, self.envelope = event, data, envelope
+        self._conditional = kind.conditional
+        self.arrived, self.begun = None, (None, None, NO_ENVELOPE)
+        self.noted: list[Noted] = []
 
     def end(self) -> None:
-        """End the macrostep: pass a line to the monitors if it can change a fact."""
-        watch, instance, happening = self._watch, self._life.instance, self._happening
+        """End the macrostep: pass it to the monitors."""
+        instance, noted, arrived = self.instance, self.noted, self.arrived
+        if arrived is None:
+            event, data, envelope = self.begun
+        else:
+            event, data, envelope = arrived.name, arrived.data, arrived.envelope
         place = instance.final or instance.configuration
-        holding = self._places.get(place)
-        if holding is None:
-            holding = self._places[place] = self._kind.inside(innermost(place))
-        heard = self.heard.get(self.event, self._values)
-        different = holding ^ self._holding | happening | heard
-        self._holding = holding
-        if different & watch.wanted or watch.happened:
-            note = Note(
-                self._clock.now,
-                self._life.actor,
-                self.event,
-                self.data,
-                self.envelope,
-                self.messages,
-                self.noted,
-                place,
-            )
-            self.noted, self.messages, self._happening = [], [], 0
-            holding |= happening
-            if heard or happening & self._kind.conditional:
-                holding = self._kind.complete(note, watch.has, holding)
-            watch.see(note, holding)
-            return
-        self._happening = 0
-        if watch.late_after is not None and self._clock.now > watch.late_after:
-            watch.advance(self._clock.now)
-        self.noted.clear()
-        self.messages.clear()
+        facts = self._places.get(place)
+        if facts is None:
+            facts = self._places[place] = self._kind.inside(innermost(place))
+        if self._is_odd:
+            facts |= self._arriving(event, envelope)
+        elif envelope.sender:
+            facts |= self._from_robots.get(event, self._values)
+        else:
+            facts |= self._from_outside.get(event, self._values)
+        facts |= self._happening
+        now = self._clock.now
+        record = (now, self.actor, event, data, envelope, noted, place)
+        if facts & self._conditional:
+            facts = self._kind.under_conditions(Note(record), self._watch.has, facts)
+        self.noted, self._happening = [], 0
+        self._watch.take(now, self.actor, event, facts, record)
+
+    def _arriving(self, event: str | None, envelope: Envelope) -> int:
+        """Return the facts about an event that is kept, or has been."""
+        self._is_odd, noted = False, self.noted
+        sender = envelope.sender
+        return self._kind.arriving(event, sender, DEFERRED in noted, RECALLED in noted)
 
     # ---- called by the instance
 
@@ -202,28 +207,30 @@ class Reporter(ReportingObserver):
             trace = self._trace
             if trace.reporting is not None:
                 trace.flush()
-            self._life.arrives()
-            self.event, self.data, self.envelope = event.name, event.data, NO_ENVELOPE
+            self.arrives()
+            self.arrived = event
             trace.reporting = self
 
     def ignored(self, instance: InstanceLike, event: Event) -> None:
         """Note it."""
-        self._life.ignored(instance, event)
-        self.noted.append(("ignored", True))
+        Life.ignored(self, instance, event)
+        self.noted.append(IGNORED)
 
     def deferred(self, instance: InstanceLike, event: Event) -> None:
         """Note it."""
-        self.noted.append(("deferred", True))
+        self.noted.append(DEFERRED)
+        self._is_odd = True
 
     def dropped(self, instance: InstanceLike, event: Event) -> None:
         """Note it."""
-        self._life.dropped(instance, event)
+        Life.dropped(self, instance, event)
         self.noted.append(("dropped", event.name))
 
     def recalled(self, instance: InstanceLike, event: Event) -> None:
         """Begin with the event."""
         self._trace.begin(instance, event.name, event.data, event.envelope)
-        self.noted.append(("recalled", True))
+        self.noted.append(RECALLED)
+        self._is_odd = True
 
     def scheduled(self, instance: InstanceLike, event: Event, delay: int) -> None:
         """Note it."""
@@ -235,15 +242,17 @@ class Reporter(ReportingObserver):
 
     def entered(self, instance: InstanceLike, state: State) -> None:
         """Note it."""
-        self._life.entered(instance, state)
-        self.noted.append(("entered", state.id))
+        # As in `Life`, without a call for each of what may be millions.
+        self.since = self._entries[state.id] = self._clock.now
+        self._counted.entered[state.id] += 1
+        self.noted.append(state)
 
     def started(self, instance: InstanceLike, run: Run) -> None:
         """Note it."""
-        self._life.started(instance, run)
-        name = run.activity.name
-        self.noted.append(("started", name))
-        self._happening |= self._starts.get(name, 0)
+        self._whole.called[run.activity.name] += 1
+        self.noted.append(run)
+        if self._starts:
+            self._happening |= self._starts.get(run.activity.name, 0)
 
     def cancelled(self, instance: InstanceLike, run: Run) -> None:
         """Note it."""
@@ -253,12 +262,12 @@ class Reporter(ReportingObserver):
 
     def sent(self, instance: InstanceLike, event: Event) -> None:
         """Note it."""
-        self._life.sent(instance, event)
+        Life.sent(self, instance, event)
         self.noted += (("sent", event.name), ("addresses", event.envelope.to))
-        self.messages.append(event.data)
+        self.noted.append(("messages", event.data))
         self._happening |= self._sends.get(event.name, 0)
 
     def reaches_nobody(self) -> None:
         """Note that no other robot has the address of the last sent event."""
-        number = sum(field == "sent" for field, _ in self.noted) - 1
-        self.noted.append(("nobody", number))
+        sent = [each for each in self.noted if type(each) is tuple and each[0] == "sent"]
+        self.noted.append(("nobody", len(sent) - 1))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.base.records import dataclass, field
@@ -66,19 +66,22 @@ class Line:
     at: Place | None = None
 
 
-class ReportingObserver(Observer):
-    """Observer of one instance that makes lines of its own."""
+Audience = tuple[Robot, list[Life]]
+"""Robot with the instances that listen to an event."""
 
-    __slots__ = ()
 
-    def begin(self, event: str | None, data: Any, envelope: Envelope) -> None:
-        """Begin with an event from outside."""
+class ReportingLife(Life):
+    """Statistics of one instance that also make lines of their own."""
+
+    __slots__ = ("arrived", "begun")
+
+    arrived: Event | None
+    """Event that it processes, if `begun` has nothing newer."""
+    begun: tuple[str | None, Any, Envelope]
+    """Name, data and envelope of an event, or None for the start."""
 
     def end(self) -> None:
         """End the macrostep."""
-
-    def receive(self, event: Event) -> None:
-        """Let the instance process an event from others."""
 
     def reaches_nobody(self) -> None:
         """Note that no other robot has the address of the last sent event."""
@@ -87,7 +90,7 @@ class ReportingObserver(Observer):
 class Trace(Observer):
     """Build trace lines, and pass each to the listeners after the macrostep.
 
-    Without listeners, instances are observed by their statistics alone, or by reporters, which
+    Without listeners, instances are observed by their statistics alone. With reporters, these also
     make lines of what matters to the monitors.
     """
 
@@ -103,9 +106,10 @@ class Trace(Observer):
         self._clock = clock
         self._listeners = listeners
         self._line: Line | None = None
-        self.reporters: dict[InstanceLike, ReportingObserver] = {}
-        self.reporting: ReportingObserver | None = None
+        self.reporting: ReportingLife | None = None
         """Reporter of the instance that processes an event."""
+        self.spread: Callable[[Event, Robot, Iterable[Audience]], None] | None = None
+        """Let other robots with reporters process an event; None if there are no reporters."""
 
     def watch(self, instance: Instance, actor: Actor) -> None:
         """Observe an instance."""
@@ -116,15 +120,13 @@ class Trace(Observer):
         """Observe the instance of a machine that starts anew instead of the one before."""
         life = self.lives[by] = self.lives.pop(instance)
         life.revive(by)
-        if self.reporters:
-            self.reporters[by] = self.reporters.pop(instance)
-        by.observer = self if self.is_heard else self.reporters.get(by, life)
+        by.observer = self if self.is_heard else life
 
     def attach(self) -> None:
         """Begin the trace; there are no more listeners or reporters to come."""
         if not self.is_heard:
-            for instance, life in self.lives.items():
-                life.instance.observer = self.reporters.get(instance, life)
+            for life in self.lives.values():
+                life.instance.observer = life
 
     @property
     def is_heard(self) -> bool:
@@ -147,9 +149,10 @@ class Trace(Observer):
         life.arrives()
         if self.is_heard:
             self._line = Line(self._clock.now, life.actor, event, data=data, envelope=envelope)
-        elif self.reporters:
-            self.reporting = self.reporters[instance]
-            self.reporting.begin(event, data, envelope)
+        elif self.spread is not None:
+            assert isinstance(life, ReportingLife)
+            self.reporting = life
+            life.arrived, life.begun = None, (event, data, envelope)
 
     @property
     def actor(self) -> Actor:

@@ -32,8 +32,7 @@ from swarmdsl.execution.simulate.scenario import (
 )
 from swarmdsl.execution.simulate.scenario_schedule import schedule
 from swarmdsl.execution.simulate.space import ABSTRACT, Space
-from swarmdsl.execution.simulate.statistics import Life
-from swarmdsl.execution.simulate.trace import Line, Trace
+from swarmdsl.execution.simulate.trace import Audience, Line, Trace
 from swarmdsl.ir import Event as Declared
 from swarmdsl.ir import Heartbeat, System
 
@@ -86,7 +85,7 @@ class World:
             space,
         )
         self._listeners: dict[tuple[str, str | None], list[Actor]] = {}
-        self._audiences: dict[str, list[tuple[Robot, list[Life]]]] = {}
+        self._audiences: dict[str, list[Audience]] = {}
         """Robots that listen to an event, with the instances that do."""
         self._on_topic: dict[str, tuple[list[Declared], list[str]]] = {}
         self._returning = 0
@@ -248,16 +247,18 @@ class World:
         audience = self._audience(event.name)
         others = len(audience) - any(other is robot for other, _ in audience)
         self.network.delivered[event.name] += others
-        heard, reporters = self.trace.is_heard, self.trace.reporters
+        heard = self.trace.is_heard
+        spread = None if heard else self.trace.spread
 
         def arrive() -> None:
+            if spread is not None:
+                spread(event, robot, audience)
+                return
             for other, lives in audience:
                 for life in lives if other is not robot else ():
                     instance = life.instance
                     if heard:
                         self._receive(instance, event)
-                    elif instance.running and reporters:
-                        reporters[instance].receive(event)
                     elif instance.running:
                         # As there, without a call for each of what may be millions.
                         life.arrives()
@@ -266,7 +267,7 @@ class World:
         if others:
             self.clock.schedule(latency, arrive)
 
-    def _audience(self, event: str) -> list[tuple[Robot, list[Life]]]:
+    def _audience(self, event: str) -> list[Audience]:
         found = self._audiences.get(event)
         if found is None:
             lives = self.trace.lives
