@@ -1,4 +1,4 @@
-"""What tests lack that did not run, told in one line at the end."""
+"""Tools that tests which did not run lack, told in one line at the end."""
 
 from __future__ import annotations
 

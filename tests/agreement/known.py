@@ -16,7 +16,7 @@ PSM, QT = "python-statemachine", "QtScxml"
 
 @dataclass(frozen=True)
 class Cause:
-    """Why an engine differs: the clause it departs from, and a document that shows it."""
+    """Reason that an engine differs: the clause it departs from, and a document that shows it."""
 
     engine: str
     name: str

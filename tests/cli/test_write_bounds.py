@@ -121,7 +121,7 @@ def test_models_elsewhere(
 
 
 def test_an_import_elsewhere(project: Project, capsys: pytest.CaptureFixture[str]) -> None:
-    """What a model imports is changed in the project only."""
+    """Files that a model imports are changed in the project only."""
     folder = project("[project]\n")
     other = folder.parent / "elsewhere" / "other.swarm"
     other.write_bytes(UGLY)

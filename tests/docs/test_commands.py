@@ -31,7 +31,7 @@ def test_commands(page: Page, tmp_path: Path) -> None:
 
 
 def test_the_readme_after_the_demo(tmp_path: Path) -> None:
-    """What `make demo` writes is not in the way of the commands of the README."""
+    """Files of `make demo` are not in the way of the commands of the README."""
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     walk = Walk(tmp_path)
     made = (ROOT / "Makefile").read_text(encoding="utf-8").replace("\\\n", " ")

@@ -1,4 +1,4 @@
-"""What the readers of generated files get out of them, without comments."""
+"""Contents of generated files for their readers, without comments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `fmt` and `import` write is accepted again, with the same strings."""
+"""Output of `fmt` and `import` is accepted again, with the same strings."""
 
 from __future__ import annotations
 

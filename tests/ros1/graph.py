@@ -27,7 +27,7 @@ _LEFT_OUT = ("ROS_", "PYTHON", "VIRTUAL_ENV", "PYENV")
 
 
 def missing() -> str | None:
-    """Why there can be no graph here; None where there can."""
+    """Return the reason that there can be no graph here, None where there can."""
     if not PYTHON.exists():
         return f"no {PYTHON}: apt-get install python3"
     code = f"import {', '.join(_NEEDED)}"

@@ -38,7 +38,7 @@ class Tally:
 
     @property
     def lost(self) -> int:
-        """How many messages are lost, by the trace."""
+        """Return the number of messages that are lost, by the trace."""
         lines = [line for line in self.node.trace if line["event"] == "node.lost"]
         return sum(line["data"]["Noise"] for line in lines)
 

@@ -285,7 +285,7 @@ def test_a_param_needs_a_value(simulate: Simulate) -> None:
 
 
 def test_a_param_of_a_swarm_needs_a_value_of_its_role(simulate: Simulate) -> None:
-    """What the help says is what a scenario takes."""
+    """A scenario takes values in the form that the help shows."""
     text = """
       endless statemachine M { param limit : float64[]; initial A
         state A { on Start [len(limit) > 1] -> A } }

@@ -52,7 +52,7 @@ swarm Field {{
 
 @pytest.fixture
 def lines(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> Callable[..., list[str]]:
-    """What the base hears in a simulation, as `time event id`; replayed on the model."""
+    """Return the events of the base in a simulation, as `time event id`; replay them."""
 
     def lines(scenario: str, short: str = "on Go -> Full") -> list[str]:
         model, given = tmp_path / "model.swarm", tmp_path / "scenario.toml"
@@ -205,7 +205,7 @@ def test_tests_lose_robots(tmp_path, capfd):
 def test_a_partition_of_few_robots_concerns_few(
     lines: Callable[..., list[str]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Who reaches whom is asked about the robots in a group, not about each pair of all."""
+    """Reach is asked about the robots in a group, not about each pair of all."""
     asked = 0
     reaches = Network.reaches
 

@@ -41,7 +41,7 @@ Use = tuple[Feature, Span | None]
 WAYS_OUT = {
     Feature.PRESENT: "count `member_joined` and `member_lost` in a variable, or build it for ROS 2",
 }
-"""How to do without a feature that a target does not support."""
+"""Ways to do without a feature that a target does not support."""
 
 _KINDS = {
     StateKind.COMPOSITE: Feature.COMPOSITE,

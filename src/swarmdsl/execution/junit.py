@@ -19,7 +19,7 @@ _CONTROL = dict.fromkeys([*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF], "\
 
 @dataclass(frozen=True)
 class Remark:
-    """Why a case did not pass: a `failure`, an `error`, or `skipped`."""
+    """Reason that a case did not pass: a `failure`, an `error`, or `skipped`."""
 
     tag: Literal["failure", "error", "skipped"]
     message: str

@@ -23,7 +23,7 @@ _FARTHEST = 30.0
 
 
 class Gauges:
-    """What the robots of a run tell of themselves, where somebody hears it."""
+    """Messages of the robots of a run about themselves, where somebody hears them."""
 
     def __init__(self, stage: Stage, first: int, robots: Mapping[str | None, Robot]) -> None:
         self._stage = stage

@@ -22,7 +22,7 @@ FRAME = "map"
 
 @dataclass(frozen=True)
 class Facts:
-    """What a message can say; None and an empty `id` are left out."""
+    """Contents of a message; None and an empty `id` are left out."""
 
     now: int
     place: Place | None = None

@@ -20,7 +20,7 @@ _DISTANCE, _ANGLE = key("sees", "distance"), key("sees", "angle")
 
 
 class Sighting(NamedTuple):
-    """What a sensor tells: the robot, its sensor, the target that it takes it for, and where."""
+    """Report of a sensor: the robot, its sensor, the target that it takes it for, and where."""
 
     row: int
     eye: int

@@ -60,7 +60,7 @@ class Use:
 
 @dataclass(frozen=True)
 class Setting:
-    """What is the same in all runs of a space."""
+    """Data that all runs of a space share."""
 
     layout: Layout
     system: System

@@ -23,7 +23,7 @@ seconds, a place is a tuple of three coordinates."""
 
 
 class Finding(NamedTuple):
-    """What a function has found: written to the fields of its result that look like it."""
+    """Findings of a function, written to the fields of its result that look like them."""
 
     place: Place | None = None
     heading: tuple[float, float] | None = None
