@@ -23,11 +23,13 @@ from .imports import WIDTH, Imports
 from .launch import Launch, launches
 from .machine import Row, Table
 from .module import BOTH, STEP, Function, Module
-from .monitors import Entry, WatchedSwarm, conditions, heard_or_sent, watched_swarms
+from .monitor_source import Entry
+from .monitors import WatchedSwarm, watched_swarms
 from .names import NAMES
 from .options import Options
 from .params import parameters
 from .ported import ported
+from .told_conditions import conditions, heard_or_sent
 from .topics import topics
 
 
