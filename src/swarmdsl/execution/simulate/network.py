@@ -7,14 +7,16 @@ event for a robot out of reach waits for it if it is reliable, and is lost if it
 from __future__ import annotations
 
 from collections import Counter, deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from random import Random
 
-from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import Event
-from swarmdsl.execution.simulate.clock import Alarm, Clock
+from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.deadlines import Deadlines
 from swarmdsl.execution.simulate.durations import MILLISECOND, Fixed
+from swarmdsl.execution.simulate.held_events import HeldEvents
+from swarmdsl.execution.simulate.packets import Channel, Kept, Packet, Transmission
+from swarmdsl.execution.simulate.partitions import Groups, Partitions
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.simulate.space import ABSTRACT, Space
@@ -24,50 +26,6 @@ from swarmdsl.ir import Event as Declared
 RETRY = 100 * MILLISECOND
 """Time after which a reliable event that did not arrive is sent again."""
 _PLAIN = Delivery()
-
-Groups = Sequence[tuple[str, ...]]
-"""Groups of robots, each by the words that select them, that do not reach one another."""
-_Partition = tuple[Groups, dict[str | None, int]]
-"""Groups, and the number of its group for each robot in one, by its name."""
-
-
-@dataclass(frozen=True)
-class Transmission:
-    """Swarm event in transit between two robots; `arrives` is False if it is lost."""
-
-    event: str
-    source: Robot
-    target: Robot
-    sent: int
-    due: int
-    arrives: bool
-    to: str | None = None
-    """Address, None for all others."""
-
-
-@dataclass(eq=False)
-class _Packet:
-    """A reliable event: `ready` on its way, `landed` when it waits for earlier ones there."""
-
-    event: Event
-    declared: Declared
-    source: Robot
-    target: Robot
-    sent: int
-    chance: Random
-    attempts: int = 0
-    ready: bool = False
-    landed: bool = False
-    alarm: Alarm | None = None
-
-
-@dataclass(eq=False)
-class _Kept:
-    """An event that a sender keeps for robots that come later, and those that it has reached."""
-
-    event: Event
-    sent: int
-    reached: set[Robot] = field(default_factory=set)
 
 
 class Network:
@@ -106,16 +64,14 @@ class Network:
         self._listens = listens
         self._tell_late = late
         self._transmissions: Counter[tuple[str | None, str | None]] = Counter()
-        self._last_arrival: dict[tuple[Robot, Robot, str], int] = {}
+        self._last_arrival: dict[Channel, int] = {}
         """Time at which the last event on a topic arrives, by sender, receiver and topic."""
-        self._partitions: list[_Partition] = []
-        self._waiting: dict[tuple[Robot, Robot, str], deque[_Packet]] = {}
+        self._partitions = Partitions()
+        self._waiting: dict[Channel, deque[Packet]] = {}
         """Reliable events by sender, receiver and topic, in the order of sending."""
-        self._latest: dict[tuple[Robot, str], tuple[Declared, deque[_Kept]]] = {}
-        self._deadlines: dict[tuple[Robot, Robot, str], Alarm] = {}
-        self._holding: set[tuple[str, str | None]] = set()
-        self._held: list[_Packet] = []
-        """Events that arrive or are lost when told so, in the order of sending."""
+        self._latest: dict[tuple[Robot, str], tuple[Declared, deque[Kept]]] = {}
+        self._deadlines = Deadlines(clock, self._miss)
+        self._held = HeldEvents()
 
     @property
     def waiting(self) -> Counter[str]:
@@ -126,7 +82,7 @@ class Network:
     @property
     def latency(self) -> int | None:
         """Latency of all events, if at present it is the same and none is lost."""
-        troubled = self._scenario.loss or self.gone or self._partitions or self._holding
+        troubled = self._scenario.loss or self.gone or self._partitions.active or self._held.names
         troubled = troubled or self._space.has_radio
         latency = self._scenario.latency
         if troubled or self.transmitted is not None or not isinstance(latency, Fixed):
@@ -137,10 +93,8 @@ class Network:
         """Return True if two robots are there, no partition is between them, and radio reaches."""
         if self.gone and (one in self.gone or other in self.gone):
             return False
-        for _, parted in self._partitions:
-            mine, yours = parted.get(one.name), parted.get(other.name)
-            if mine is not None and yours is not None and mine != yours:
-                return False
+        if self._partitions.active and self._partitions.separate(one, other):
+            return False
         return self._space.reaches(one, other)
 
     def send(
@@ -150,7 +104,7 @@ class Network:
         delivery = declared.delivery or _PLAIN
         kept = None
         if delivery.latest:
-            kept = _Kept(event, self._clock.now)
+            kept = Kept(event, self._clock.now)
             _, history = self._latest.setdefault(
                 (source, declared.name), (declared, deque(maxlen=delivery.keep or 1))
             )
@@ -161,20 +115,16 @@ class Network:
 
     def part(self, groups: Groups, robots: Iterable[Robot]) -> list[Robot]:
         """Begin a partition; return the robots in its groups."""
-        found = [(robot, _group(robot, groups)) for robot in robots]
-        parted = {robot.name: group for robot, group in found if group is not None}
-        self._partitions.append((groups, parted))
-        return [robot for robot, group in found if group is not None]
+        return self._partitions.begin(groups, robots)
 
     def heal(self, groups: Groups, robots: Iterable[Robot]) -> list[Robot]:
         """End a partition, and return the robots in its groups.
 
         What waits for a robot in reach is sent again.
         """
-        partition = next(each for each in self._partitions if each[0] == groups)
-        parted = [robot for robot in robots if robot.name in partition[1]]
+        parted = self._partitions.members(groups, robots)
         apart = [(a, b) for a in parted for b in parted if a is not b and not self.reaches(a, b)]
-        self._partitions.remove(partition)
+        self._partitions.end(groups)
         for source, target in apart:
             if self.reaches(source, target):
                 self.meet(source, target)
@@ -182,13 +132,11 @@ class Network:
 
     def hold(self, event: str, target: str | None) -> None:
         """Let events on their way to a robot wait, until they are told to arrive."""
-        self._holding.add((event, target))
+        self._held.names.add((event, target))
 
     def release(self, event: str, target: str | None) -> None:
         """Let events arrive by themselves again; those that have waited arrive now."""
-        self._holding.remove((event, target))
-        for packet in [each for each in self._held if _is_of(each, event, target)]:
-            self._held.remove(packet)
+        for packet in self._held.release(event, target):
             self._clock.schedule(0, partial(self._arrive, packet))
 
     def take(
@@ -199,19 +147,9 @@ class Network:
         With a `source`, it is that of this robot. Return the reason if there is none, or if an
         earlier event of the same channel waits.
         """
-        waiting = [each for each in self._held if _is_of(each, event, target)]
-        packet = next((p for p in waiting if source in (None, p.source.name)), None)
-        if packet is None:
-            return "it is not on its way"
-        channel = (packet.source, packet.target, packet.declared.topic)
-        first = next(
-            each
-            for each in self._held
-            if (each.source, each.target, each.declared.topic) == channel
-        )
-        if arrives and first is not packet:
-            return f"`{first.event.name}` of the same sender arrives before it"
-        self._held.remove(packet)
+        packet = self._held.take(event, target, source, arrives=arrives)
+        if isinstance(packet, str):
+            return packet
         if arrives:
             self._arrive(packet)
         else:
@@ -221,8 +159,7 @@ class Network:
     def leave(self, robot: Robot) -> None:
         """Remove a robot; what it has sent and what waits for it is lost."""
         self.gone.add(robot)
-        for packet in [each for each in self._held if each.target is robot]:
-            self._held.remove(packet)
+        for packet in self._held.leave(robot):
             self.lost[packet.event.name] += 1
         for (source, target, _), packets in self._waiting.items():
             if robot in (source, target):
@@ -235,10 +172,7 @@ class Network:
             else:
                 for kept in self._latest[source, name][1]:
                     kept.reached.discard(robot)
-        for (source, target, name), alarm in list(self._deadlines.items()):
-            if robot in (source, target):
-                self._clock.unschedule(alarm)
-                del self._deadlines[source, target, name]
+        self._deadlines.leave(robot)
 
     def join(self, robot: Robot, robots: Iterable[Robot]) -> None:
         """Add a robot that comes back; it gets the latest events."""
@@ -263,13 +197,13 @@ class Network:
         source: Robot,
         target: Robot,
         sent: int,
-        kept: _Kept | None,
+        kept: Kept | None,
     ) -> None:
         self._transmissions[source.name, target.name] += 1
         count = self._transmissions[source.name, target.name]
         chance = self._chance.stream(source.name, "to", target.name, count)
-        if (event.name, target.name) in self._holding:
-            self._held.append(_Packet(event, declared, source, target, sent, chance))
+        if (event.name, target.name) in self._held.names:
+            self._held.add(Packet(event, declared, source, target, sent, chance))
             if kept is not None:
                 kept.reached.add(target)
             return
@@ -277,7 +211,7 @@ class Network:
             if target in self.gone:
                 self._lose(event, source, target, sent)
                 return
-            packet = _Packet(event, declared, source, target, sent, chance)
+            packet = Packet(event, declared, source, target, sent, chance)
             self._queue(packet)
             if kept is not None:
                 kept.reached.add(target)
@@ -298,13 +232,12 @@ class Network:
             self.delivered[event.name] += 1
             self._clock.schedule(due - now, lambda: self._deliver(event, target))
         else:
-            packet = _Packet(event, declared, source, target, sent, chance)
+            packet = Packet(event, declared, source, target, sent, chance)
             self._clock.schedule(due - now, lambda: self._arrive(packet))
 
-    def _queue(self, packet: _Packet) -> None:
+    def _queue(self, packet: Packet) -> None:
         """Let an event wait behind the earlier ones; of too many, the oldest is dropped."""
-        channel = (packet.source, packet.target, packet.declared.topic)
-        packets = self._waiting.setdefault(channel, deque())
+        packets = self._waiting.setdefault(packet.channel, deque())
         packets.append(packet)
         delivery = packet.declared.delivery
         if delivery is None or delivery.keep is None or self.reaches(packet.source, packet.target):
@@ -314,7 +247,7 @@ class Network:
             self._give_up(own[0])
             self._lose(own[0].event, packet.source, packet.target, own[0].sent)
 
-    def _attempt(self, packet: _Packet) -> None:
+    def _attempt(self, packet: Packet) -> None:
         """Send a reliable event, unless its receiver is out of reach or it is too old."""
         packet.alarm = None
         if not self.reaches(packet.source, packet.target):
@@ -334,18 +267,17 @@ class Network:
         self._clock.schedule(due - now, lambda: self._land(packet))
         self._tell(packet.event, packet.source, packet.target, packet.sent, due, arrives=True)
 
-    def _land(self, packet: _Packet) -> None:
+    def _land(self, packet: Packet) -> None:
         """Deliver an event that has reached its receiver, and those that it held up."""
         packet.landed = True
-        channel = (packet.source, packet.target, packet.declared.topic)
-        self._deliver_next(channel)
+        self._deliver_next(packet.channel)
 
-    def _deliver_next(self, channel: tuple[Robot, Robot, str]) -> None:
+    def _deliver_next(self, channel: Channel) -> None:
         packets = self._waiting[channel]
         while packets and packets[0].landed:
             self._arrive(packets.popleft())
 
-    def _arrive(self, packet: _Packet) -> None:
+    def _arrive(self, packet: Packet) -> None:
         name, target = packet.event.name, packet.target
         if target in self.gone:
             self.lost[name] += 1
@@ -353,27 +285,26 @@ class Network:
             self.expired[name] += 1
         else:
             self.delivered[name] += 1
-            self._watch(packet)
+            self._deadlines.arrived(packet)
             self._deliver(packet.event, target)
 
-    def _is_old(self, packet: _Packet) -> bool:
+    def _is_old(self, packet: Packet) -> bool:
         lifespan = packet.declared.delivery.lifespan if packet.declared.delivery else None
         return lifespan is not None and self._clock.now - packet.sent > lifespan
 
-    def _expire(self, packet: _Packet) -> None:
+    def _expire(self, packet: Packet) -> None:
         self.expired[packet.event.name] += 1
         self._give_up(packet)
         self._tell(
             packet.event, packet.source, packet.target, packet.sent, self._clock.now, arrives=False
         )
 
-    def _give_up(self, packet: _Packet) -> None:
+    def _give_up(self, packet: Packet) -> None:
         """Remove an event that no longer waits; it holds up no other."""
         if packet.alarm is not None:
             self._clock.unschedule(packet.alarm)
-        channel = (packet.source, packet.target, packet.declared.topic)
-        self._waiting[channel].remove(packet)
-        self._clock.schedule(0, lambda: self._deliver_next(channel))
+        self._waiting[packet.channel].remove(packet)
+        self._clock.schedule(0, lambda: self._deliver_next(packet.channel))
 
     def meet(self, source: Robot, target: Robot) -> None:
         """Send what waits for a robot that is in reach again, and the latest events."""
@@ -384,7 +315,7 @@ class Network:
         for declared, event, kept in list(self._missed(source, target)):
             self._transmit(event, declared, source, target, kept.sent, kept)
 
-    def _missed(self, source: Robot, target: Robot) -> Iterator[tuple[Declared, Event, _Kept]]:
+    def _missed(self, source: Robot, target: Robot) -> Iterator[tuple[Declared, Event, Kept]]:
         """Yield the latest events of a robot that have not reached another one."""
         for (sender, name), (declared, history) in self._latest.items():
             if sender is source and self._listens(name, target):
@@ -393,22 +324,9 @@ class Network:
                     if meant and target not in kept.reached:
                         yield declared, kept.event, kept
 
-    def _watch(self, packet: _Packet) -> None:
-        """Expect the next event of a sender within its deadline."""
-        deadline = packet.declared.delivery.deadline if packet.declared.delivery else None
-        if deadline is None:
-            return
-        source, target, name = packet.source, packet.target, packet.event.name
-        before = self._deadlines.pop((source, target, name), None)
-        if before is not None:
-            self._clock.unschedule(before)
-
-        def miss() -> None:
-            del self._deadlines[source, target, name]
-            self.late[name] += 1
-            self._tell_late(name, target)
-
-        self._deadlines[source, target, name] = self._clock.schedule(deadline, miss)
+    def _miss(self, name: str, target: Robot) -> None:
+        self.late[name] += 1
+        self._tell_late(name, target)
 
     def _lose(
         self, event: Event, source: Robot, target: Robot, sent: int, due: int | None = None
@@ -423,16 +341,3 @@ class Network:
         if self.transmitted is not None:
             to = event.envelope.to
             self.transmitted(Transmission(event.name, source, target, sent, due, arrives, to))
-
-
-def _is_of(packet: _Packet, event: str, target: str | None) -> bool:
-    return packet.event.name == event and packet.target.name == target
-
-
-def _group(robot: Robot, groups: Groups) -> int | None:
-    """Return the group of a robot, by the most specific word that selects it."""
-    for word in reversed(robot.words):
-        for number, words in enumerate(groups):
-            if word in words:
-                return number
-    return None

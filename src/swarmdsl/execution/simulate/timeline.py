@@ -10,7 +10,7 @@ from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
-from swarmdsl.execution.simulate.network import Transmission
+from swarmdsl.execution.simulate.packets import Transmission
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.svg import Drawing
 from swarmdsl.execution.simulate.trace import Line
