@@ -15,7 +15,7 @@ _CPP = "-Wall -Wextra -Werror"
 
 
 def missing_of_catkin() -> str | None:
-    """Why catkin cannot build C++ here; None where it can."""
+    """Return the reason that catkin cannot build C++ here, None where it can."""
     missing = next((path for path in _NEEDED if not Path(path).exists()), None)
     if missing is None:
         return None
@@ -25,7 +25,7 @@ def missing_of_catkin() -> str | None:
     )
 
 
-def make(graph: Any, folder: Path, optimisation: str, *targets: str) -> None:
+def make(graph: Any, folder: Path, *targets: str, optimisation: str = "-O2") -> None:
     """Build targets of a workspace; it has to succeed."""
     command = [
         *("catkin_make", "-C", str(folder), "-l99", "-DPYTHON_EXECUTABLE=/usr/bin/python3"),

@@ -93,7 +93,7 @@ def workspace(graph: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
         depends = "".join(f"<depend>{each}</depend>\n" for each in needs.split())
         text = PACKAGE.format(name=name, depends=depends)
         (source / name / "package.xml").write_text(text, encoding="utf-8")
-    make(graph, folder, "-O0")
+    make(graph, folder, optimisation="-O0")
     return folder
 
 
