@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
@@ -12,7 +11,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import suggest
-from swarmdsl.codegen.shared.default_values import default_value, result_fields
+from swarmdsl.codegen.shared.default_values import result_fields
 from swarmdsl.execution.engine import (
     Envelope,
     Event,
@@ -29,29 +28,18 @@ from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.machine_data import first_data
 from swarmdsl.execution.simulate.members import Roster, following
+from swarmdsl.execution.simulate.robot_data import convert, with_fields
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, Trace
-from swarmdsl.execution.simulate.trace_line import NAMES, is_of_monitor, numbers, read_line
+from swarmdsl.execution.simulate.trace_line import NAMES, is_of_monitor, numbers
+from swarmdsl.execution.simulate.trace_records import Record, find_loop, read_records
 from swarmdsl.execution.simulate.world import LATE
-from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
-from swarmdsl.syntax.types import FLOATS
 
 SHUTDOWN = "node.shutdown"
 """Trace event of a machine that was stopped from outside."""
 _EARLY = 5 * MILLISECOND
 """Tolerance for the end of delays: traces have whole milliseconds."""
-
-
-@dataclass(frozen=True)
-class _Record:
-    """Line of a trace, with its span."""
-
-    time: int
-    event: str | None
-    data: Any
-    done: Mapping[str, Any]
-    place: Span
 
 
 @dataclass(frozen=True)
@@ -85,10 +73,10 @@ def replay(
     Times are since the first start. Listener `seen` gets the lines as in the model, those of one
     member after the other.
     """
-    records = list(_records(source, report))
+    records = list(read_records(source, report))
     end = max((record.time for record in records), default=0)
-    loop = _loop(records, report)
-    by_member: dict[str | None, list[_Record]] = {}
+    loop = find_loop(records, report)
+    by_member: dict[str | None, list[Record]] = {}
     for record in records:
         if not is_of_monitor(record.done):
             by_member.setdefault(record.done.get("member"), []).append(record)
@@ -110,48 +98,12 @@ def replay(
     return Replayed(followed, len(by_member), end, given - followed, loop)
 
 
-def _loop(records: Sequence[_Record], report: Diagnostics) -> int | None:
-    """Return how many lines repeat for ever, which the last one says; report another number."""
-    for number, record in enumerate(records, start=1):
-        loop = record.done.get("loop")
-        if loop is None:
-            continue
-        if number == len(records) and loop <= number:
-            return int(loop)
-        reason = "only the last line has `loop`" if loop <= number else "`loop` has too many lines"
-        report.report("bad-trace-line", record.place, reason=reason)
-    return None
-
-
 def _impersonate(actor: Actor, member: str, subject: Subject) -> None:
     """Let a machine alone be that of a robot."""
     if subject.machine is not None and subject.system is not None:
         robot = Robot.called(member)
         # The params keep their values; what variables begin with may depend on the robot.
         actor.data = first_data(subject.machine, subject.system, actor.data, robot)
-
-
-def _records(source: Source, report: Diagnostics) -> Iterator[_Record]:
-    """Yield the lines of a trace; report invalid ones.
-
-    Nodes write when they began, so that their times have a common beginning.
-    """
-    found = []
-    for start, end in zip(source.line_starts, [*source.line_starts[1:], None], strict=True):
-        place = Span(source, start, len(source.text) if end is None else end - 1)
-        if place.text.strip():
-            value = read_line(place.text)
-            if isinstance(value, dict):
-                found.append((value, place))
-            else:
-                help_ = (
-                    "`swarmc simulate --trace json` and nodes of target `ros2` write trace lines"
-                )
-                report.report("bad-trace-line", place, reason=value, help=help_)
-    zero = min((value["began"] for value, _ in found if "began" in value), default=0)
-    for value, place in found:
-        time = value["t"] + max(value.get("began", zero) - zero, 0)
-        yield _Record(time * MILLISECOND, value.get("event"), value.get("data"), value, place)
 
 
 def _report_member(
@@ -199,7 +151,7 @@ class _Replay:
         self._instance = Instance(actor.machine, self, data=actor.data, servers=Servers())
         self._trace.watch(self._instance, actor)
 
-    def replay(self, records: Sequence[_Record]) -> int:
+    def replay(self, records: Sequence[Record]) -> int:
         """Return the number of conforming records; report the first difference."""
         for number, record in enumerate(records):
             self._clock.advance(max(record.time - self._clock.now, 0))
@@ -255,7 +207,7 @@ class _Replay:
 
     # ---- internal
 
-    def _apply(self, record: _Record) -> str:
+    def _apply(self, record: Record) -> str:
         """Reproduce the event of a record; return the reason if that is impossible."""
         name, instance = record.event, self._instance
         try:
@@ -328,7 +280,7 @@ class _Replay:
     def _message(self, name: str, data: Any) -> Any:
         system = self._subject.system
         declared = next((e.type for e in system.events if e.name == name), None) if system else None
-        return _as(declared, data, system) if declared is not None and system else numbers(data)
+        return convert(declared, data, system) if declared is not None and system else numbers(data)
 
     def _result(self, run: Run, data: Any) -> Any:
         system = self._subject.system
@@ -336,10 +288,10 @@ class _Replay:
             return data
         fields = result_fields(system.function(run.activity.name).communication, system)
         if fields is not None:
-            return _with_fields(fields, data, system)
+            return with_fields(fields, data, system)
         return numbers(data) if isinstance(data, dict) else {}
 
-    def _report_difference(self, record: _Record, wrong: str) -> None:
+    def _report_difference(self, record: Record, wrong: str) -> None:
         """Report a difference, with the states of the machine."""
         machine = self._actor.machine
         origins = [machine.states[machine.numbers[state]].origin for state in self._last]
@@ -361,7 +313,7 @@ def _event_of(action: Callable[[], None]) -> str | None:
     return str(timer.event.name) if timer is not None else None
 
 
-def _difference(line: Line, record: _Record) -> str:
+def _difference(line: Line, record: Record) -> str:
     """Return the difference between a line of the model and a record, or ""."""
     if line.event != record.event:
         return f"the model first processes `{line.event}`"
@@ -378,27 +330,3 @@ def _difference(line: Line, record: _Record) -> str:
 def _list(names: Sequence[str | None]) -> str:
     words = (f"`{name}`" if name is not None else "all others" for name in names)
     return ", ".join(words) or "nothing"
-
-
-def _as(type_: Type, data: Any, system: System) -> Any:
-    """Convert data of a robot to a type of the model; unknown fields are dropped."""
-    match type_:
-        case Primitive(name=name) if name in FLOATS:
-            # Older nodes wrote `null` for numbers that JSON does not have.
-            return math.nan if data is None else numbers(data)
-        case Array(element=element) if isinstance(data, list):
-            return [_as(element, each, system) for each in data]
-    described = system.interface(type_)
-    if isinstance(described, Message):
-        return _with_fields(described.fields, data, system)
-    return default_value(type_, system) if data is None else numbers(data)
-
-
-def _with_fields(fields: Sequence[Field], data: Any, system: System) -> dict[str, Any]:
-    given = data if isinstance(data, dict) else {}
-    return {
-        field.name: _as(field.type, given[field.name], system)
-        if field.name in given
-        else default_value(field.type, system)
-        for field in fields
-    }
