@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.execution.verify.model import Options
+from swarmdsl.execution.verify.environment import Options
 
 from ..verify.random_swarms import random_swarm
 from .witnesses import Compared, compare, missing_for

@@ -16,9 +16,10 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.verify.compose import subjects
+from swarmdsl.execution.verify.environment import Options
 from swarmdsl.execution.verify.explore import Graph, explore
 from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model, Options
+from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.verdict import Verdict

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from random import Random
 
+from .random_swarms import asking
+
 _PRELUDE = """package test
 message Word { word : uint8 }
 action Try { result { ok : bool } }
@@ -20,12 +22,16 @@ _PATTERNS = (
 _SCOPES = ("", "", "", "after {p}, ", "after {p} until {q}, ")
 
 
-def random_duties(seed: int) -> str:
+def random_duties(seed: int, *, heartbeat: bool = False) -> str:
     """Return a model of two robots, or three with two states, with two sentences."""
     chance = Random(seed)
     number = chance.choice((2, 2, 2, 3))
     text = _PRELUDE + _machine(chance, "One", 2)
-    text += f"member A {{ behavior One }}\nswarm S {{ a : A[{number}] }}\n"
+    beats = ""
+    if heartbeat:
+        text = asking(text, Random(seed), _effects, _target)
+        beats = "\n heartbeat 1 s lost after 5 s\n"
+    text += f"member A {{ behavior One }}\nswarm S {{ a : A[{number}]{beats} }}\n"
     for count in range(2):
         text += f"property P{count} of S : {_sentence(chance)}\n"
     return text

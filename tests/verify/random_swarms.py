@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from random import Random
 
 _PRELUDE = """package test
@@ -34,20 +35,39 @@ _PATTERNS = (
 )
 
 
-def random_swarm(seed: int) -> str:
-    """Return a model of two or three robots, with properties."""
+def random_swarm(seed: int, *, heartbeat: bool = False) -> str:
+    """Return a model of two or three robots, with properties; some ask who is there."""
     chance = Random(seed)
     text = _PRELUDE + _machine(chance, "One")
+    members = Random(seed) if heartbeat else None
     roles = "a : A[2]"
     text += "member A { behavior One }\n"
     if chance.random() < 0.3:
         text += _machine(chance, "Two") + "member B { behavior Two }\n"
         roles = "a : A[1]\n b : B[1]\n"
+    if members is not None:
+        text = asking(text, members, _effects, _target)
+        roles += "\n heartbeat 1 s lost after 5 s\n"
     text += f"swarm S {{ {roles} }}\n"
     messages = Random(seed)
     for number in range(6):
         text += f"property P{number} of S : {_about_messages(_sentence(chance), messages)}\n"
     return text
+
+
+def asking(
+    text: str, chance: Random, effects: Callable[[Random], str], target: Callable[[Random], str]
+) -> str:
+    """Let some states react to the loss of robots, and some guards count those that are there."""
+    lines = []
+    for line in text.splitlines():
+        lines.append(line)
+        if line.startswith("  state S") and chance.random() < 0.6:
+            guard = chance.choice(("", ' [event.role == "a"]', " [present(a) < 2]"))
+            lines.append(f"    on member_lost{guard}{effects(chance)} -> {target(chance)}")
+        elif line.startswith("    on Go") and "[" not in line and chance.random() < 0.4:
+            lines[-1] = line.replace("on Go", "on Go [present() > 1]")
+    return "\n".join(lines) + "\n"
 
 
 def _about_messages(sentence: str, chance: Random) -> str:

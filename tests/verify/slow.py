@@ -15,9 +15,11 @@ from typing import Any
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.shared.default_values import default_result
 from swarmdsl.execution.engine import Envelope, Event, Instance, InstanceLike, Run, Servers
-from swarmdsl.execution.monitor import FALSE
+from swarmdsl.execution.monitor import FALSE, LOST
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.expressions import PRESENT
+from swarmdsl.execution.simulate.members import DEPARTED, Roster, following
 from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
@@ -25,6 +27,8 @@ from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.ir import Property, System
 
 Choice = tuple[Any, ...]
+_ASKING = ("eventually", "leads", "then", "again")
+"""Kinds of sentences about what must happen."""
 
 
 class Swarm:
@@ -44,8 +48,10 @@ class Swarm:
         self.delays: list[Any] = []
         self.bags: list[list[tuple[str, Any, str]]] = [[] for _ in self.cast]
         self.instances: list[Instance] = []
-        for actor in self.cast:
-            data = deepcopy(actor.data)
+        self.rosters = [Roster([each.robot for each in cast]) for _ in cast]
+        self.lost: list[str | None] = []
+        for actor, roster in zip(self.cast, self.rosters, strict=True):
+            data = {**deepcopy(actor.data), PRESENT: roster.count}
             instance = Instance(actor.machine, self, data=data, servers=Servers())
             self.trace.watch(instance, actor)
             self.instances.append(instance)
@@ -88,7 +94,7 @@ class Swarm:
             robot = self.cast[number].robot
             if number == at or not robot.is_meant_by(event.envelope.to):
                 continue
-            ended = other.final is not None
+            ended = not other.running
             if ended or not self.cast[number].listens(event.name):
                 continue
             if sum(name == event.name for name, _, _ in self.bags[number]) < self.capacity:
@@ -117,6 +123,11 @@ class Swarm:
                 for message in range(len(self.bags[number])):
                     yield ("hear", number, message)
 
+    def losses(self, faults: int) -> list[Choice]:
+        if len(self.lost) >= faults:
+            return []
+        return [("lose", n) for n, a in enumerate(self.cast) if a.robot.name not in self.lost]
+
     def pass_time(self) -> None:
         """Let time pass at a choice."""
         self.clock.now += 1
@@ -138,17 +149,37 @@ class Swarm:
             case ("hear", number, message):
                 name, data, sender = self.bags[number].pop(message)
                 self._receive(number, name, data, sender)
+            case ("lose", number):
+                self._lose(number)
             case ("drop", number, message):
                 self.bags[number].pop(message)
         self.trace.flush()
         for bag, instance in zip(self.bags, self.instances, strict=True):
-            if instance.final is not None:
+            if not instance.running:
                 bag.clear()
 
     def _receive(self, number: int, name: str, data: Any, sender: str) -> None:
         envelope = Envelope(sender)
+        if name == DEPARTED:
+            self.rosters[number].note(name, data)
         self.trace.begin(self.instances[number], name, data, envelope)
         self.instances[number].receive(Event(name, data, envelope=envelope))
+
+    def _lose(self, number: int) -> None:
+        """Stop a robot, as the world of simulations does."""
+        instance, robot = self.instances[number], self.cast[number].robot
+        self.lost.append(robot.name)
+        self.runs = [run for run in self.runs if run.instance is not instance]
+        self.delays = [d for d in self.delays if d.__self__.instance is not instance]
+        if instance.running:
+            self.trace.begin(instance, LOST)
+            instance.running = False
+            self.trace.flush()
+        follows = following(self.system)
+        for other, actor in enumerate(self.cast):
+            if other != number and actor.machine.name in follows:
+                told = {"id": robot.name, "role": robot.role}
+                self.bags[other].append((DEPARTED, told, ""))
 
     @property
     def key(self) -> tuple[str, str]:
@@ -174,27 +205,52 @@ class Swarm:
             delays = sorted(
                 d.__self__.event.name for d in self.delays if d.__self__.instance is instance
             )
-            data = {} if instance.final else instance.data
+            data = instance.data if instance.running else {}
+            data = {name: value for name, value in data.items() if name != PRESENT}
             bag = sorted(repr(each[:2]) for each in self.bags[number])
             waiting = [each.name for each in instance._deferred or ()]
             config = instance.configuration
             parts.append(
                 (config.active, config.histories, instance.final, runs, delays, bag, waiting)
             )
+            roster = self.rosters[number]
+            parts.append([each.robot.name for each in self.cast if roster.misses(each.robot)])
             parts.append(repr(sorted(data.items(), key=lambda item: item[0])))
-        return repr(parts)
+        return repr((parts, sorted(map(str, self.lost))))
 
     def violated(self, *, ended: bool) -> set[str]:
         """Properties that the run violates; with `ended`, also if nothing happens any more."""
-        found = {each.property.name for each in self.watch.violations}
+        found = {
+            each.property.name
+            for each in self.watch.violations
+            if self._counts(each.property, [each.robot])
+        }
         if ended:
             results = self.watch.results(self.clock.now, ended=True)
-            found |= {each.property.name for each in results if each.verdict == FALSE}
+            found |= {
+                each.property.name
+                for each in results
+                if each.verdict == FALSE and self._counts(each.property, each.robots)
+            }
         return found
+
+    def _counts(self, property_: Any, robots: Sequence[str | None]) -> bool:
+        """Return False if a property asks only of lost robots what must happen."""
+        if property_.each is None or property_.sentence.kind not in _ASKING:
+            return True
+        if property_.sentence.scope in ("before", "between"):
+            return True
+        return not set(robots) <= set(self.lost)
 
 
 def refuted(
-    system: System, outside: Sequence[str], capacity: int, most: int, *, lossy: bool = False
+    system: System,
+    outside: Sequence[str],
+    capacity: int,
+    most: int,
+    *,
+    lossy: bool = False,
+    faults: int = 0,
 ) -> set[str] | None:
     """Return the properties that some run violates; None if there are more than `most` states."""
     swarm = system.swarms[0]
@@ -217,15 +273,17 @@ def refuted(
         choices = list(now.choices(outside))
         if lossy:
             choices += [("drop", n, m) for n, bag in enumerate(now.bags) for m in range(len(bag))]
+        losses = now.losses(faults)
         place, memories = now.place, now.memories
         happens = False
         # Properties that see something, though nothing else changes.
         seeing: set[str] = set()
-        for choice in choices:
+        for choice in (*choices, *losses):
             after = play((*path, choice))
-            ignored = all(line.ignored for line in after.lines[len(now.lines) :])
-            happens |= not ignored or after.place != place
-            seeing |= {name for name, each in after.memories.items() if each != memories[name]}
+            if choice not in losses:
+                ignored = all(line.ignored for line in after.lines[len(now.lines) :])
+                happens |= not ignored or after.place != place
+                seeing |= {name for name, each in after.memories.items() if each != memories[name]}
             found |= after.violated(ended=False)
             if after.key not in seen:
                 seen.add(after.key)

@@ -29,8 +29,9 @@ Open = frozenset[tuple[str, str | None]]
 class _Watched(Swarm):
     """A swarm that notes at each line for whom something must still happen."""
 
-    def __init__(self, *arguments: Any) -> None:
+    def __init__(self, *arguments: Any, silent: bool) -> None:
         self.open: list[Open] = []
+        self._silent = silent
         self._built = False
         super().__init__(*arguments)
         self._built = True
@@ -48,6 +49,7 @@ class _Watched(Swarm):
             (watched.rule.property.name, robot)
             for watched in self.watch._watched
             for robot, state in watched.states.items()
+            if robot not in self.lost or robot is None
             if not state.is_violated and state.monitor.copy().finish(0, ended=True) == FALSE
         )
 
@@ -55,7 +57,9 @@ class _Watched(Swarm):
         """What is over some time, and the objects that stand for it."""
         number = {id(each): n for n, each in enumerate(self.instances)}
         found: list[tuple[Any, object]] = [
-            (("run", number[id(run.instance)], run.state), run) for run in self.runs
+            (("run", number[id(run.instance)], run.state), run)
+            for run in self.runs
+            if not self._silent
         ]
         for delay in self.delays:
             timer = delay.__self__
@@ -84,11 +88,19 @@ class _Node(NamedTuple):
 
 
 def never_happening(
-    system: System, outside: Sequence[str], capacity: int, most: int, *, lossy: bool = False
+    system: System,
+    outside: Sequence[str],
+    capacity: int,
+    most: int,
+    *,
+    lossy: bool = False,
+    faults: int = 0,
+    silent: bool = False,
 ) -> set[str] | None:
     """Return the properties that a fair run for ever violates; None with more than `most` states.
 
-    Those that a finite run violates may be among them or not.
+    Those that a finite run violates may be among them or not. With `silent`, functions may never
+    answer.
     """
     swarm = system.swarms[0]
     subject = Subject(swarm.name, system, swarm)
@@ -101,7 +113,7 @@ def never_happening(
     ]
 
     def play(path: Sequence[Choice]) -> _Watched:
-        played = _Watched(cast, about, system, capacity)
+        played = _Watched(cast, about, system, capacity, silent=silent)
         for choice in path:
             played.take(choice)
         return played
@@ -117,7 +129,7 @@ def never_happening(
         choices = list(now.choices(outside))
         if lossy:
             choices += [("drop", n, m) for n, bag in enumerate(now.bags) for m in range(len(bag))]
-        for choice in choices:
+        for choice in (*choices, *now.losses(faults)):
             after = play(path)
             before = after.running()
             lines = len(after.open)

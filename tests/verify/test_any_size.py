@@ -16,8 +16,9 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify import any_size
 from swarmdsl.execution.verify import model as models
 from swarmdsl.execution.verify.any_size import enough, prove_any
+from swarmdsl.execution.verify.environment import Options
 from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model, Options
+from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.verdict import Verdict
 from swarmdsl.ir import Property

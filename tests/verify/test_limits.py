@@ -72,4 +72,4 @@ def test_the_limit_that_ended_a_search_is_told(
     verdict = prove(property_, model, Budget(limits))
 
     assert verdict.outcome == "up to"
-    assert verdict.reason == f"the search came to its limit of {reached}"
+    assert verdict.reason.startswith(f"the search came to its limit of {reached}: ")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.execution.verify.model import Options
+from swarmdsl.execution.verify.environment import Options
 
 from .conftest import model_of, system_of, verdicts_of
 from .random_swarms import random_swarm
@@ -66,14 +66,17 @@ def compare(seed: int, path: Path) -> Counter[str]:
     return verdicts_as_in_all_runs(random_swarm(seed), path, lossy=seed % 3 == 0)
 
 
-def verdicts_as_in_all_runs(text: str, path: Path, *, lossy: bool = False) -> Counter[str]:
+def verdicts_as_in_all_runs(
+    text: str, path: Path, *, lossy: bool = False, faults: int = 0, most: int = MOST
+) -> Counter[str]:
     """Compare the verdicts on a model; return how many of each kind there are.
 
     Return none if it has too many states.
     """
     path.write_text(text, encoding="utf-8")
-    model = model_of(path, None, Options(1, lossy))
-    wanted = refuted(system_of(path), list(model.outside), 1, MOST, lossy=lossy)
+    model = model_of(path, None, Options(1, lossy, faults))
+    outside = list(model.outside)
+    wanted = refuted(system_of(path), outside, 1, most, lossy=lossy, faults=faults)
     found: Counter[str] = Counter()
     if wanted is None:
         return found

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify.model import Model, Options
+from swarmdsl.execution.verify.environment import Options
+from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.runs import written
 
@@ -22,19 +23,29 @@ MOST = 60
 """Number of states up to which the slow explorer plays all runs from their beginning."""
 
 
-def compare(seed: int, path: Path, capsys: pytest.CaptureFixture[str]) -> Counter[str]:
+def compare(
+    seed: int,
+    path: Path,
+    capsys: pytest.CaptureFixture[str],
+    *,
+    faults: int = 0,
+    silent: bool = False,
+    most: int = MOST,
+) -> Counter[str]:
     """Compare the verdicts on a random swarm; replay each run that violates a property.
 
     Return how many there are of each kind, and none if it has too many states.
     """
     found: Counter[str] = Counter()
-    path.write_text(random_duties(seed), encoding="utf-8")
+    path.write_text(random_duties(seed, heartbeat=faults > 0), encoding="utf-8")
     lossy = seed % 3 == 0
-    model, system = model_of(path, None, Options(1, lossy)), system_of(path)
-    never = never_happening(system, list(model.outside), 1, MOST, lossy=lossy)
+    options = Options(1, lossy, faults, ("attempt",) if silent else ())
+    model, system = model_of(path, None, options), system_of(path)
+    outside = list(model.outside)
+    never = never_happening(system, outside, 1, most, lossy=lossy, faults=faults, silent=silent)
     if never is None:
         return found
-    never |= refuted(system, list(model.outside), 1, MOST * MOST, lossy=lossy) or set()
+    never |= refuted(system, outside, 1, most * most, lossy=lossy, faults=faults) or set()
     for name, verdict in verdicts_of(model, 50_000).items():
         found[verdict.outcome] += 1
         # Times or an order of messages may be such that a run cannot be: that is not a proof.

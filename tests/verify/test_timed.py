@@ -26,7 +26,8 @@ from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.run import run as simulate
 from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Scenario
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.execution.verify.model import Model, Options
+from swarmdsl.execution.verify.environment import Options
+from swarmdsl.execution.verify.model import Model
 
 from .conftest import model_of, verdicts_of
 from .random_timed import random_timed_swarm
@@ -352,9 +353,9 @@ def test_no_simulation_violates_what_holds(seed: int, tmp_path: Path) -> None:
     length = Uniform(SECOND, 2 * SECOND)
     aborts = {"duration": length, "aborted": 0.3}
     scenario = Scenario(functions={(EVERY_FUNCTION, ""): aborts}, latency=Uniform(0, SECOND))
-    model = model_of(path, None, Options(5, scenario=scenario, exact=True))
+    model = model_of(path, None, Options(5, times=scenario, exact=True))
     holds = {name for name, each in verdicts_of(model).items() if each.outcome == "holds"}
-    ignoring = model_of(path, None, Options(5, scenario=scenario))
+    ignoring = model_of(path, None, Options(5, times=scenario))
     holds |= {name for name, each in verdicts_of(ignoring).items() if each.outcome == "holds"}
 
     violated = {name for chance in range(60) for name in _violated(model, scenario, chance)}

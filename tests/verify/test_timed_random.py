@@ -9,7 +9,7 @@ import pytest
 
 from swarmdsl.execution.simulate.durations import SECOND, Fixed, Uniform
 from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
-from swarmdsl.execution.verify.model import Options
+from swarmdsl.execution.verify.environment import Options
 
 from .conftest import model_of, system_of, verdicts_of
 from .random_timed import random_timed_swarm
@@ -29,7 +29,7 @@ def compare(seed: int, path: Path) -> Counter[str]:
     function, latency = TIMES[seed % len(TIMES)]
     lengths = {(EVERY_FUNCTION, ""): {"duration": _length(function)}}
     scenario = Scenario(functions=lengths, latency=_length(latency))
-    model = model_of(path, None, Options(2, scenario=scenario, exact=True))
+    model = model_of(path, None, Options(2, times=scenario, exact=True))
     found: Counter[str] = Counter()
     wanted = refuted_in_time(system_of(path), list(model.outside), function, latency, MOST)
     if wanted is None:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 _NUMBER = re.compile(r"([0-9]+(?:\.[0-9]+)?) ?(k|M|MB|GB)?")
 _UNITS = {None: 1, "k": 10**3, "M": 10**6, "MB": 10**6, "GB": 10**9}
 _MOST_CAPACITY = 100
+_MOST_FAULTS = 1000
 
 
 def _sizes(
@@ -113,6 +114,27 @@ def _new_test(_context: click.Context, _param: click.Parameter, path: Path | Non
     help="Let functions, delays and events take any time, or as long as in a simulation.",
 )
 @click.option(
+    "--faults",
+    type=click.IntRange(0, _MOST_FAULTS),
+    metavar="N",
+    help="At most N robots may be lost, at any time and for ever.  [default: those that the "
+    "scenario loses, else 0]",
+)
+@click.option(
+    "--never",
+    "silent",
+    metavar="FUNCTION",
+    multiple=True,
+    help="A function that may never answer; may be repeated.",
+)
+@click.option(
+    "--scenario",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Take numbers of members, params, outcomes of functions, the network, events from outside "
+    "and losses from a scenario of `swarmc simulate`.",
+)
+@click.option(
     "--limit",
     "limits",
     metavar="STATES|TIME|MEMORY",
@@ -161,6 +183,9 @@ def verify(
     channel: int,
     lossy: bool,
     time: str,
+    faults: int | None,
+    silent: tuple[str, ...],
+    scenario: Path | None,
     limits: Limits,
     output: Path | None,
     saved_test: Path | None,
@@ -188,6 +213,9 @@ def verify(
         channel,
         lossy,
         time == "exact",
+        faults,
+        silent,
+        scenario,
         limits,
         format_,
         output,

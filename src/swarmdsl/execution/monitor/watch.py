@@ -150,6 +150,9 @@ class Watch:
         elif kind.mask & ~robot.there:
             more = self._roll.come(robot, kind.mask, self.plan.shared_bits)
         if robot.lasting is not None:
+            if event == LOST:
+                # Where one of its machines has ended before, the robot is not there, either.
+                robot.lasting = dict.fromkeys(robot.lasting, 0)
             robot.lasting[actor] = holding & self._lasting
             for each in robot.lasting.values():
                 holding |= each

@@ -51,6 +51,11 @@ class Roster:
         """Take all robots for present, as at the start."""
         self._missing.clear()
 
+    @property
+    def missing(self) -> Iterable[str]:
+        """Roles of the robots that are not present, one for each of these."""
+        return self._missing.values()
+
     def misses(self, robot: Robot) -> bool:
         """Return True if a robot is not present."""
         return robot.name in self._missing

@@ -77,7 +77,7 @@ def prepare(request: Request, report: Diagnostics) -> Prepared | None:
     subject = _subject(request, report)
     if subject is None:
         return None
-    scenario = _scenario(request.scenario, subject, report)
+    scenario = load_scenario(request.scenario, subject, report)
     if scenario is None:
         return None
     events: Source | None = None
@@ -89,8 +89,8 @@ def prepare(request: Request, report: Diagnostics) -> Prepared | None:
     return None if report.has_errors else Prepared(subject, scenario, events, spaces)
 
 
-def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scenario | None:
-    """Read a scenario, or return the default one."""
+def load_scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scenario | None:
+    """Read a scenario, or return the default one; None if it has mistakes."""
     if path is None:
         return Scenario()
     source = read_source(path, None, report, "a scenario", MOST_DATA)

@@ -8,6 +8,7 @@ from typing import Any
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.engine import Event
+from swarmdsl.execution.simulate.members import DEPARTED
 from swarmdsl.execution.verify.demands import Demands
 
 
@@ -22,6 +23,8 @@ class Message:
     event: Event
     reliable: bool
     repeats: bool = False
+    is_heartbeat: bool = False
+    """True if it tells that a robot is lost: as often as that happens."""
 
 
 class Alphabet:
@@ -40,16 +43,24 @@ class Alphabet:
         if key not in self._known:
             self._known[key] = len(self.messages)
             assert self.system is not None
-            delivery = self.system.event(event.name).delivery
+            declared = self.system.events_by_name.get(event.name)
+            delivery = declared.delivery if declared is not None else None
             # Of events that wait for a robot out of reach, `keep` drops the oldest.
-            reliable = delivery is not None and bool(delivery.reliable) and delivery.keep is None
+            told = event.name == DEPARTED
+            is_sure = delivery is not None and bool(delivery.reliable) and delivery.keep is None
             repeats = delivery is not None and bool(delivery.reliable or delivery.latest)
-            self.messages.append(Message(len(self.messages), event, reliable, repeats))
+            self.messages.append(
+                Message(len(self.messages), event, told or is_sure, repeats, told)
+            )
         return self._known[key]
 
     def shown(self, event: Event) -> Any:
         """Return the data of an event that decide on anything."""
-        return tuple((path, _at(event.data, path)) for path in self.demands.fields(event.name))
+        paths = self.demands.fields(event.name)
+        if event.name == DEPARTED:
+            # Each robot counts the present ones by their roles.
+            paths = [*paths, ("role",)]
+        return tuple((path, _at(event.data, path)) for path in paths)
 
 
 def _at(data: Any, path: Sequence[str]) -> Any:

@@ -7,37 +7,22 @@ from functools import reduce
 from operator import or_
 from typing import Any
 
-from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution import monitor
 from swarmdsl.execution.engine import NO_ENVELOPE, Envelope, Event
+from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.expressions import SELF
+from swarmdsl.execution.simulate.members import DEPARTED
 from swarmdsl.execution.simulate.properties import claim_of, conditions
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.verify.alphabet import Alphabet, frozen
 from swarmdsl.execution.verify.body import Body, Input, Task
+from swarmdsl.execution.verify.kind import Kind
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.moves import Look, Moment, Move, Slot
 from swarmdsl.execution.verify.slots import Occupied, carried, occupied
 from swarmdsl.ir import Count, Fact
-
-_OUTCOMES = ("aborted", "preempted")
-
-
-@dataclass
-class Kind:
-    """Robots with the same automaton: what they run, and what comes from outside."""
-
-    role: str
-    cast: Sequence[Actor]
-    facts: Sequence[Fact | Count]
-    outside: Mapping[str, Sequence[Any]]
-    results: Mapping[str, Sequence[Mapping[str, Any]]]
-    preempted: Mapping[str, bool] = field(default_factory=dict)
-    """Functions, with True for those that others can preempt: actions."""
-    robots: dict[str | None, Sequence[Actor]] = field(default_factory=dict)
-    """Machines of each robot of the kind; `cast` are those of the first one."""
 
 
 class Automaton:
@@ -57,6 +42,9 @@ class Automaton:
         self.steps: list[list[Move] | None] = []
         self.heard: list[dict[int, Move]] = []
         self.late: list[set[int]] = []
+        self.losses: list[Move | None] = []
+        """For each state, the loss of the robot; None where it is lost, or cannot be."""
+        self.is_lost: list[bool] = []
         self.first: Move
         self._keys: dict[Any, int] = {}
         self._origins: list[tuple[int, Input] | None] = []
@@ -76,6 +64,8 @@ class Automaton:
         self._momentary = sum(
             1 << number for number, bit in enumerate(self._bits) if bit & self._facts.momentary
         )
+        self.gone = 1 << len(self._bits)
+        """Fact of lost robots, behind the others."""
         self._kinds = {actor: self._facts.kind_of(actor) for actor in kind.cast}
         self._body: Body | None = None
         self._listening: dict[str, bool] = {}
@@ -92,16 +82,24 @@ class Automaton:
             for choice in self._choices(each):
                 made.append(self._try(number, choice))
         if body.running:
-            for event, messages in self.kind.outside.items():
+            for event, messages in self.kind.outside.messages.items():
+                once = self.kind.outside.once.get(event, frozenset())
                 for index in range(len(messages)):
+                    if index in once and (event, index) in body.used:
+                        continue
                     made.append(self._try(number, Input("outside", -1, event, index)))
         self.steps[number] = made
+        if self.kind.can_be_lost and not self.is_lost[number] and self._shows_loss(body):
+            self.losses[number] = self._try(number, Input("lose", -1, LOST))
 
     def hear(self, number: int, message: int) -> None:
         """Find the move of a state when a message arrives."""
         event = self.alphabet.messages[message].event
         given = Input("hear", -1, event.name, message)
-        if self._is_late(number, given):
+        if event.name == DEPARTED and not self._misses(self._at(number), event):
+            # All of them are missed: it cannot be on its way.
+            self.late[number].add(message)
+        elif self._is_late(number, given):
             self.late[number].add(message)
         else:
             self.heard[number][message] = self._try(number, given)
@@ -111,7 +109,7 @@ class Automaton:
         event = self.alphabet.messages[message].event
         name = event.name
         if name not in self._listening:
-            self._listening[name] = any(actor.listens(name) for actor in self.kind.cast)
+            self._listening[name] = self.kind.listens(name)
         if not self._listening[name]:
             return False
         robot = self.kind.cast[0].robot
@@ -155,7 +153,7 @@ class Automaton:
         match given.kind:
             case "end":
                 state, outcome, result = given.choice
-                values = self.kind.results[given.name]
+                values = self.kind.ends[given.name].results
                 body.end(
                     given._replace(choice=state),
                     outcome,
@@ -166,12 +164,34 @@ class Automaton:
             case "inside":
                 body.deliver_inside()
             case "outside":
-                body.receive(Event(given.name, self.kind.outside[given.name][given.choice]))
+                messages = self.kind.outside.messages[given.name]
+                if given.choice in self.kind.outside.once.get(given.name, ()):
+                    body.used.add((given.name, given.choice))
+                body.receive(Event(given.name, messages[given.choice]))
+            case "lose":
+                body.lose()
             case "hear":
-                body.receive(event or self._heard_event(given.choice))
+                body.receive(event or self._heard_event(body, given.choice))
 
-    def _heard_event(self, message: int) -> Event:
+    def _shows_loss(self, body: Body) -> bool:
+        """Return True if anybody can tell that a robot is lost; not of all machines that ended."""
+        return body.running or self.kind.has_heartbeat
+
+    def _misses(self, body: Body, event: Event) -> bool:
+        """Return True if one more robot can be given up."""
+        return self.kind.departure(body, event, by_name=self._by_name) is not None
+
+    @property
+    def _by_name(self) -> bool:
+        """True if it counts which robot is lost."""
+        return any(path[:1] in ((), ("id",)) for path in self.alphabet.demands.fields(DEPARTED))
+
+    def _heard_event(self, body: Body, message: int) -> Event:
         event = self.alphabet.messages[message].event
+        if event.name == DEPARTED:
+            found = self.kind.departure(body, event, by_name=self._by_name)
+            assert found is not None, "nobody is given up twice"
+            return found
         envelope = Envelope(event.envelope.sender, 0, event.envelope.to)
         return Event(event.name, event.data, envelope=envelope)
 
@@ -180,10 +200,10 @@ class Automaton:
             yield given
             return
         state = given.choice
-        for index in range(len(self.kind.results[given.name])):
+        ends = self.kind.ends[given.name]
+        for index in range(len(ends.results)):
             yield given._replace(choice=(state, "succeeded", index))
-        outcomes = _OUTCOMES if self.kind.preempted.get(given.name) else _OUTCOMES[:1]
-        for outcome in outcomes:
+        for outcome in ends.others:
             yield given._replace(choice=(state, outcome, None))
 
     def _path(self, number: int) -> list[Input]:
@@ -198,7 +218,7 @@ class Automaton:
     def _at(self, number: int) -> Body:
         """Return a body in a state, by playing the way there."""
         self.replays += 1
-        body = Body(self.kind.cast, self.alphabet.system, Clock())
+        body = self._body_at_rest()
         body.start()
         for given in self._path(number):
             body.clock.now += 1
@@ -206,8 +226,11 @@ class Automaton:
         body.clock.now += 1
         return body
 
+    def _body_at_rest(self) -> Body:
+        return Body(self.kind.cast, self.alphabet.system, Clock(), self.kind.crew, self.kind.silent)
+
     def _begin(self) -> None:
-        body = Body(self.kind.cast, self.alphabet.system, Clock())
+        body = self._body_at_rest()
         given = Input("start", -1, "")
         self.first = self._move(body, given, body.start, [0] * len(self.kind.cast), None)
 
@@ -242,6 +265,9 @@ class Automaton:
         def see(line: Line) -> None:
             actor = numbers[line.actor.name]
             held[actor], momentary = self._holding(line)
+            if line.event == LOST:
+                # No fact holds for a lost robot.
+                held[:] = [self.gone] + [0] * (len(held) - 1)
             shown.append((actor, reduce(or_, held, momentary)))
 
         self._body, body.seen = body, see
@@ -282,6 +308,8 @@ class Automaton:
         if key not in self._keys:
             self._keys[key] = len(self.steps)
             self.steps.append(None)
+            self.losses.append(None)
+            self.is_lost.append(body.is_lost)
             self.heard.append({})
             self.late.append(set())
             self._deferred.append(
@@ -290,7 +318,7 @@ class Automaton:
             self._origins.append(origin)
             shown = [
                 (number, state)
-                for number, instance in enumerate(body.instances)
+                for number, instance in enumerate(() if body.is_lost else body.instances)
                 for state in (
                     [instance.final]
                     if instance.final is not None
@@ -323,6 +351,8 @@ class Automaton:
 
     def _key(self, body: Body) -> Any:
         """Return what decides on everything that a body does from now on."""
+        if body.is_lost:
+            return LOST
         machines = tuple(
             (
                 instance.running,
@@ -341,7 +371,10 @@ class Automaton:
             )
         )
         inside = tuple(map(self._shown, body.inside))
-        return machines, runs, delays, inside, self._kept(body) if body.running else ()
+        missing = sorted(body.roster.missing) if body.roster is not None and body.running else ()
+        kept = self._kept(body) if body.running else ()
+        used = tuple(sorted(body.used)) if body.running else ()
+        return machines, runs, delays, inside, kept, tuple(missing), used
 
     def _shown(self, event: Event) -> Any:
         """Return what decides of an event that waits."""

@@ -19,17 +19,22 @@ from swarmdsl.execution.engine import (
     Run,
     Servers,
 )
+from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.headers import signed
+from swarmdsl.execution.simulate.members import DEPARTED, JOINED, Roster
 from swarmdsl.execution.simulate.trace import Line, Trace
+from swarmdsl.execution.verify.crew import Crew
 
 
 class Input(NamedTuple):
     """Input of a robot; `actor` is the number of its machine, -1 for all of them.
 
     `kind` is `end` of an activity, `time` of a delay, `inside` for an event of the robot itself,
-    `outside` for one from outside of the swarm, `hear` for one of another robot.
+    `outside` for one from outside of the swarm, `hear` for one of another robot, and `lose` for the
+    loss of the robot.
     """
 
     kind: str
@@ -73,7 +78,14 @@ class Wait:
 class Body:
     """The machines of a robot; `lines` and `sent` are what the last input led to."""
 
-    def __init__(self, cast: Sequence[Actor], system: ir.System | None, clock: Clock) -> None:
+    def __init__(
+        self,
+        cast: Sequence[Actor],
+        system: ir.System | None,
+        clock: Clock,
+        crew: Crew | None = None,
+        silent: frozenset[str] = frozenset(),
+    ) -> None:
         self.seen: Callable[[Line], None] | None = None
         """Listener to the lines, called when the data are as after the line."""
         self.cast = cast
@@ -96,8 +108,24 @@ class Body:
             Instance(actor.machine, _Desk(self, number), data=deepcopy(actor.data), servers=servers)
             for number, actor in enumerate(cast)
         ]
+        self.used: set[tuple[str, int]] = set()
+        """Events from outside that have come, of those that come once."""
+        self.is_lost = False
+        self._silent = silent
+        self._crew = crew
+        self.roster: Roster | None = None
+        """Robots that it takes for present; None if none of its machines asks."""
+        if crew is not None and any(map(crew.observes, cast)):
+            self.roster = Roster(crew.robots)
         for instance, actor in zip(self.instances, cast, strict=True):
             self._trace.watch(instance, actor)
+            if self.roster is not None:
+                instance.data[PRESENT] = self.roster.count
+
+    @property
+    def missed(self) -> int:
+        """Number of robots that it takes for lost."""
+        return len(list(self.roster.missing)) if self.roster is not None else 0
 
     @property
     def running(self) -> bool:
@@ -126,11 +154,15 @@ class Body:
             yield Input("inside", -1, self.inside[0].name)
 
     def tasks(self) -> Iterator[tuple[Task, object]]:
-        """Yield what is over some time, each with the object that stands for it."""
+        """Yield what is over some time, each with the object that stands for it.
+
+        A function that may never answer is not among it.
+        """
         if not self.running:
             return
         for number, run in self.runs:
-            yield ("end", number, run.state), run
+            if run.activity.name not in self._silent:
+                yield ("end", number, run.state), run
         for delay in self.delays:
             yield ("time", delay.actor, delay.timer.id), delay
         for event in self.inside:
@@ -175,6 +207,24 @@ class Body:
         """Receive an event from outside, or from another robot."""
         self._deliver(event)
 
+    def lose(self) -> None:
+        """Stop all machines; what is running stops with them."""
+        self._begin()
+        for instance in self.instances:
+            if instance.running:
+                self._trace.begin(instance, LOST)
+                instance.running = False
+                self._trace.flush()
+        for delay in self.delays:
+            delay.ended = self.steps
+        self.is_lost = True
+        self.runs.clear()
+        self.delays.clear()
+        self.inside.clear()
+        if self._crew is not None and self._crew.has_heartbeat:
+            robot = self.cast[0].robot
+            self.sent.append(Event(DEPARTED, {"id": robot.name or "", "role": robot.role}))
+
     # ---- internal
 
     def _see(self, line: Line) -> None:
@@ -190,8 +240,12 @@ class Body:
 
     def _deliver(self, event: Event) -> None:
         self._begin()
+        is_about_member = event.name in (JOINED, DEPARTED)
+        if is_about_member and self.roster is not None:
+            self.roster.note(event.name, event.data)
         for instance, actor in zip(self.instances, self.cast, strict=True):
-            if instance.running and actor.listens(event.name):
+            observes = is_about_member and self._crew is not None and self._crew.observes(actor)
+            if instance.running and (observes or actor.listens(event.name)):
                 self._trace.begin(instance, event.name, event.data, event.envelope)
                 self._guarded(partial(instance.receive, event))
         self._forget_ended()

@@ -93,6 +93,16 @@ class ClockedAutomaton:
         del number
         return move
 
+    def loss(self, state: int) -> Move | None:
+        """Return None: robots with clocks are not lost."""
+        del state
+        return None
+
+    def is_lost(self, state: int) -> bool:
+        """Return False: robots with clocks are not lost."""
+        del state
+        return False
+
     def look(self, state: int) -> Look:
         """Return what a state shows."""
         return self.whole.looks[self.state(state)]

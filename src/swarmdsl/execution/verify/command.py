@@ -6,29 +6,36 @@ import gc
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import render
 from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import COMMAND_LINE, Source, Span
+from swarmdsl.base.suggest import suggest
 from swarmdsl.base.write_stream import write_stream
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
+from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.simulate.choose_space import has_geometry
+from swarmdsl.execution.simulate.prepare import load_scenario
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject, choose
 from swarmdsl.execution.verify import diagnostics
 from swarmdsl.execution.verify.any_size import enough, prove_any
+from swarmdsl.execution.verify.environment import Options
 from swarmdsl.execution.verify.findings import Survey, survey
 from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model, Options
+from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.results import Results, as_document, junit
 from swarmdsl.execution.verify.runs import Run, written
 from swarmdsl.execution.verify.saved_test import (
+    Setting,
     Shown,
     shown_by_finding,
     shown_by_verdict,
@@ -37,6 +44,7 @@ from swarmdsl.execution.verify.saved_test import (
 from swarmdsl.execution.verify.sentence import is_about_ends
 from swarmdsl.execution.verify.sizes import Size, bounds, shown, sizes, whole
 from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.project.read_source import read_source
 
 _PAUSE = 0.2
 """Seconds between two reports of the progress."""
@@ -55,6 +63,9 @@ class Request:
     capacity: int = 2
     lossy: bool = False
     exact: bool = False
+    faults: int | None = None
+    silent: tuple[str, ...] = ()
+    scenario: Path | None = None
     limits: Limits = Limits()
     format: str = "text"
     output: Path | None = None
@@ -90,6 +101,9 @@ class _Session:
         self._found: Results | None = None
         self._shown: list[Shown | str] = []
         """What tests can show, or the name of what they cannot."""
+        self._scenario: Scenario | None = None
+        self._silent: tuple[str, ...] = ()
+        """Functions that may never answer."""
 
     def run(self) -> bool | None:
         """Return None if interrupted."""
@@ -97,7 +111,10 @@ class _Session:
         if subject is None:
             return False
         properties = self._properties(subject)
-        every = sizes(subject, self._request.sizes, self._report)
+        self._scenario = self._scenario_of(subject)
+        known = self._scenario.counts if self._scenario is not None else {}
+        every = sizes(subject, self._request.sizes, self._report, known)
+        self._check_functions(subject)
         if self._report.has_errors:
             return False
         surveys: list[Survey] = []
@@ -125,6 +142,7 @@ class _Session:
         for found in surveys:
             full.update(found.full)
         left = len(every) - len(looked)
+        self._silent = tuple(model.silent)
         fair = any(is_about_ends(each.property) for each in verdicts.values())
         told = tuple(diagnostics.conditions(model, sorted(full), fair=fair))
         findings = tuple(finding for found in surveys for finding in found.findings)
@@ -136,6 +154,7 @@ class _Session:
             findings,
             self._written,
             tuple(bounds(subject, self._request.sizes)),
+            model.environment.faults,
         )
         self._print(subject, self._found, left, surveys)
         self._save_test(subject)
@@ -209,7 +228,14 @@ class _Session:
     ) -> Model | None:
         """Return the automata of a swarm; None if that is reported to be impossible."""
         asked = self._request
-        options = Options(asked.capacity, asked.lossy, exact=asked.exact)
+        options = Options(
+            asked.capacity,
+            asked.lossy,
+            asked.faults,
+            asked.silent,
+            self._scenario,
+            exact=asked.exact,
+        )
         report = Diagnostics()
         made = Model(subject, counts, properties, options, self._budget, report)
         self._report.include(report)
@@ -229,6 +255,23 @@ class _Session:
         return choose(
             checked.system, [], asked.machine, asked.swarm, self._report, asked.properties
         )
+
+    def _scenario_of(self, subject: Subject) -> Scenario | None:
+        path = self._request.scenario
+        return None if path is None else load_scenario(path, subject, self._report)
+
+    def _check_functions(self, subject: Subject) -> None:
+        """Report names that are none of a function."""
+        assert subject.system is not None
+        known = [each.name for each in subject.system.functions]
+        for name in self._request.silent:
+            if name not in known:
+                text = f"--never {name}"
+                place = Span(Source(COMMAND_LINE, text), len(text) - len(name), len(text))
+                help_ = suggest(name, known, "functions")
+                self._report.report(
+                    "unresolved-name", place, kind="function", name=name, help=help_
+                )
 
     def _properties(self, subject: Subject) -> list[ir.Property]:
         """Return the properties to prove."""
@@ -258,7 +301,7 @@ class _Session:
         if left:
             sizes_left = diagnostics.counted_in_thousands(left, "larger size")
             self._say(f"  {sizes_left} not looked at: the search came to its limit")
-        lines = list(diagnostics.rows(results.verdicts))
+        lines = list(diagnostics.rows(results.verdicts, results.faults))
         if lines:
             self._say("")
         widths = [max(len(line[n]) for line in lines) for n in range(2)] if lines else []
@@ -292,11 +335,21 @@ class _Session:
             return
         left = [each for each in self._shown if isinstance(each, str)]
         shown = [each for each in self._shown if not isinstance(each, str)]
-        text, others = tests_of(subject, self._models, path, shown)
+        text, others = tests_of(subject, self._models, path, shown, self._setting())
         if text and self._write_file(path, text):
             self._say(f"written: {printable(path.as_posix())}")
         for name in dict.fromkeys([*left, *others]):
             self._say(f"not written as a test, which cannot show it: {printable(name)}")
+
+    def _setting(self) -> Setting:
+        """Return what all tests need of the scenario, as it is written there."""
+        asked = self._request
+        params: Mapping[str, Any] = {}
+        if asked.scenario is not None:
+            source = read_source(asked.scenario, None, Diagnostics(), "a scenario", MOST_DATA)
+            document = parse_toml(source, Diagnostics()) if source is not None else None
+            params = document.values.get("params", {}) if document is not None else {}
+        return Setting(params, self._silent)
 
     def write_files(self) -> None:
         """Write the results for programs, where they are asked for."""

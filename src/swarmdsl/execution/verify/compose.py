@@ -12,10 +12,10 @@ from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify.composition import Composition, Letter, Local, Team, Turn
 from swarmdsl.execution.verify.diagnostics import conditions
+from swarmdsl.execution.verify.environment import Options as Network
 from swarmdsl.execution.verify.findings import transitions_of
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.model import Options as Network
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.network import Network as States
@@ -74,8 +74,7 @@ def compose(
             what = f"property `{property_.name}`: {reason}"
             report.report("no-place", property_.origin, target=target, what=what)
             continue
-        each = property_.each
-        for robot in model.one_of_each(each) if each is not None else [None]:
+        for robot in model.one_of_each(property_):
             groups = model.groups([property_], me=robot, thorough=True)
             observer = observer_of(property_, model, groups, robot, others=False)
             if is_owed(observer.table):
@@ -223,10 +222,10 @@ def _input(model: Model, group: Group, move: Move) -> str:
     data: Mapping[str, Any] = {}
     named = next((each.event for each in move.moments if each.event is not None), given.name)
     match given.kind:
-        case "outside" if len(kind.outside[given.name]) > 1:
-            data = kind.outside[given.name][given.choice]
-        case "end" if given.choice[2] is not None and len(kind.results[given.name]) > 1:
-            data = kind.results[given.name][given.choice[2]]
+        case "outside" if len(kind.outside.messages[given.name]) > 1:
+            data = kind.outside.messages[given.name][given.choice]
+        case "end" if given.choice[2] is not None and len(kind.ends[given.name].results) > 1:
+            data = kind.ends[given.name].results[given.choice[2]]
         case "hear":
             letter = _letter(model, given.choice)
             return f"{named} ({letter.data})" if letter.data else named

@@ -16,6 +16,7 @@ from swarmdsl.codegen.shared.default_values import (
     field_type,
     result_fields,
 )
+from swarmdsl.execution.simulate.members import DEPARTED, JOINED
 from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.places import Node
 from swarmdsl.execution.verify.representatives import Part, Path, Values, combinations
@@ -66,7 +67,11 @@ class Demands:
             kind in ("robot", "sender") or self._reads_header("node", (kind, name, path))
             for kind, name, path in self._demanded
         )
-        return named or self._slice.is_addressed
+        follows = any(
+            (kind, name) in (("event", DEPARTED), ("event", JOINED)) and path[:1] in ((), ("id",))
+            for kind, name, path in self._demanded
+        )
+        return named or follows or self._slice.is_addressed
 
     def sender_of(self, event: str) -> Iterator[Doubt]:
         """Yield a doubt if it counts who has sent an event from outside."""

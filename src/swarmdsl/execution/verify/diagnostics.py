@@ -9,6 +9,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.source import Span
+from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.trace import Line, as_text
 from swarmdsl.execution.verify.findings import Fault, Finding, transitions_of
@@ -88,6 +89,7 @@ def _lines(run: Run) -> Iterator[str]:
         if number == again:
             yield "from here on, again and again:"
         yield from _losses(run, number)
+        yield from _quiet_losses(run, number)
         place = place_of(line)
         told = [f"from {line.envelope.sender}"] if line.envelope.sender else []
         if place is not None:
@@ -98,8 +100,18 @@ def _lines(run: Run) -> Iterator[str]:
         yield f"... and {len(run.lines) - _MOST_LINES} more"
     else:
         yield from _losses(run, len(run.lines))
+        yield from _quiet_losses(run, len(run.lines))
         if run.loop == 0:
             yield "nothing happens any more"
+
+
+def _quiet_losses(run: Run, number: int) -> Iterator[str]:
+    """Format the losses of robots that have no line: of those whose machines have ended."""
+    for loss in run.gone:
+        lines = run.lines[loss.at : loss.at + 1]
+        is_told = any(each.event == LOST and each.actor.robot.name == loss.robot for each in lines)
+        if loss.at == number and not is_told:
+            yield f"{loss.robot or 'the robot'} is lost"
 
 
 def _losses(run: Run, number: int) -> Iterator[str]:
@@ -124,8 +136,8 @@ def _last_taken(run: Run, told: Span | None = None) -> Iterator[Label]:
             return
 
 
-def rows(verdicts: Sequence[Verdict]) -> Iterator[tuple[str, str, str]]:
-    """Yield the names of the properties with their verdicts and reasons."""
+def rows(verdicts: Sequence[Verdict], faults: int = 0) -> Iterator[tuple[str, str, str]]:
+    """Yield the names of the properties with their verdicts and reasons, if robots may be lost."""
     for each in verdicts:
         reason = each.reason
         open_ = each.outcome == "up to"
@@ -137,32 +149,44 @@ def rows(verdicts: Sequence[Verdict]) -> Iterator[tuple[str, str, str]]:
             reason = "whatever the other robots do"
         if each.outcome == "fails" and each.robot is not None:
             reason = f"for {each.robot}" + (f", {reason}" if reason else "")
+        if faults and each.outcome in ("holds", "up to"):
+            reason = ", ".join(filter(None, (reason, with_losses(faults))))
         yield each.property.name, outcome, reason
 
 
 def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str]:
     """Yield what the verdicts were found under; `fair` says if some are about what must happen."""
     options = model.options
-    if model.alphabet.messages:
-        loss = "any of them may be lost" if options.lossy else "none is lost"
-        reliable = sorted({each.event.name for each in model.alphabet.messages if each.reliable})
-        if options.lossy and reliable:
+    environment = model.environment
+    messages = [each for each in model.alphabet.messages if not each.is_heartbeat]
+    if messages:
+        loss = "any of them may be lost" if environment.lossy else "none is lost"
+        reliable = sorted({each.event.name for each in messages if each.reliable})
+        if environment.lossy and reliable:
             loss += f" but {listed(reliable, 'and')}"
+            loss += " of robots that are there" if environment.faults else ""
         yield f"messages between robots arrive in any order, {loss}"
         if full:
             names = listed(list(full), "and")
             yield f"of more than {options.capacity} {names} on the way to a robot, the rest is lost"
     yield from _times(model)
-    yield "functions succeed or are aborted, actions are also preempted"
+    if options.scenario is None:
+        yield "functions succeed or are aborted, actions are also preempted"
+    else:
+        yield "functions end in the ways that the scenario gives a probability"
+    silent = model.silent
     if fair:
-        yield "functions and delays end some time, and events that are not lost arrive"
+        but = f", but {listed(silent, 'and')} may never end" if silent else ""
+        yield f"functions and delays end some time{but}, and events that are not lost arrive"
         yield "a function may end in the same way each time, and nothing need come from outside"
-    yield "no robot and no answer of a function is lost"
-    if model.outside:
-        names = listed(list(model.outside), "and")
-        yield f"from outside, at any time: {names}"
-    if model.said:
-        yield f"values from outside: {', '.join(model.said)}"
+        if environment.faults:
+            yield "what each robot must do is asked of one that is not lost"
+    elif silent:
+        yield f"{listed(silent, 'and')} may never end"
+    yield from _losses_of_robots(model, is_answered=not silent)
+    yield from _from_outside(model)
+    if environment.said:
+        yield f"values from outside: {', '.join(environment.said)}"
     for doubt in dict.fromkeys(model.doubts(model.groups())):
         place = doubt.place
         where = f" ({place.source.name}:{place.line})" if place is not None else ""
@@ -178,13 +202,13 @@ def _times(model: Model) -> Iterator[str]:
     calls: dict[Bounds, dict[str, None]] = {}
     for automaton in model.kinds:
         robot = automaton.kind.cast[0].robot
-        for name in automaton.kind.results:
+        for name in automaton.kind.ends:
             calls.setdefault(timing.function(name, robot), {})[name] = None
     for bounds, names in calls.items():
         who = "functions take" if len(calls) == 1 else f"{listed(list(names), 'and')} takes"
         yield f"{who} {_span(bounds)}"
     yield "delays take as long as the model says"
-    if model.alphabet.messages:
+    if any(not each.is_heartbeat for each in model.alphabet.messages):
         least, most = timing.message(repeats=False)
         yield f"messages take {_span((least, most))}" if most else "messages arrive at once"
 
@@ -196,6 +220,56 @@ def _span(bounds: Bounds) -> str:
     if least == most:
         return format_duration(least)
     return f"{format_duration(least)} to {format_duration(most)}"
+
+
+def _losses_of_robots(model: Model, *, is_answered: bool) -> Iterator[str]:
+    faults = model.environment.faults
+    answers = " and no answer of a function is lost" if is_answered else " is lost"
+    if not faults:
+        yield f"no robot{answers}"
+        return
+    may = [r for kind in model.kinds if kind.kind.can_be_lost for r in kind.kind.robots]
+    of = (
+        ""
+        if len(may) == len({a.robot.name for a in model.cast})
+        else " of " + listed([name or "it" for name in may], "and")
+    )
+    yield f"{with_losses(faults)}{of}, at any time, for ever"
+    if is_answered:
+        yield "no answer of a function is lost"
+    if model.subject.heartbeat is not None:
+        yield "each other robot gets `member_lost` some time after a loss"
+
+
+def with_losses(faults: int) -> str:
+    """Return the condition that robots are lost: `with at most 1 robot lost`."""
+    return f"with at most {counted(faults, 'robot')} lost"
+
+
+def _from_outside(model: Model) -> Iterator[str]:
+    if not model.outside:
+        if model.options.scenario is not None:
+            yield "nothing comes from outside"
+        return
+    names = listed(model.outside, "and")
+    if model.options.scenario is None:
+        yield f"from outside, at any time: {names}"
+        return
+    once = {
+        event
+        for event in model.outside
+        if all(
+            len(kind.kind.outside.once.get(event, ())) == len(messages)
+            for kind in model.kinds
+            if (messages := kind.kind.outside.messages.get(event)) is not None
+        )
+    }
+    rest = [event for event in model.outside if event not in once]
+    if once:
+        told = listed(sorted(once), "and")
+        yield f"from outside, as often as in the scenario, at any time: {told}"
+    if rest:
+        yield f"from outside, at any time and any number of times: {listed(rest, 'and')}"
 
 
 def counted_in_thousands(number: int, noun: str) -> str:

@@ -88,6 +88,13 @@ def explore(network: Network, budget: Budget) -> Graph:
                             seen[new] = None
                             note(index)
                             add(new)
+                for step in network.risks(present):
+                    transitions += 1
+                    new = network.after(state, step)
+                    if new not in seen:
+                        seen[new] = None
+                        note(index)
+                        add(new)
                 if not moved:
                     graph.stuck.append(index)
                 index += 1
@@ -125,16 +132,20 @@ def observe(network: Network, observer: Observer, budget: Budget) -> Graph:
             for state in level:
                 moved = False
                 if not observer.is_settled(state):
-                    for new in observer.following(state):
-                        graph.transitions += 1
-                        if new not in seen:
-                            seen[new] = None
-                            parents.append(index)
-                            following.append(new)
-                            if observer.is_bad(new):
-                                graph.bad = len(seen) - 1
-                                return graph
-                        moved = moved or new != state
+                    for news, is_risk in (
+                        (observer.following(state), False),
+                        (observer.risking(state), True),
+                    ):
+                        for new in news:
+                            graph.transitions += 1
+                            if new not in seen:
+                                seen[new] = None
+                                parents.append(index)
+                                following.append(new)
+                                if observer.is_bad(new):
+                                    graph.bad = len(seen) - 1
+                                    return graph
+                            moved = moved or (new != state and not is_risk)
                     if not moved and observer.fails_at_end(state) and not observer.is_busy(state):
                         graph.bad = index
                         return graph

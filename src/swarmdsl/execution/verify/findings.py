@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from typing import Literal
+from typing import Any, Literal
 
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
@@ -63,7 +63,7 @@ def survey(model: Model, budget: Budget) -> Survey:
         graph = explore(network, budget)
         states += len(graph.seen)
         transitions += graph.transitions
-        sure = graph.complete and not model.doubts(groups)
+        sure = graph.complete and not model.doubts(groups) and not model.awaits_members(groups)
         complete &= graph.complete
         full |= network.full
         part = _Part(model, graph)
@@ -193,13 +193,25 @@ class _Part:
     def _is_trap(self, group: Group, state: int) -> bool:
         automaton = group.automaton
         look = automaton.look(state)
-        if look.ended or not look.quiet:
+        if look.ended or not look.quiet or self._waits_outside(group, state):
             return False
         moves = automaton.moves(state)
         if moves is None or not all(_keeps(automaton, move, state) for move in moves):
             return False
         heard = (automaton.move_on(state, m) for m in self._sent if automaton.whole.listens(m))
         return all(move is None or _keeps(automaton, move, state) for move in heard)
+
+    def _waits_outside(self, group: Group, state: int) -> bool:
+        """Return True if a robot handles events of a scenario, which may all have come."""
+        if self._model.options.scenario is None:
+            return False
+        cast = group.automaton.whole.kind.cast
+        return any(
+            edge.matches(event)
+            for actor, name in group.automaton.look(state).innermost
+            for edge in _edges(cast[actor].machine, name)
+            for event in self._model.outside
+        )
 
     def _stuck(self, trapped: set[tuple[int, int]]) -> Iterator[Finding]:
         """Find a state of the swarm in which nothing can happen, though not all have ended."""
@@ -234,6 +246,8 @@ class _Part:
                 return []
             if automaton.ended(local):
                 somebody_ended = True
+                continue
+            if self._waits_outside(self._network.groups[group], local):
                 continue
             names = [actor.machine.name for actor in automaton.whole.kind.cast]
             endless = all(self._model.machines[name].endless for name in names)
@@ -290,6 +304,15 @@ class _Part:
             if transition[0] in taken:
                 return transition[1].origin
         return None
+
+
+def _edges(machine: Machine, state: str) -> Iterator[Any]:
+    """Yield the edges of a state and those around it."""
+    names = state.split(".")
+    for end in range(1, len(names) + 1):
+        number = machine.numbers.get(".".join(names[:end]))
+        if number is not None:
+            yield from machine.edges[number]
 
 
 def _keeps(automaton: Local, move: Move, state: int) -> bool:

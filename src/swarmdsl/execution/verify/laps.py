@@ -19,6 +19,7 @@ from swarmdsl.execution.verify.lap_times import lap_times
 from swarmdsl.execution.verify.lassos import Lasso
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.runs import ELSEWHERE, Play, Robot, Run, exceeding, play
+from swarmdsl.execution.verify.times import in_step
 from swarmdsl.ir import Property
 
 _MOST_LAPS = 12
@@ -39,10 +40,17 @@ def endless(network: Network, lasso: Lasso, property_: Property, robot: str | No
         stem = found.stem + found.loop * extra
         probe = _Laps(network, [0] * (len(stem) + 2 * len(found.loop) + 1))
         probe.run(stem + found.loop * 2)
-        fitting = lap_times(len(stem), len(found.loop), probe.constraints())
+        fitting = _fitting(probe, len(stem), len(found.loop))
         if fitting is not None:
             return _timed(network, Lasso(stem, found.loop), fitting, property_, robot)
     return Run((), flaw="no times of its loop fit all delays")
+
+
+def _fitting(laps: _Laps, before: int, steps: int) -> list[int] | None:
+    """Return times of the steps before two laps and of the first one, and the length of a lap."""
+    return in_step(
+        lambda more: lap_times(before, steps, [*laps.constraints(), *more]), laps.beats()
+    )
 
 
 def repeated(network: Network, lasso: Lasso, *, fair: bool = True) -> Lasso | str:
@@ -93,7 +101,8 @@ def _timed(
     if not laps.is_open:
         return Run((), flaw="the monitor does not see a violation in it")
     causes = {line: cause for line, cause in laps.causes.items() if line < end}
-    return Run(tuple(laps.lines[:end]), lost, loop=end - before, causes=causes)
+    gone = tuple(laps.gone)
+    return Run(tuple(laps.lines[:end]), lost, gone, loop=end - before, causes=causes)
 
 
 def _shown(lines: Sequence[Line]) -> Iterator[tuple[Any, ...]]:

@@ -7,44 +7,27 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import replace
 from swarmdsl.codegen.shared.identity import member_uses
 from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.expressions import PRESENT
-from swarmdsl.execution.simulate.members import Roster
+from swarmdsl.execution.simulate.members import JOINED, following
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify.alphabet import Alphabet
-from swarmdsl.execution.verify.automaton import Automaton, Kind, close
+from swarmdsl.execution.verify.automaton import Automaton, close
+from swarmdsl.execution.verify.crew import Crew
 from swarmdsl.execution.verify.demands import Demands
 from swarmdsl.execution.verify.doubt import Doubt
+from swarmdsl.execution.verify.environment import Environment, Options
+from swarmdsl.execution.verify.kind import Kind
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.network import Group, Network
 from swarmdsl.execution.verify.quotient import Quotient
-from swarmdsl.execution.verify.representatives import Values
 from swarmdsl.execution.verify.terms import facts_of, mask_of, meaning, roles_of
-from swarmdsl.execution.verify.timing import Bounds, Timing
+from swarmdsl.execution.verify.timing import Bounds
 
 MOST_STATES, MOST_MOVES = 500, 5_000
 """Maximum number of states, and of moves, of one robot that are looked at."""
-
-
-@dataclass(frozen=True)
-class Options:
-    """Behaviour of the network, and a scenario with times.
-
-    These count for `within`, and for all runs if time is `exact`.
-    """
-
-    capacity: int = 2
-    lossy: bool = False
-    scenario: Scenario | None = None
-    exact: bool = False
-
-    @property
-    def timing(self) -> Timing:
-        """Times that runs must fit where time counts."""
-        return Timing(self.scenario or Scenario(), self.lossy)
 
 
 class Model:
@@ -64,8 +47,9 @@ class Model:
         self.system = subject.system
         self.options = options
         self.counts = counts
-        scenario = Scenario(counts=counts)
-        self.cast = actors(subject, subject.create_robots(counts), scenario, report)
+        scenario = replace(options.scenario or Scenario(), counts=counts)
+        robots = subject.create_robots(counts, scenario.alone)
+        self.cast = actors(subject, robots, scenario, report)
         self.kinds: list[Automaton] = []
         if report.has_errors:
             return
@@ -84,11 +68,40 @@ class Model:
         extra = self._conditions(facts)
         self.demands = Demands(self.system, data, extra, lengths=options.exact)
         self.alphabet = Alphabet(self.system, self.demands)
-        self.outside: dict[str, None] = {}
-        self.said: dict[str, None] = {}
-        """Conditions on data, for the verdicts."""
+        robots = list(dict.fromkeys(actor.robot for actor in self.cast))
+        self.environment = Environment(
+            self.system,
+            self.demands,
+            options,
+            robots,
+            lambda names: self.sends(names or self.machines),
+        )
+        self._crew = Crew(
+            tuple(robots), following(self.system), has_heartbeat=subject.heartbeat is not None
+        )
         self._doubts: dict[int, list[Doubt]] = {}
-        self.named = set(self._addressed()) | {
+        self._addressees = set(self._addressed())
+        self._robots: list[list[str | None]] = []
+        self._gather(facts)
+        self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
+        self._unfinished = [each for each in self.kinds if not each.is_complete]
+        self._quotients: dict[tuple[int, int, bool, bool], Quotient] = {}
+
+    @property
+    def outside(self) -> list[str]:
+        """Events from outside."""
+        return list(self.environment.outside)
+
+    @property
+    def silent(self) -> list[str]:
+        """Functions that may never answer."""
+        return sorted({name for kind in self.kinds for name in kind.kind.silent})
+
+    # ---- groups
+
+    def named(self, properties: Iterable[ir.Property]) -> set[str]:
+        """Return the robots that the machines or some properties name."""
+        return self._addressees | {
             f"{each.robots.role}[{each.robots.index or 0}]"
             for property_ in properties
             for each in facts_of(property_)
@@ -96,20 +109,35 @@ class Model:
             and each.robots is not None
             and each.robots.quantifier == "index"
         }
-        self._robots: list[list[str | None]] = []
-        self._gather(facts)
-        self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
-        self._unfinished = [each for each in self.kinds if not each.is_complete]
-        self._quotients: dict[tuple[int, int, bool, bool], Quotient] = {}
 
-    def network(self, groups: Sequence[Group], *, base: int = 0, timed: bool = False) -> Network:
-        """Return the network of some groups; with `timed`, runs must fit times in any case."""
+    def network(
+        self,
+        groups: Sequence[Group],
+        *,
+        base: int = 0,
+        timed: bool = False,
+        spared: str | None = None,
+        eager: bool = False,
+    ) -> Network:
+        """Return the network of some groups; with `timed`, runs must fit times in any case.
+
+        A robot may be spared: it is not lost. An `eager` network has only some of the runs.
+        """
         options = self.options
         timing = options.timing if timed or options.exact else None
-        size, lossy = options.capacity, options.lossy
-        return Network(groups, self.alphabet, size, lossy=lossy, base=base, timing=timing)
-
-    # ---- groups
+        return Network(
+            groups,
+            self.alphabet,
+            options.capacity,
+            lossy=self.environment.lossy,
+            base=base,
+            timing=timing,
+            eager=eager,
+            faults=self.environment.faults,
+            spared=spared,
+            heartbeat=self.subject.heartbeat,
+            latencies=options.timing if options.scenario is not None else None,
+        )
 
     def groups(
         self,
@@ -125,26 +153,38 @@ class Model:
         With `single`, each robot is a group. The automata tell apart what `Quotient` says.
         """
         made = []
+        named = self.named(properties)
         for number, automaton in enumerate(self.kinds):
             mask = mask_of(automaton.kind.facts, properties)
             quotient = self._quotient(number, mask, thorough=thorough, tasks=tasks)
             left = list(self._robots[number])
             for robot in self._robots[number]:
-                if single or robot in self.named or robot == me:
+                if single or robot in named or robot == me:
                     left.remove(robot)
                     made.append(Group(quotient, (robot,)))
             if left:
                 made.append(Group(quotient, tuple(left)))
         return made
 
-    def one_of_each(self, role: str) -> list[str | None]:
-        """Return robots of a role that stand for all of them."""
+    def awaits_members(self, groups: Iterable[Group]) -> bool:
+        """Return True if a robot follows events of members that do not come here."""
+        casts = [actor for group in groups for actor in group.automaton.whole.kind.cast]
+        if self.environment.faults:
+            return any(actor.listens(JOINED) for actor in casts)
+        return self._follows(casts)
+
+    def one_of_each(self, property_: ir.Property) -> list[str | None]:
+        """Return robots that stand for each one that a property is about; None for all together."""
+        role = property_.each
+        if role is None:
+            return [None]
+        named = self.named([property_])
         found: list[str | None] = []
         for number, automaton in enumerate(self.kinds):
             if automaton.kind.role == role:
                 robots = self._robots[number]
-                found += [robot for robot in robots if robot in self.named]
-                found += [robot for robot in robots if robot not in self.named][-1:]
+                found += [robot for robot in robots if robot in named]
+                found += [robot for robot in robots if robot not in named][-1:]
         return found
 
     def doubts(self, groups: Iterable[Group]) -> list[Doubt]:
@@ -209,6 +249,8 @@ class Model:
     def _sent(self, group: Group) -> set[int]:
         automaton = group.automaton.whole
         found = set(automaton.first.sends)
+        for loss in automaton.losses:
+            found.update(loss.sends if loss is not None else ())
         for steps, heard in zip(automaton.steps, automaton.heard, strict=True):
             for move in (*(steps or ()), *heard.values()):
                 found.update(move.sends)
@@ -273,23 +315,15 @@ class Model:
             if key in keys:
                 self._robots[keys[key]].append(robot)
                 self.kinds[keys[key]].kind.robots[robot] = cast
-                self._present(cast)
                 continue
             keys[key] = len(self.kinds)
             self._robots.append([robot])
             doubts = self._doubts[len(self.kinds)] = list(self._lacks(cast))
             kind = self._kind(cast, facts[cast[0].robot.role], doubts)
-            self._present(cast)
             automaton = Automaton(kind, self.alphabet)
             self.kinds.append(automaton)
             if any(moment.event is not None for moment in automaton.first.moments):
                 doubts.append(Doubt("a delay of zero ends while the robots still start"))
-
-    def _present(self, cast: Sequence[Actor]) -> None:
-        robots = list(dict.fromkeys(actor.robot for actor in self.cast))
-        for actor in cast:
-            if any(True for _ in member_uses(self.machines[actor.machine.name])):
-                actor.data[PRESENT] = Roster(robots).count
 
     def _key(self, cast: Sequence[Actor]) -> Any:
         """Return what tells the robots of a kind from others."""
@@ -304,7 +338,12 @@ class Model:
             values = {**actor.params, **{name: actor.data.get(name) for name in names}}
             times = self._times(actor) if self.options.exact else ()
             shown.append((machine.name, repr(sorted(values.items())), tuple(times)))
-        return cast[0].robot.role, tuple(shown)
+        happens = self.environment.key(
+            cast[0].robot,
+            (each.function for each in self._activities(cast)),
+            (event.name for event in self.system.events),
+        )
+        return cast[0].robot.role, tuple(shown), happens
 
     def _times(self, actor: Actor) -> Iterator[Bounds]:
         """Yield the times of the functions that a machine calls."""
@@ -318,50 +357,40 @@ class Model:
         facts: Sequence[ir.Fact | ir.Count],
         doubts: list[Doubt],
     ) -> Kind:
-        results: dict[str, Sequence[Mapping[str, Any]]] = {}
-        preempted: dict[str, bool] = {}
-        outside: dict[str, Sequence[Any]] = {}
+        robot = cast[0].robot
+        ends = {
+            each.function: self.environment.ends(each.function, robot, doubts)
+            for each in self._activities(cast)
+        }
+        arrivals = self.environment.arrivals(cast, doubts, is_alone=self.subject.swarm is None)
+        return Kind(
+            robot.role,
+            cast,
+            facts,
+            arrivals,
+            ends,
+            self._crew if self.environment.faults or self._follows(cast) else None,
+            self.environment.faults,
+            self.environment.can_be_lost(robot),
+            {robot.name: cast},
+        )
+
+    def _activities(self, cast: Sequence[Actor]) -> Iterator[ir.Activity]:
         for actor in cast:
             for state in self.machines[actor.machine.name].walk():
                 if state.activity is not None:
-                    name = state.activity.function
-                    results[name] = self._noted(self.demands.results(name), doubts)
-                    call = self.system.function(name).communication
-                    preempted[name] = call.paradigm == "action"
-        from_inside = self._from_inside(cast)
-        for event in self.system.events:
-            hears = any(actor.listens(event.name) for actor in cast)
-            if hears and event.name not in from_inside and not event.predefined:
-                self.outside[event.name] = None
-                outside[event.name] = self._noted(self.demands.messages(event.name), doubts)
-                doubts += self.demands.sender_of(event.name)
-        robots: dict[str | None, Sequence[Actor]] = {cast[0].robot.name: cast}
-        return Kind(cast[0].robot.role, cast, facts, outside, results, preempted, robots)
+                    yield state.activity
 
-    def _from_inside(self, cast: Sequence[Actor]) -> set[str]:
-        """Return the events that a robot gets from its own machines, or from other robots.
-
-        Other robots send the swarm events of a machine alone: for it, they come from outside.
-        """
-        system = self.system
-        own = {send.event for send in self.sends(actor.machine.name for actor in cast)}
-        others = {s.event for s in self.sends(self.machines) if system.event(s.event).swarm}
-        if self.subject.swarm is None:
-            own, others = own - others, set()
-        topics = {system.event(name).topic for name in own}
-        return own | others | {e.name for e in system.events if e.incoming_topic in topics}
-
-    def _noted(self, found: Values, doubts: list[Doubt]) -> Sequence[dict[str, Any]]:
-        doubts += found.doubts
-        self.said.update(dict.fromkeys(found.conditions))
-        return found.values
+    def _follows(self, cast: Iterable[Actor]) -> bool:
+        return any(map(self._crew.observes, cast))
 
     def _lacks(self, cast: Sequence[Actor]) -> Iterator[Doubt]:
         """Yield what a machine uses that proofs do not cover."""
         for actor in cast:
             machine = self.machines[actor.machine.name]
-            for _, place in member_uses(machine):
-                yield Doubt("the loss of members is not covered", place)
+            if not self._crew.has_heartbeat:
+                for _, place in member_uses(machine):
+                    yield Doubt("without a swarm, it is open which robots are there", place)
             for state in machine.walk():
                 activity = state.activity
                 if activity is not None and activity.result_callback is not None:
@@ -384,3 +413,4 @@ class Model:
             ):
                 yield Doubt(f"the `lifespan` of `{event.name}` is not covered", event.origin)
         yield from self.demands.timed()
+        yield from self.environment.doubts(cast[0].robot, follows=self._follows(cast))

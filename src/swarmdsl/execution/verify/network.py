@@ -17,6 +17,7 @@ from swarmdsl.execution.verify.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.timing import Timing
+from swarmdsl.ir import Heartbeat
 
 Local = Quotient | ClockedAutomaton
 """Automaton of the robots of a group."""
@@ -81,6 +82,11 @@ class Network:
         lossy: bool,
         base: int = 0,
         timing: Timing | None = None,
+        eager: bool = False,
+        faults: int = 0,
+        spared: str | None = None,
+        heartbeat: Heartbeat | None = None,
+        latencies: Timing | None = None,
     ) -> None:
         self.groups = groups
         self.alphabet = alphabet
@@ -89,6 +95,18 @@ class Network:
         self.base = base
         self.timing = timing
         """Times that runs must fit; None if functions and events take any time."""
+        self.eager = eager
+        """True if only runs are looked at in which messages arrive before anything else happens."""
+        self.faults = faults
+        """Number of robots that can be lost."""
+        self._spared = spared
+        self.heartbeat = heartbeat
+        self.latencies = timing or latencies
+        """Times that events between robots take; None for any."""
+        self._gone: set[int] = set()
+        """Places of lost robots."""
+        self._losses: dict[int, list[Step]] = {}
+        self._rotten: dict[int, list[Step]] = {}
         self.width = max(len(group.robots) for group in groups).bit_length()
         self.mask = (1 << self.width) - 1
         self.places: list[Place] = []
@@ -136,6 +154,8 @@ class Network:
             self.steps.append(None)
             self.plain.append([])
             self.casts.append([])
+            if self.faults and self.groups[group].automaton.is_lost(state):
+                self._gone.add(found)
         return found
 
     def present(self, state: int) -> list[tuple[int, int]]:
@@ -156,11 +176,25 @@ class Network:
             state ^= count << place * width
         return found
 
+    def is_waiting(self, step: Step, present: Sequence[tuple[int, int]]) -> bool:
+        """Return True if a step must wait for messages that arrive first."""
+        if not self.eager or step.move is None or step.move.given.kind == "hear":
+            return False
+        return any(
+            other.move is not None and other.move.given.kind == "hear"
+            for place, _ in present
+            if self.places[place].bag
+            for other in self.row(place)
+        )
+
     def followers(self, state: int) -> Iterator[tuple[int, Step]]:
         """Yield the states after one step, each with the step."""
-        for place, _ in self.present(state):
+        present = self.present(state)
+        for place, _ in present:
             for step in self.row(place):
                 yield self.after(state, step), step
+        for step in self.risks(present):
+            yield self.after(state, step), step
 
     def ended(self, state: int) -> bool:
         """Return True if all robots have ended."""
@@ -170,6 +204,43 @@ class Network:
         )
 
     # ---- steps
+
+    def risks(self, present: Sequence[tuple[int, int]]) -> Iterator[Step]:
+        """Yield the steps at which a robot is lost, or a reliable message of one that was."""
+        if not self.faults:
+            return
+        lost = sum(count for place, count in present if place in self._gone)
+        for place, _ in present:
+            if lost < self.faults:
+                yield from self._losses_at(place)
+            if lost and self.lossy:
+                yield from self._rotten_at(place)
+
+    def _losses_at(self, number: int) -> list[Step]:
+        """Return the loss of a robot at a place, if it can be lost."""
+        found = self._losses.get(number)
+        if found is None:
+            group, state, _ = self.places[number]
+            loss = self.groups[group].automaton.loss(state)
+            found = self._losses[number] = []
+            if loss is not None and self.groups[group].robots != (self._spared,):
+                found.append(Step(number, loss, self.number(group, loss.target, ())))
+        return found
+
+    def _rotten_at(self, number: int) -> list[Step]:
+        """Return the losses of messages that are sent again, as long as their sender is there."""
+        found = self._rotten.get(number)
+        if found is None:
+            group, state, bag = self.places[number]
+            messages = [self.alphabet.messages[each] for each in dict.fromkeys(bag)]
+            found = self._rotten[number] = [
+                Step(
+                    number, None, self.number(group, state, without(bag, each.number)), each.number
+                )
+                for each in messages
+                if each.reliable and not each.is_heartbeat
+            ]
+        return found
 
     def row(self, number: int) -> list[Step]:
         """Return the steps of a robot at a place."""
@@ -269,7 +340,8 @@ class Network:
             return bag
         messages = self.alphabet.messages
         name = messages[message].event.name
-        if sum(messages[each].event.name == name for each in bag) >= self.capacity:
+        is_rare = messages[message].is_heartbeat
+        if not is_rare and sum(messages[each].event.name == name for each in bag) >= self.capacity:
             self.full.add(name)
             return bag
         return tuple(sorted((*bag, message)))

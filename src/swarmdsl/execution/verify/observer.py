@@ -89,6 +89,8 @@ class Observer:
         for place, _ in present:
             group = network.places[place].group
             for step, change, heard, is_silent in self._single_steps(place):
+                if network.is_waiting(step, present):
+                    continue
                 after = state + change
                 if heard:
                     shift = network.shift_of(place, heard, group)
@@ -99,6 +101,28 @@ class Observer:
                 elif step.move is not None:
                     passed = self._memories(memory, place, step.move, seen) or passed
                 yield after + passed[-1] - memory, step, passed
+        yield from self._risks(state, present)
+
+    def risking(self, state: int) -> Iterator[int]:
+        """Yield the states after a loss of a robot, or of what a lost one has sent."""
+        if not self.network.faults:
+            return
+        for after, _, _ in self._risks(state, self.network.present(state)):
+            yield after
+
+    def _risks(
+        self, state: int, present: Sequence[tuple[int, int]]
+    ) -> Iterator[tuple[int, Step, Sequence[int]]]:
+        memory = state & self.mine
+        seen = _Sight(self, present)
+        for step in self.network.risks(present):
+            if self.network.is_waiting(step, present):
+                continue
+            passed = [memory]
+            if step.move is not None:
+                # The loss of a robot whose machines have ended has no line.
+                passed = self._memories(memory, step.place, step.move, seen) or passed
+            yield self.network.after(state, step) + passed[-1] - memory, step, passed
 
     def _single_steps(self, place: int) -> list[tuple[Step, int, tuple[int, ...], bool]]:
         """Return the steps of a place: differences, messages, and True for silent moves."""
@@ -119,6 +143,9 @@ class Observer:
     def following(self, state: int) -> Iterator[int]:
         """Yield the same states, each at least once."""
         network = self.network
+        if network.eager:
+            yield from (after for after, _, _ in self.passing(state))
+            return
         memory = state & self.mine
         present = network.present(state)
         seen = _Sight(self, present)

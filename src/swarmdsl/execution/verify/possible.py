@@ -43,8 +43,10 @@ def prove_possible(
     sources = array("I")
     targets = array("I")
     for state, number in numbers.items():
-        for following, _ in network.followers(state):
-            if following != state:
+        # A loss of a robot makes nothing possible.
+        for following, step in network.followers(state):
+            is_loss = step.move is not None and step.move.given.kind == "lose"
+            if not is_loss and following != state:
                 sources.append(number)
                 targets.append(numbers[following])
     able = bytearray(states)

@@ -28,7 +28,7 @@ from swarmdsl.execution.verify.subjects import about, place_of
 from swarmdsl.execution.verify.terms import Terms, arriving, facts_of
 from swarmdsl.execution.verify.timed import prove_exactly
 from swarmdsl.execution.verify.timed_observer import LateObserver
-from swarmdsl.execution.verify.verdict import Outcome, Verdict, unfinished, violated
+from swarmdsl.execution.verify.verdict import ESTIMATE, Outcome, Verdict, unfinished, violated
 
 _SAFE = ("never", "always", "only", "times")
 """Patterns that a finite run violates."""
@@ -39,13 +39,15 @@ _MOST_LASSOS = 60
 def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     """Look for a run that violates a property."""
     if property_.chance is not None and property_.chance.bound == "most":
-        return Verdict(property_, "unknown", reason="a greatest probability is not covered")
+        return Verdict(
+            property_, "unknown", reason=f"a greatest probability is not covered: {ESTIMATE}"
+        )
     reason = not_shown(property_)
     if reason:
         return Verdict(property_, "unknown", reason=reason)
     if property_.each is None:
         return _one(property_, model, None, budget)
-    found = [_one(property_, model, robot, budget) for robot in model.one_of_each(property_.each)]
+    found = [_one(property_, model, robot, budget) for robot in model.one_of_each(property_)]
     rank: dict[Outcome, int] = {"fails": 0, "unknown": 1, "up to": 2, "holds": 3}
     worst = min(found, key=lambda each: rank[each.outcome], default=None)
     if worst is None:
@@ -58,6 +60,8 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     verdict = _without_clocks(property_, model, me, budget)
     if verdict.outcome != "unknown" or verdict.place is not None:
         return verdict
+    if model.options.exact and model.environment.faults:
+        return replace(verdict, reason=f"{verdict.reason}; lost robots are covered for any time")
     if model.options.exact:
         return prove_exactly(property_, model, me, budget, verdict)
     if property_.within is not None:
@@ -84,7 +88,7 @@ def _without_clocks(
             return Verdict(property_, "holds", states, robot=me, alone=True)
     if property_.kind == "possible":
         place = groups.index(every[mine]) if mine is not None else None
-        return prove_possible(property_, model, model.network(groups), place, me, budget)
+        return prove_possible(property_, model, model.network(groups, spared=me), place, me, budget)
     observer = observer_of(property_, model, groups, me, others=len(groups) < len(every))
     graph = observe(observer.network, observer, budget)
     if graph.bad is not None and observer.others:
@@ -92,9 +96,17 @@ def _without_clocks(
         groups = every
         observer = observer_of(property_, model, groups, me, others=False)
         graph = observe(observer.network, observer, budget)
-    if graph.bad is not None:
-        return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
-    return _not_violated(property_, model, graph, groups, me, budget)
+    if graph.bad is None:
+        return _not_violated(property_, model, graph, groups, me, budget)
+    found = violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+    if found.run is None and property_.chance is None:
+        # A longer run, in which messages arrive first, may be one that can be.
+        observer = observer_of(property_, model, groups, me, others=observer.others, eager=True)
+        graph = observe(observer.network, observer, budget)
+        if graph.bad is not None:
+            again = violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+            found = again if again.run is not None else found
+    return found
 
 
 def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
@@ -150,12 +162,26 @@ def _run(property_: ir.Property, observer: Observer, graph: Graph, bad: int) -> 
 
 
 def observer_of(
-    property_: ir.Property, model: Model, groups: Sequence[Group], me: str | None, *, others: bool
+    property_: ir.Property,
+    model: Model,
+    groups: Sequence[Group],
+    me: str | None,
+    *,
+    others: bool,
+    eager: bool = False,
 ) -> Observer:
     """Return the observer of a property in some groups, of one robot if it is about each."""
     table = table_of(property_)
     is_timed = property_.within is not None
-    network = model.network(groups, base=max(table.size, 2).bit_length(), timed=is_timed)
+    # What must happen is asked of robots that are there.
+    spared = me if is_about_ends(property_) else None
+    network = model.network(
+        groups,
+        base=max(table.size, 2).bit_length(),
+        timed=is_timed,
+        spared=spared,
+        eager=eager,
+    )
     mine = place_of(me, groups)
     if is_timed:
         return LateObserver(property_, table, network, mine, others=others)
@@ -228,6 +254,9 @@ def _alone(property_: ir.Property, automaton: Local) -> int | None:
         holding = automaton.look(state).holding
         found = {(state, step(memory, holding, others)) for others in outside}
         moves = list(automaton.moves(state) or ())
+        loss = automaton.loss(state)
+        if loss is not None:
+            moves.append(loss)
         for message in range(len(automaton.whole.alphabet.messages)):
             heard = automaton.move_on(state, message)
             if heard is not None:

@@ -24,7 +24,7 @@ class Quotient:
 
     def __init__(self, whole: Automaton, mask: int, *, thorough: bool, tasks: bool = False) -> None:
         self.whole = whole
-        self.mask = mask
+        self.mask = mask | whole.gone
         self._thorough = thorough
         self._has_tasks = tasks
         size = len(whole.steps)
@@ -59,6 +59,15 @@ class Quotient:
         found = self.whole.heard[self._representatives[state]].get(message)
         return None if found is None else self._lifted(found)
 
+    def loss(self, state: int) -> Move | None:
+        """Return the loss of the robot; None where it is lost, or cannot be."""
+        found = self.whole.losses[self._representatives[state]]
+        return None if found is None else self._lifted(found)
+
+    def is_lost(self, state: int) -> bool:
+        """Return True if the robot is lost."""
+        return self.whole.is_lost[self._representatives[state]]
+
     def is_late(self, state: int, message: int) -> bool:
         """Return True if a message stays on its way: enough of the same kind are deferred."""
         return message in self.whole.late[self._representatives[state]]
@@ -67,6 +76,10 @@ class Quotient:
         """Return the move of a state of the automaton that looks like one of the quotient."""
         if move.given.kind == "hear":
             return self.whole.heard[number][move.given.choice]
+        if move.given.kind == "lose":
+            loss = self.whole.losses[number]
+            assert loss is not None, "robots in states that are one can be lost"
+            return loss
         wanted = self._label(move, move.target)
         for each in self.whole.steps[number] or ():
             if self._label(each, self.classes[each.target]) == wanted:
@@ -91,10 +104,11 @@ class Quotient:
     def _look(self, number: int) -> Any:
         look = self.whole.looks[number]
         cut = number if self.whole.steps[number] is None else None
+        lost = self.whole.is_lost[number]
         if self._thorough:
-            return (cut, look)
+            return (cut, look, lost)
         tasks = self.whole.tasks[number] if self._has_tasks else None
-        return (cut, look.ended, look.holding & self.mask, tasks)
+        return (cut, look.ended, look.holding & self.mask, tasks, lost)
 
     def _label(self, move: Move, target: int) -> tuple[Any, ...]:
         given, moments = move.given, move.moments
@@ -110,7 +124,9 @@ class Quotient:
             (message, self._label(each, blocks[each.target]))
             for message, each in sorted(self.whole.heard[number].items())
         )
-        return own, heard, frozenset(self.whole.late[number])
+        loss = self.whole.losses[number]
+        loses = None if loss is None else self._label(loss, blocks[loss.target])
+        return own, heard, frozenset(self.whole.late[number]), loses
 
 
 def _numbered(keys: Sequence[Any]) -> list[int]:

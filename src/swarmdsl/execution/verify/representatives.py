@@ -62,7 +62,8 @@ def combinations(name: str, parts: Iterable[Part], blank: Callable[[], dict[str,
         shown = ".".join((name, *part.path))
         if not is_complete:
             place = getattr(part.exact, "origin", None)
-            doubts.append(Doubt(f"only some values of `{shown}` were tried", place))
+            way = "compare it with constants only, and compute nothing with it"
+            doubts.append(Doubt(f"only some values of `{shown}` were tried: {way}", place))
         elif any(each is not True for _, each in part.cuts):
             conditions.append(f"`{shown}` {_regions(part.cuts)}")
         if part.path:
@@ -70,7 +71,8 @@ def combinations(name: str, parts: Iterable[Part], blank: Callable[[], dict[str,
     made: list[dict[str, Any]] = []
     for choice in product(*(values for _, values in axes)):
         if len(made) == _MOST:
-            doubts.append(Doubt(f"only {_MOST} values of `{name}` were tried"))
+            way = "compare fewer of its fields with fewer constants"
+            doubts.append(Doubt(f"only {_MOST} values of `{name}` were tried: {way}"))
             break
         message = blank()
         for (path, _), value in zip(axes, choice, strict=True):

@@ -21,7 +21,8 @@ _REFUTED = "refuted-property"
 class Results:
     """Results of the command; `runs` has the written files by the names of their runs.
 
-    Properties are proved for any number of members of the roles `free`.
+    Properties are proved for any number of members of the roles `free`, with at most
+    so many `faults`: robots that are lost.
     """
 
     subject: str
@@ -31,6 +32,7 @@ class Results:
     findings: tuple[Finding, ...]
     runs: Mapping[str, Path]
     free: tuple[str, ...] = ()
+    faults: int = 0
 
 
 def as_document(results: Results) -> str:
@@ -39,6 +41,7 @@ def as_document(results: Results) -> str:
         "subject": results.subject,
         "sizes": [dict(each) for each in results.sizes],
         **({"any": list(results.free)} if results.free else {}),
+        **({"lost": results.faults} if results.faults else {}),
         "conditions": list(results.conditions),
         "properties": [_property(each, results.runs) for each in results.verdicts],
         "findings": [_finding(each, results.runs) for each in results.findings],
@@ -98,7 +101,7 @@ def junit(results: Results | None, report: Diagnostics) -> str:
 
 def _properties(results: Results, report: Diagnostics) -> Iterator[Case]:
     refuted = [each for each in report if each.name == _REFUTED]
-    shown = zip(results.verdicts, rows(results.verdicts), strict=True)
+    shown = zip(results.verdicts, rows(results.verdicts, results.faults), strict=True)
     for verdict, (name, outcome, reason) in shown:
         remark = None
         if verdict.outcome == "fails":

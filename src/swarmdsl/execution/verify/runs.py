@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import Envelope, Event
-from swarmdsl.execution.monitor import FALSE, Watch
+from swarmdsl.execution.monitor import FALSE, LOST, Watch
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.members import DEPARTED
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line, as_json
@@ -22,24 +23,34 @@ from swarmdsl.execution.verify.alphabet import Alphabet
 from swarmdsl.execution.verify.body import Body
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network, Step
-from swarmdsl.execution.verify.times import Constraint, fitting, limits
+from swarmdsl.execution.verify.times import Beats, Constraint, fitting, in_step, limits
 from swarmdsl.execution.verify.timing import AT_ONCE, Bounds
 from swarmdsl.ir import Property
 
 ELSEWHERE = "the real messages lead elsewhere"
 
 
+class Loss(NamedTuple):
+    """Loss of a robot, with the number of lines before, and its time."""
+
+    at: int
+    robot: str
+    time: int
+
+
 @dataclass(frozen=True)
 class Run:
     """A run of a swarm: its trace lines, and the messages that are lost on the way.
 
-    `lost` has the event and the receiver of each, with the number of lines before. `flaw` says why
+    `lost` has the event and the receiver of each, with the number of lines before, `gone` the
+    robots that are lost. `flaw` says why
     no swarm can run so, or is empty: then the model itself has run so. The last `loop` lines repeat
     for ever; 0 says that nothing happens after the run, None that it can go on in any way.
     """
 
     lines: tuple[Line, ...]
     lost: tuple[tuple[int, str, str], ...] = ()
+    gone: tuple[Loss, ...] = ()
     flaw: str = ""
     loop: int | None = None
     causes: Mapping[int, int] = field(default_factory=dict)
@@ -54,10 +65,11 @@ class Copy:
     event: Event
     topic: str
     order: int
-    line: int
-    """Number of the line on which it was sent."""
+    line: int | None
+    """Number of the line on which it was sent; None for the loss of a robot that has ended."""
     sent: int
     """Number of the step at which it was sent."""
+    source: Robot
 
 
 @dataclass(eq=False)
@@ -100,7 +112,9 @@ def play(
         return Run((), flaw=exceeding(network, timeless.exceeds or timeless.late))
     if timeless.overtakes:
         return Run((), flaw=f"an event overtakes an earlier one on `{timeless.overtakes}`")
-    times = fitting(len(steps), timeless.constraints())
+    times = in_step(
+        lambda more: fitting(len(steps), [*timeless.constraints(), *more]), timeless.beats()
+    )
     if times is None:
         return Run((), flaw=timeless.misfit)
     watch: Watch | None = None
@@ -116,12 +130,14 @@ def play(
         (result,) = watch.results(times[-1], ended=True)
         if result.verdict != FALSE:
             return Run((), flaw="the monitor does not see a violation in it")
-    return Run(tuple(timed.lines), tuple(timed.lost), causes=timed.causes)
+    return Run(tuple(timed.lines), tuple(timed.lost), tuple(timed.gone), causes=timed.causes)
 
 
 def exceeding(network: Network, event: str) -> str:
     """Return the flaw of a run that loses an event for lack of capacity."""
-    return f"of more than {network.capacity} `{event}` on the way to a robot, one is lost in it"
+    most = network.capacity
+    what = f"of more than {most} `{event}` on the way to a robot, one is lost in it"
+    return f"{what}: try `--channel {most + 1}`"
 
 
 def _order(name: str | None) -> tuple[str, int]:
@@ -135,7 +151,10 @@ class Play:
     def __init__(self, network: Network, times: Sequence[int], watch: Watch | None) -> None:
         self.lines: list[Line] = []
         self.lost: list[tuple[int, str, str]] = []
+        self.gone: list[Loss] = []
         self.causes: dict[int, int] = {}
+        self._arrivals: list[tuple[int, Copy]] = []
+        """Messages that arrived, with the numbers of the steps."""
         self.overtakes = ""
         """Topic on which a message overtakes an earlier one."""
         self.exceeds = ""
@@ -146,8 +165,6 @@ class Play:
         if network.timing is not None:
             self.misfit = "no times of it fit all functions, delays and events"
         self.network = network
-        self._arrivals: list[tuple[int, Copy]] = []
-        """Messages that have arrived, with the numbers of the steps."""
         self._alphabet: Alphabet = network.alphabet
         self._times = times
         self._watch = watch
@@ -159,7 +176,8 @@ class Play:
             whole = group.automaton.whole
             for name in group.robots:
                 cast = group.cast(name)
-                body = Body(cast, self._alphabet.system, Clock())
+                kind = whole.kind
+                body = Body(cast, self._alphabet.system, Clock(), kind.crew, kind.silent)
                 body.seen = self.see
                 self._bodies.update(dict.fromkeys(cast, body))
                 first = whole.first.target
@@ -212,17 +230,30 @@ class Play:
                     bounds = (bounds[0], None) if slow else bounds
                 ended = at[wait.ended] if wait.ended is not None else last
                 found += limits(bounds, at[wait.began], ended, is_over=wait.fired)
-            for copy in (*robot.bag, *robot.late) if timing is not None else ():
+            for copy in (*robot.bag, *robot.late):
                 found += limits(self._bounds(copy), copy.sent, last, is_over=False)
-        for step, copy in self._arrivals if timing is not None else ():
+        for step, copy in self._arrivals:
             found += limits(self._bounds(copy), copy.sent, step, is_over=True)
         return found
 
+    def beats(self) -> Beats | None:
+        """Return the steps at which robots are lost while others wait for their heartbeats."""
+        copies = [copy for _, copy in self._arrivals] + [c for r in self.robots for c in r.bag]
+        steps = {c.sent for c in copies if self._alphabet.messages[c.number].is_heartbeat}
+        heartbeat = self.network.heartbeat
+        if heartbeat is None or not steps:
+            return None
+        return Beats(tuple(sorted(steps)), heartbeat.period)
+
     def _bounds(self, copy: Copy) -> Bounds:
         """Return the times after which a message can arrive."""
-        timing = self.network.timing
-        repeats = self._alphabet.messages[self._alphabet.number(copy.event)].repeats
-        return timing.message(repeats=repeats) if timing is not None else (0, None)
+        network, message = self.network, self._alphabet.messages[copy.number]
+        if message.is_heartbeat:
+            assert network.heartbeat is not None
+            return network.heartbeat.timeout, network.heartbeat.timeout
+        if network.latencies is None:
+            return 0, None
+        return network.latencies.message(repeats=message.repeats)
 
     def take(self, step: Step) -> None:
         """Take a step."""
@@ -234,7 +265,10 @@ class Play:
             return
         if step.move is None:
             robot = self.chosen(robots)
-            lost = next(c for c in robot.bag if c.number == step.lost)
+            lost = self._dropped(robot, step.lost)
+            if lost is None:
+                self.departs = True
+                return
             robot.bag.remove(lost)
             self.lost.append((len(self.lines), lost.event.name, robot.name or ""))
             return
@@ -247,10 +281,18 @@ class Play:
             oldest = self._oldest(robot, copy)
             event = oldest.event
             self._arrivals.append((self.now, oldest))
-            self.causes[len(self.lines)] = oldest.line
+            if oldest.line is not None:
+                self.causes[len(self.lines)] = oldest.line
         else:
             robot = self.chosen(robots)
         self._move(robot, step.move, event)
+
+    def _dropped(self, robot: Robot, number: int | None) -> Copy | None:
+        """Return the message that is lost; a reliable one only if its sender is."""
+        copies = [copy for copy in robot.bag if copy.number == number]
+        if number is not None and self._alphabet.messages[number].reliable:
+            copies = [copy for copy in copies if copy.source.body.is_lost]
+        return copies[0] if copies else None
 
     def chosen(self, robots: Sequence[Robot]) -> Robot:
         """Return the robot that takes a step, of those that can."""
@@ -285,6 +327,8 @@ class Play:
         found = automaton.follow(robot.state, move)
         robot.moments.append(self.now)
         robot.body.clock.now = self._times[self.now]
+        if found.given.kind == "lose":
+            self.gone.append(Loss(len(self.lines), robot.name or "", self._times[self.now]))
         automaton.whole.apply(robot.body, found.given, event)
         shown = tuple((m.event, m.taken, m.sent) for m in found.moments)
         called = [line.actor.machine.called for line in robot.body.lines]
@@ -304,7 +348,8 @@ class Play:
         for event in sent:
             self._sent += 1
             number = self._alphabet.number(event)
-            topic = self._alphabet.system.event(event.name).topic
+            is_heartbeat = self._alphabet.messages[number].is_heartbeat
+            topic = "" if is_heartbeat else self._alphabet.system.event(event.name).topic
             for robot in self.robots:
                 if robot is source or not robot.body.running:
                     continue
@@ -315,26 +360,30 @@ class Play:
                 to = event.envelope.to
                 if not (to is None or to in (robot.name, robot.group.role)):
                     continue
-                envelope = Envelope(source.name or "", event.envelope.sent, to)
-                real = Event(event.name, event.data, envelope=envelope)
+                real = event
+                if not is_heartbeat:
+                    envelope = Envelope(source.name or "", event.envelope.sent, to)
+                    real = Event(event.name, event.data, envelope=envelope)
                 line = self._sending(source, event)
-                copy = Copy(number, real, topic, self._sent, line, self.now)
+                copy = Copy(number, real, topic, self._sent, line, self.now, source)
                 same = [c for c in robot.bag if c.event.name == event.name]
-                if len(same) < self.network.capacity:
+                if is_heartbeat or len(same) < self.network.capacity:
                     robot.bag.append(copy)
                 elif self.network.lossy and not self._alphabet.messages[number].reliable:
                     self.lost.append((len(self.lines), event.name, robot.name or ""))
                 else:
                     robot.late.append(copy)
 
-    def _sending(self, source: Robot, event: Event) -> int:
-        """Return the number of the last line on which a robot has sent an event."""
-        return next(
+    def _sending(self, source: Robot, event: Event) -> int | None:
+        """Return the number of the last line on which a robot has sent an event, or was lost."""
+        mine = (
             number
             for number in range(len(self.lines) - 1, -1, -1)
             if self.lines[number].actor.robot.name == source.name
-            and event.name in self.lines[number].sent
         )
+        if event.name == DEPARTED:
+            return next((n for n in mine if self.lines[n].event == LOST), None)
+        return next(n for n in mine if event.name in self.lines[n].sent)
 
     def see(self, line: Line) -> None:
         """Keep a line, and show it to the monitor."""

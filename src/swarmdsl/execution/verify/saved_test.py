@@ -15,7 +15,7 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.shared.default_values import default_result, default_value
 from swarmdsl.execution.simulate.durations import MICROSECOND, MILLISECOND, SECOND
@@ -53,6 +53,14 @@ class Shown:
     claim: str | None = None
 
 
+@dataclass(frozen=True)
+class Setting:
+    """Setting of all tests: params as a scenario gives them, and functions that may not answer."""
+
+    params: Mapping[str, Any] = field(default_factory=dict)
+    silent: tuple[str, ...] = ()
+
+
 def shown_by_verdict(verdict: Verdict, counts: Mapping[str, int]) -> Shown | None:
     """Return what a test can show of a property that does not hold, None if nothing.
 
@@ -85,10 +93,13 @@ def shown_by_finding(finding: Finding, counts: Mapping[str, int]) -> Shown | Non
     if finding.fault == "loops":
         return Shown(f"{finding.name} comes to rest", run, counts)
     last = {line.actor: line.configuration for line in run.lines}
+    lost = {loss.robot for loss in run.gone}
     robots = [
         actor.robot
         for actor, states in last.items()
-        if finding.name in states and finding.role in ("", actor.robot.role)
+        if finding.name in states
+        and finding.role in ("", actor.robot.role)
+        and actor.robot.name not in lost
     ]
     if not robots:
         return None
@@ -100,7 +111,11 @@ def shown_by_finding(finding: Finding, counts: Mapping[str, int]) -> Shown | Non
 
 
 def tests_of(
-    subject: Subject, models: Sequence[Path], path: Path, shown: Sequence[Shown]
+    subject: Subject,
+    models: Sequence[Path],
+    path: Path,
+    shown: Sequence[Shown],
+    setting: Setting,
 ) -> tuple[str, list[str]]:
     """Return a test file for a path, and the names of what its tests cannot show.
 
@@ -110,7 +125,7 @@ def tests_of(
     left: list[str] = []
     for each in shown:
         variants = (
-            "".join(f"{line}\n" for line in _Test(subject, each, early).lines())
+            "".join(f"{line}\n" for line in _Test(subject, each, setting, early).lines())
             for early in (0, MICROSECOND)
         )
         fails = (test for test in variants if _fails(_file(subject, models, path, [test]), path))
@@ -153,10 +168,11 @@ class _Test:
     Inputs are given `early`, in nanoseconds, to come before delays that end at the same time.
     """
 
-    def __init__(self, subject: Subject, shown: Shown, early: int) -> None:
+    def __init__(self, subject: Subject, shown: Shown, setting: Setting, early: int) -> None:
         assert subject.system is not None
         self._system = subject.system
         self._shown = shown
+        self._setting = setting
         self._early = early
         self._robots = list(dict.fromkeys(line.actor.robot for line in shown.run.lines))
         self._actors = list(dict.fromkeys(line.actor for line in shown.run.lines))
@@ -164,6 +180,7 @@ class _Test:
         """Events that were sent, each with its sender and receiver."""
         self._inside: list[tuple[str | None, str]] = []
         """Events of a robot for itself."""
+        self._lost: set[str | None] = set()
         self._now = 0
 
     def lines(self) -> Iterator[str]:
@@ -183,14 +200,17 @@ class _Test:
         """Return a scenario in which no function ends by itself during the run."""
         length = _time(self._shown.run.lines[-1].time + SECOND)
         counts = dict(self._shown.counts)
-        functions = {"functions": {"*": {"duration": length}}}
-        return {"count": counts, **functions} if counts else functions
+        functions: dict[str, Any] = {"*": {"duration": length}}
+        functions.update({name: {"never": 1} for name in self._setting.silent})
+        found = {"count": counts, "params": self._setting.params, "functions": functions}
+        return {key: values for key, values in found.items() if values}
 
     def _steps(self) -> Iterator[str]:
         run = self._shown.run
         before: Line | None = None
         for number, line in enumerate(run.lines):
             yield from self._losses(number)
+            yield from self._gone(number)
             if not (line.recalled or (before is not None and _is_one(before, line))):
                 step = self._input(line)
                 if step is not None:
@@ -199,6 +219,7 @@ class _Test:
             self._send(line)
             before = line
         yield from self._losses(len(run.lines))
+        yield from self._gone(len(run.lines))
         yield from self._pass(run.lines[-1].time)
         for event, sender, robot in self._on_way:
             yield _step(hear=event, by=robot, **{"from": sender})
@@ -215,6 +236,16 @@ class _Test:
         for at, event, robot in self._shown.run.lost:
             if at == number:
                 yield self._arrival("drop", event, robot, None)
+
+    def _gone(self, number: int) -> Iterator[str]:
+        """Yield the losses of robots, with what is on its way to them."""
+        for loss in self._shown.run.gone:
+            if loss.at == number:
+                yield from self._pass(loss.time - self._early)
+                for event, sender, _ in [each for each in self._on_way if each[2] == loss.robot]:
+                    yield self._arrival("drop", event, loss.robot, sender)
+                yield _step(lose=loss.robot)
+                self._lost.add(loss.robot)
 
     def _arrival(self, verb: str, event: str, robot: str | None, sender: str | None) -> str:
         """Take an event from its way."""
@@ -238,8 +269,9 @@ class _Test:
             return None
         if event.startswith(_ACTIVITY):
             return self._end(line, event)
-        if event not in self._system.events_by_name:
-            return None  # the end of a delay
+        declared = self._system.events_by_name.get(event)
+        if declared is None or declared.predefined:
+            return None  # the end of a delay, a loss, or what heartbeats tell
         if line.envelope.sender:
             return self._arrival("hear", event, robot, line.envelope.sender)
         if (robot, event) in self._inside:
@@ -275,7 +307,8 @@ class _Test:
                 self._inside += [(source.name, name) for name in here]
             for robot in self._robots if declared.swarm else ():
                 listens = any(a.robot is robot and a.listens(event) for a in self._actors)
-                if robot is not source and listens and robot.is_meant_by(to):
+                is_there = robot is not source and robot.name not in self._lost
+                if is_there and listens and robot.is_meant_by(to):
                     self._on_way.append((event, source.name, robot.name))
 
 

@@ -22,18 +22,18 @@ def not_shown(property_: ir.Property) -> str:
     """Return the reason why a property cannot be decided here, or ""."""
     scope = property_.scope.claims if property_.scope is not None else ()
     if len(property_.claims) + len(scope) > MOST_CLAIMS:
-        return f"it has more than {MOST_CLAIMS} claims"
+        return f"it has more than {MOST_CLAIMS} claims: split it into several properties"
     facts = list(facts_in(property_.claims[0]))
     if property_.kind == "times" and any(map(is_act, facts)):
         mixed = not all(map(is_act, facts)) or _negates(property_.claims[0])
         # It would count the moments at which nothing of the kind happens.
         mixed |= any(map(_can_be_idle, facts))
-        return "it counts what happens together with what is" if mixed else ""
+        return "it counts what happens together with what is: count one of them" if mixed else ""
     if property_.kind == "possible":
         if property_.scope is not None:
-            return "`always possible` with a scope is not covered"
+            return "`always possible` with a scope is not covered: leave out the scope"
         if any(map(is_act, facts)):
-            return "`always possible` is covered for states only"
+            return "`always possible` is covered for states only: use `in` and `has`"
     return ""
 
 

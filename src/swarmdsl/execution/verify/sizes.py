@@ -32,14 +32,20 @@ def read_size(text: str) -> Size | None:
     return (found[1], range(least, most + 1)) if least <= most else None
 
 
-def sizes(subject: Subject, asked: Sequence[Size], report: Diagnostics) -> list[dict[str, int]]:
+def sizes(
+    subject: Subject,
+    asked: Sequence[Size],
+    report: Diagnostics,
+    known: Mapping[str, int] | None = None,
+) -> list[dict[str, int]]:
     """Return the numbers of members to look at, the smallest first; report impossible ones.
 
-    Of roles with any number there is the smallest one, but at least 1.
+    Of roles with any number there is the smallest one, but at least 1. The numbers of other roles
+    may be `known`, from a scenario.
     """
     roles = subject.swarm.roles if subject.swarm is not None else ()
     by_name = {role.name: role for role in roles}
-    wanted: dict[str, range] = {}
+    wanted = {name: range(count, count + 1) for name, count in (known or {}).items()}
     for name, numbers in asked:
         if name not in by_name:
             text = f"--size {name}"

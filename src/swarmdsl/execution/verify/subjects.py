@@ -21,7 +21,7 @@ def about(property_: ir.Property, model: Model, groups: Sequence[Group]) -> Iter
         roles = roles_of(fact, property_)
         for number, group in enumerate(groups):
             if isinstance(fact, ir.Fact) and fact.act == "arrives":
-                if fact.name in group.automaton.whole.kind.outside:
+                if fact.name in group.automaton.whole.kind.outside.messages:
                     yield number
             elif isinstance(fact, ir.Fact) and fact.robots is None and property_.each is not None:
                 continue

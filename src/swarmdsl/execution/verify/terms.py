@@ -49,7 +49,7 @@ class Terms:
     def __init__(self, property_: ir.Property, network: Network) -> None:
         self._property = property_
         self._network = network
-        self._keys: list[tuple[Fact | Count, str | None, str | None]] = []
+        self._keys: list[tuple[Fact | Count, str | None, str | None, bool]] = []
         self._bits: list[list[int]] = []
         """For each term, the bit of its fact in each group; 0 where it cannot hold."""
 
@@ -59,7 +59,7 @@ class Terms:
     @property
     def facts(self) -> list[Fact | Count]:
         """The facts, in the order of their numbers."""
-        return [fact for fact, _, _ in self._keys]
+        return [fact for fact, _, _, _ in self._keys]
 
     def holds(self, term: int, group: int, bits: int) -> int:
         """Return 1 if a fact holds for a robot with these facts, else 0."""
@@ -96,13 +96,21 @@ class Terms:
             return Number(term, whose, 1)
         if robots.quantifier == "no":
             return Number(term, whose, 0, 0)
+        # Lost robots do not count, so that they may be among those for which it holds.
+        term = self.term(claim, robots.role, None, or_lost=True)
         size = sum(len(g.robots) for g in self._network.groups if g.role == robots.role)
         size -= robots.other and self._property.each == robots.role
         return Number(term, whose, size, size)
 
-    def term(self, fact: Fact | Count, role: str | None, robot: str | None) -> int:
-        """Return the number of a fact, about robots of a role or one robot if they are given."""
-        key = (fact, role, robot)
+    def term(
+        self, fact: Fact | Count, role: str | None, robot: str | None, *, or_lost: bool = False
+    ) -> int:
+        """Return the number of a fact, about robots of a role or one robot if they are given.
+
+        With `or_lost`, it is said of lost robots, too.
+        """
+        or_lost = or_lost and self._network.faults > 0
+        key = (fact, role, robot, or_lost)
         if key not in self._keys:
             self._keys.append(key)
             bits = []
@@ -110,7 +118,9 @@ class Terms:
                 facts = group.automaton.whole.kind.facts
                 meant = (role in (None, group.role)) and (robot is None or robot in group.robots)
                 same = (n for n, each in enumerate(facts) if same_fact(each, fact))
-                bits.append(1 << next(same, -1) if meant and _has(facts, fact) else 0)
+                bit = 1 << next(same, -1) if meant and _has(facts, fact) else 0
+                gone = group.automaton.whole.gone if meant and or_lost else 0
+                bits.append(bit | gone)
             self._bits.append(bits)
         return self._keys.index(key)
 

@@ -113,7 +113,7 @@ class _Proof:
             made,
             model.alphabet,
             options.capacity,
-            lossy=options.lossy,
+            lossy=model.environment.lossy,
             timing=options.timing,
             tick=tick,
             base=base,
@@ -142,10 +142,10 @@ class _Proof:
         """Return True if all that happens does so at a tick, in all runs."""
         timing = self._model.options.timing
         kinds = [group.automaton.whole.kind for group in self.cone]
-        spans = [timing.function(f, kind.cast[0].robot) for kind in kinds for f in kind.results]
+        spans = [timing.function(f, kind.cast[0].robot) for kind in kinds for f in kind.ends]
         spans += [timing.message(repeats=each.repeats) for each in self._model.alphabet.messages]
         is_fixed = all(least == most for least, most in spans)
-        return is_fixed and not any(kind.outside for kind in kinds)
+        return is_fixed and not any(kind.outside.messages for kind in kinds)
 
     # ---- ticks
 

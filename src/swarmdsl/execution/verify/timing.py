@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Robot, Scenario
 
 Bounds = tuple[int, int | None]
 """The least and the greatest time; None is no limit."""
@@ -16,12 +16,18 @@ class Timing:
 
     scenario: Scenario
     lossy: bool = False
+    silent: tuple[str, ...] = ()
+    """Functions that may never answer."""
 
     def function(self, name: str, robot: Robot) -> Bounds:
         """Return the times after which a function of a robot can end."""
         behavior = self.scenario.behavior(name, robot)
         least, most = behavior.duration.bounds
-        return least, None if behavior.never else most
+        falls_silent = any(
+            fault.function in (name, EVERY_FUNCTION) for fault in self.scenario.faults
+        )
+        is_sure = not (behavior.never or falls_silent or name in self.silent)
+        return least, most if is_sure else None
 
     def message(self, *, repeats: bool) -> Bounds:
         """Return the times after which an event can arrive at another robot.

@@ -14,6 +14,9 @@ from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.runs import Run
 
+ESTIMATE = "estimate it with `swarmc simulate --runs 1000`"
+"""Advice for probabilities."""
+
 Outcome = Literal["holds", "fails", "up to", "unknown"]
 
 
@@ -47,7 +50,7 @@ def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> 
         reason = f"the run that was found cannot be: {run.flaw}"
         return Verdict(property_, "unknown", states, reason, robot=me)
     if property_.chance is not None:
-        reason = "some runs violate it: how probable they are is not covered"
+        reason = f"some runs violate it: how probable they are is not covered: {ESTIMATE}"
         return Verdict(property_, "unknown", states, reason, robot=me)
     return Verdict(property_, "fails", states, robot=me, run=run)
 
@@ -56,7 +59,8 @@ def unfinished(model: Model, budget: Budget) -> str:
     """Return the reason why a search ended too early, with the variable to bound."""
     large = next((each for each in model.kinds if each.is_too_large), None)
     if large is None:
-        return f"the search came to its limit of {budget.reached}"
+        other = "another one with `--limit`, or fewer robots with `--size`"
+        return f"the search came to its limit of {budget.reached}: set {other}"
     wide = _widest(large, model)
     what = f": bound `{wide}`" if wide else ""
     return f"a `{large.kind.role}` has too many states{what}"

@@ -146,7 +146,8 @@ class Wanted:
 
     def _of_fact(self, claim: Fact | Count, *, holds: bool) -> Iterator[tuple[Need, ...]]:
         role, robot, groups, numbers, inverse = self._meaning(claim, holds=holds)
-        term = self._terms.term(claim, role, robot)
+        # Of all robots, lost ones do not count.
+        term = self._terms.term(claim, role, robot, or_lost=inverse)
         for least, most in numbers:
             needs = [Need(term, not inverse, least, groups)] if least else []
             if most is not None:

@@ -1,0 +1,67 @@
+"""Kinds of robots: what they run, what comes from outside, and whether they can be lost."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.execution.engine import Event
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.members import DEPARTED
+from swarmdsl.execution.verify.body import Body
+from swarmdsl.execution.verify.crew import Crew
+from swarmdsl.execution.verify.environment import Arrivals, Ends
+from swarmdsl.ir import Count, Fact
+
+
+@dataclass
+class Kind:
+    """Robots with the same automaton: what they run, and what comes from outside."""
+
+    role: str
+    cast: Sequence[Actor]
+    facts: Sequence[Fact | Count]
+    outside: Arrivals
+    ends: Mapping[str, Ends] = field(default_factory=dict)
+    """Ends of the functions that it calls."""
+    crew: Crew | None = None
+    """Robots of the swarm, if some can be lost, or if this one asks who is there."""
+    losses: int = 0
+    """Number of robots that can be lost, as far as such a robot can tell."""
+    can_be_lost: bool = False
+    robots: dict[str | None, Sequence[Actor]] = field(default_factory=dict)
+    """Machines of each robot of the kind; `cast` are those of the first one."""
+
+    @property
+    def silent(self) -> frozenset[str]:
+        """Functions that may never answer."""
+        return frozenset(name for name, ends in self.ends.items() if ends.is_silent)
+
+    @property
+    def has_heartbeat(self) -> bool:
+        """True if other robots notice when one of them is lost."""
+        return self.crew is not None and self.crew.has_heartbeat
+
+    def listens(self, event: str) -> bool:
+        """Return True if a machine gets an event."""
+        if event == DEPARTED:
+            return self.crew is not None and any(map(self.crew.observes, self.cast))
+        return any(actor.listens(event) for actor in self.cast)
+
+    def departure(self, body: Body, event: Event, *, by_name: bool) -> Event | None:
+        """Return an event that gives up a robot, None if there is none left to give up.
+
+        It is about the robot of the event if they are told apart `by_name`, else about any other
+        one of its role that is not missed yet.
+        """
+        assert self.crew is not None
+        assert body.roster is not None
+        if body.missed >= self.losses:
+            return None
+        wanted = event.data["id" if by_name else "role"]
+        for robot in self.crew.robots:
+            is_meant = (robot.name if by_name else robot.role) == wanted
+            is_other = robot.name != self.cast[0].robot.name
+            if is_meant and is_other and not body.roster.misses(robot):
+                return Event(DEPARTED, {"id": robot.name or "", "role": robot.role})
+        return None
