@@ -101,8 +101,8 @@ def test_functions_take_the_times_of_a_scenario(
     text = f"{_CALL}{_ONE}property P of S : each a : in S0 leads to in S1 within {within}"
     scenario = Scenario(functions={(EVERY_FUNCTION, ""): {"duration": length}})
 
-    assert _outcome(modelled, text, scenario=scenario, exact=True) == exact
-    ignored = _outcome(modelled, text, scenario=scenario)
+    assert _outcome(modelled, text, times=scenario, exact=True) == exact
+    ignored = _outcome(modelled, text, times=scenario)
     assert ignored == ("fails" if exact == "fails" else "unknown")
 
 
@@ -120,7 +120,7 @@ def test_a_function_that_never_answers_is_late(modelled: Modelled) -> None:
     text = f"{_CALL}{_ONE}property P of S : each a : in S0 leads to in S1 within 1 min"
     scenario = Scenario(functions={(EVERY_FUNCTION, ""): {"never": 0.1}})
 
-    assert _outcome(modelled, text, scenario=scenario, exact=True) == "fails"
+    assert _outcome(modelled, text, times=scenario, exact=True) == "fails"
 
 
 @pytest.mark.parametrize(
@@ -147,7 +147,7 @@ endless statemachine N {{
 }}
 {_TWO}property P of S : a sends Ask leads to b in S1 within {within}"""
 
-    assert _outcome(modelled, text, scenario=Scenario(latency=latency), exact=True) == exact
+    assert _outcome(modelled, text, times=Scenario(latency=latency), exact=True) == exact
 
 
 def test_events_do_not_arrive_before_their_latency(modelled: Modelled) -> None:
