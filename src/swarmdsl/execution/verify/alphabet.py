@@ -49,9 +49,7 @@ class Alphabet:
             told = event.name == DEPARTED
             is_sure = delivery is not None and bool(delivery.reliable) and delivery.keep is None
             repeats = delivery is not None and bool(delivery.reliable or delivery.latest)
-            self.messages.append(
-                Message(len(self.messages), event, told or is_sure, repeats, told)
-            )
+            self.messages.append(Message(len(self.messages), event, told or is_sure, repeats, told))
         return self._known[key]
 
     def shown(self, event: Event) -> Any:

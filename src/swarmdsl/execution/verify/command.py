@@ -288,7 +288,7 @@ class _Session:
         surveys: Sequence[Survey],
     ) -> None:
         self._say(f"{subject.name}: {shown(subject, results.sizes, results.free)}")
-        if has_geometry(subject, Scenario()):
+        if has_geometry(subject, self._scenario or Scenario()):
             self._say("  places are left out: any robot may reach any other one, functions may end")
             self._say("  in any way, and nobody sees anything or runs out of energy")
         if results.free and surveys:
