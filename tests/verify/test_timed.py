@@ -169,7 +169,7 @@ endless statemachine N {{
 
     for milliseconds, expected in ((100, "fails"), (200, "holds")):
         scenario = Scenario(latency=Fixed(milliseconds * MILLISECOND))
-        assert _outcome(modelled, text, scenario=scenario, exact=True) == expected
+        assert _outcome(modelled, text, times=scenario, exact=True) == expected
 
 
 def test_a_reliable_event_is_late_where_robots_may_be_out_of_reach(modelled: Modelled) -> None:
@@ -188,7 +188,7 @@ endless statemachine N {{
     apart = Fault(at=Fixed(0), lasts=10 * SECOND, apart=(("a",), ("b",)))
 
     assert _outcome(modelled, text, exact=True) == "holds"
-    assert _outcome(modelled, text, scenario=Scenario(faults=(apart,)), exact=True) == "fails"
+    assert _outcome(modelled, text, times=Scenario(faults=(apart,)), exact=True) == "fails"
     assert _outcome(modelled, text, lossy=True, exact=True) == "fails"
 
 

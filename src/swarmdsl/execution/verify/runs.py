@@ -19,7 +19,7 @@ from swarmdsl.execution.simulate.members import DEPARTED
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line, as_json
-from swarmdsl.execution.verify.alphabet import Alphabet
+from swarmdsl.execution.verify.alphabet import Alphabet, Message
 from swarmdsl.execution.verify.body import Body
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Network, Step
@@ -239,7 +239,7 @@ class Play:
     def beats(self) -> Beats | None:
         """Return the steps at which robots are lost while others wait for their heartbeats."""
         copies = [copy for _, copy in self._arrivals] + [c for r in self.robots for c in r.bag]
-        steps = {c.sent for c in copies if self._alphabet.messages[c.number].is_heartbeat}
+        steps = {c.sent for c in copies if self._message(c).is_heartbeat}
         heartbeat = self.network.heartbeat
         if heartbeat is None or not steps:
             return None
@@ -247,7 +247,7 @@ class Play:
 
     def _bounds(self, copy: Copy) -> Bounds:
         """Return the times after which a message can arrive."""
-        network, message = self.network, self._alphabet.messages[copy.number]
+        network, message = self.network, self._message(copy)
         if message.is_heartbeat:
             assert network.heartbeat is not None
             return network.heartbeat.timeout, network.heartbeat.timeout
@@ -289,10 +289,16 @@ class Play:
 
     def _dropped(self, robot: Robot, number: int | None) -> Copy | None:
         """Return the message that is lost; a reliable one only if its sender is."""
-        copies = [copy for copy in robot.bag if copy.number == number]
-        if number is not None and self._alphabet.messages[number].reliable:
-            copies = [copy for copy in copies if copy.source.body.is_lost]
-        return copies[0] if copies else None
+        copies = (
+            copy
+            for copy in robot.bag
+            if copy.number == number
+            and (copy.source.body.is_lost or not self._message(copy).reliable)
+        )
+        return next(copies, None)
+
+    def _message(self, copy: Copy) -> Message:
+        return self._alphabet.messages[self._alphabet.number(copy.event)]
 
     def chosen(self, robots: Sequence[Robot]) -> Robot:
         """Return the robot that takes a step, of those that can."""
