@@ -43,7 +43,7 @@ test: $(READY) ## Run the tests, but for those that take long.
 test-long: $(READY) ## Run the tests that take long: they compile C++ and build the wheel.
 	$(PARALLEL) -m long $(ARGS)
 
-test-all: $(VENV)/.agreement $(VENV)/.docs $(EXTENSION_READY) vscode ## Run all tests, with ROS 2, SMACH, VS Code and other engines.
+test-all: $(VENV)/.agreement $(VENV)/.storm $(VENV)/.docs $(EXTENSION_READY) vscode ## Run all tests, with ROS 2, SMACH, VS Code and other engines.
 	$(BIN)/python tests/ros2/environment.py $(ROS2)
 	-$(BIN)/python tests/smach/environment.py .smach
 	SWARMDSL_ROS2=$(ROS2) $(PARALLEL) $(ARGS)
@@ -71,11 +71,11 @@ check: $(READY) ## Check format, style and types.
 	$(BIN)/ruff check
 	$(BIN)/mypy
 
-agreement: $(VENV)/.agreement ## Run state machines in engines of others too, and show how far they agree.
+agreement: $(VENV)/.agreement $(VENV)/.storm ## Run state machines and proofs in engines and model checkers of others too, and show how far they agree.
 	$(BIN)/pytest tests/agreement --agreement $(ARGS)
 
-witnesses: $(READY) ## Compare `swarmc verify` with other model checkers on examples and random swarms: SWARMS=500.
-	$(PARALLEL) tests/agreement/test_witnesses.py --swarms $(SWARMS) $(ARGS)
+witnesses: $(VENV)/.storm ## Compare `swarmc verify` with other model checkers on examples and random swarms: SWARMS=500.
+	$(PARALLEL) tests/agreement/test_witnesses.py --agreement --swarms $(SWARMS) $(ARGS)
 
 w3c: $(READY) ## Run the SCXML tests of the W3C in a folder: W3C=folder.
 	$(BIN)/python -m tests.scxml.suite $(W3C)
@@ -128,7 +128,7 @@ $(READY): pyproject.toml
 	touch $@
 
 # Tests say what is missing where an extra cannot be installed.
-$(VENV)/.agreement $(VENV)/.editor $(VENV)/.docs: $(VENV)/.%: pyproject.toml | $(READY)
+$(VENV)/.agreement $(VENV)/.storm $(VENV)/.editor $(VENV)/.docs: $(VENV)/.%: pyproject.toml | $(READY)
 	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$*]' && touch $@
 
 # What cannot be installed is not measured, and the page says so.

@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-import peers
 from measure import Cost, Section, process
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -35,10 +34,10 @@ def section(folder: Path) -> Section:
     found = Section(
         "All states of [examples/emergency_exit](../examples/emergency_exit/README.md), without "
         "time: CPU seconds of the whole command, with the proofs of all properties in swarmdsl; "
-        "with SPIN and rumur, also the compiler runs. SPIN and rumur search models that are "
-        "written by hand, without properties: SPIN distinguishes all robots, rumur searches with "
-        "its symmetry reduction. The transitions a second and the bytes a state are those of the "
-        "search alone. Each number is from one run.",
+        "with SPIN and rumur, also the compiler runs. They search what targets `promela` and "
+        "`murphi` write of the swarm, without properties: SPIN distinguishes all robots, rumur "
+        "searches with its symmetry reduction. The transitions a second and the bytes a state are "
+        "those of the search alone. Each number is from one run.",
         [
             "robots",
             "states",
@@ -55,7 +54,7 @@ def section(folder: Path) -> Section:
         size = f"robot={robots}"
         states, transitions, seconds, grown = _once(model, size)
         verified = _verify(model, size)
-        rumur, spin = _rumur(robots, folder), _spin(robots, folder)
+        rumur, spin = _rumur(model, robots, folder), _spin(model, robots, folder)
         speed, each = transitions / seconds / 1e6, grown / states
         # In a small search the process hardly grows beyond what it needed before.
         is_large = states > 100_000
@@ -121,16 +120,23 @@ def _seconds(search: Search | None) -> str:
     return f"{search.cost.cpu:.2f}" if search is not None else ""
 
 
-def _rumur(robots: int, folder: Path) -> Search | None:
+def _built(model: Path, target: str, robots: int, folder: Path) -> Path:
+    """Write the swarm for another program; return the folder of its file."""
+    out = folder / f"{target}_{robots}"
+    option = f"{target}.size=robot={robots}"
+    command = ["build", str(model), "--target", target, "--option", option, "-o", str(out)]
+    process([sys.executable, "-m", "swarmdsl", *command])
+    return out / target
+
+
+def _rumur(model: Path, robots: int, folder: Path) -> Search | None:
     """Search with rumur; None if there are too many robots, or no rumur."""
     if robots not in RUMUR or shutil.which("rumur") is None:
         return None
-    model = folder / f"rumur_{robots}.m"
-    text = (peers.FOLDER / "emergency_exit.m").read_text(encoding="utf-8")
-    model.write_text(text.replace("const N: 6;", f"const N: {robots};"), encoding="utf-8")
-    source, checker = model.with_suffix(".c"), model.with_suffix("")
+    written = _built(model, "murphi", robots, folder) / "Crowd.m"
+    source, checker = written.with_suffix(".c"), written.with_suffix("")
     options = ["--deadlock-detection", "off", "--threads", "1", "--symmetry-reduction", "heuristic"]
-    made = process(["rumur", *options, "--output", str(source), str(model)])
+    made = process(["rumur", *options, "--output", str(source), str(written)])
     compiled = process(
         [
             "cc",
@@ -150,14 +156,13 @@ def _rumur(robots: int, folder: Path) -> Search | None:
     return Search(int(states[-1]), _sum(made, compiled, ran))
 
 
-def _spin(robots: int, folder: Path) -> Search | None:
+def _spin(model: Path, robots: int, folder: Path) -> Search | None:
     """Search with SPIN; None if there are too many robots, or no SPIN."""
     if robots not in SPIN or shutil.which("spin") is None:
         return None
-    place = folder / f"spin_{robots}"
-    place.mkdir()
+    place = _built(model, "promela", robots, folder)
     checker = place / "pan"
-    made = _inside(place, ["spin", "-a", f"-DN={robots}", str(peers.FOLDER / "emergency_exit.pml")])
+    made = _inside(place, ["spin", "-a", "Crowd.pml"])
     source = str(place / "pan.c")
     compiled = process(["cc", "-O3", "-DSAFETY", "-DMEMLIM=4096", source, "-o", str(checker)])
     # Robots that are safe wait for ever: that is no mistake.

@@ -1,19 +1,25 @@
-"""The table of how far the engines agree, printed for `--agreement`."""
+"""Tables of how far engines and model checkers agree, printed for `--agreement`."""
 
 from __future__ import annotations
 
 import faulthandler
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 
 import pytest
 
 from .engines import ENGINES
+from .witnesses import Compared
+
+CHECKERS = {"promela": "SPIN", "murphi": "rumur", "jani": "Storm"}
+"""Model checkers, by their targets."""
 
 
 @pytest.fixture(autouse=True)
-def _an_end() -> Iterator[None]:
+def _an_end(request: pytest.FixtureRequest) -> Iterator[None]:
     """End the tests, with a traceback, if an engine goes round for ever where ours does not."""
-    faulthandler.dump_traceback_later(300, exit=True)
+    limit = request.node.get_closest_marker("timeout")
+    faulthandler.dump_traceback_later(limit.args[0] if limit is not None else 300, exit=True)
     yield
     faulthandler.cancel_dump_traceback_later()
 
@@ -28,7 +34,25 @@ def agree(record_property: Callable[[str, object], None]) -> Callable[[str, str,
     return agree
 
 
+@pytest.fixture
+def witnessed(
+    record_property: Callable[[str, object], None],
+) -> Callable[[str, str, Callable[[], Compared]], Compared]:
+    """Run a comparison with the checker of a target, and note for the table what it compared."""
+
+    def witnessed(model: str, target: str, compare: Callable[[], Compared]) -> Compared:
+        record_property("begun", (model, target))
+        found = compare()
+        record_property("witness", (model, target, *found))
+        return found
+
+    return witnessed
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    if not terminalreporter.config.getoption("--agreement"):
+        return
+    _print_witnesses(terminalreporter)
     rows: dict[str, dict[str, tuple[int, int]]] = {}
     for outcome in ("passed", "xfailed", "failed"):
         for report in terminalreporter.getreports(outcome):
@@ -36,7 +60,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
                 if name == "agreement":
                     machine, engine, scripts, same = value
                     rows.setdefault(machine, {})[engine] = (scripts, same)
-    if not rows or not terminalreporter.config.getoption("--agreement"):
+    if not rows:
         return
     terminalreporter.section("scripts on which engines agree with ours")
     width = max(map(len, rows)) + 2
@@ -56,3 +80,34 @@ def _cell(numbers: tuple[int, int] | None) -> str:
         return "-"
     scripts, same = numbers
     return str(scripts) if same == scripts else f"{same} of {scripts}"
+
+
+def _print_witnesses(terminalreporter: pytest.TerminalReporter) -> None:
+    begun: defaultdict[tuple[str, str], int] = defaultdict(int)
+    found: defaultdict[tuple[str, str], Compared] = defaultdict(lambda: Compared(0, 0, 0))
+    for outcome in ("passed", "failed"):
+        for report in terminalreporter.getreports(outcome):
+            for name, value in report.user_properties if report.when == "call" else ():
+                if name == "begun":
+                    begun[value[0], value[1]] += 1
+                if name == "witness":
+                    begun[value[0], value[1]] -= 1
+                    found[value[0], value[1]] += Compared(*value[2:])
+    if not begun:
+        return
+    terminalreporter.section("swarms that other model checkers see as `swarmc verify`")
+    terminalreporter.write_line("swarms with as many states; properties that hold, that fail")
+    models = sorted({model for model, _ in begun}, key=str.lower)
+    width = max(map(len, models)) + 2
+    terminalreporter.write_line("".ljust(width) + "".join(c.rjust(22) for c in CHECKERS.values()))
+    for model in models:
+        cells = [
+            _witness(found[model, each], begun[model, each]) if (model, each) in begun else "-"
+            for each in CHECKERS
+        ]
+        terminalreporter.write_line(model.ljust(width) + "".join(c.rjust(22) for c in cells))
+
+
+def _witness(found: Compared, differing: int) -> str:
+    text = f"{found.counts}; {found.holds}, {found.fails}"
+    return f"{text}; differs" if differing else text

@@ -1,11 +1,12 @@
-"""SPIN and rumur see the same states of a swarm as `swarmc verify`, and agree on properties.
+"""SPIN, rumur and Storm see the same states as `swarmc verify`, and agree on properties.
 
-They read the files of targets `promela` and `murphi`, and have their own searches. Numbers of
-states are compared, and verdicts on all properties that the languages can express.
+They read the files of targets `promela`, `murphi` and `jani`, and have their own searches. Numbers
+of states are compared, and verdicts on all properties that the languages can express.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,7 @@ import pytest
 from swarmdsl.execution.verify.environment import Options
 
 from ..verify.random_swarms import random_swarm
-from .witnesses import Compared, compare, missing_for
+from .witnesses import MISSING, Compared, compare
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = {
@@ -26,10 +27,10 @@ FEW = ("minimal", "operations")
 """Models that are compared also if only few swarms are."""
 MANY = 10
 """Number of random swarms from which on all models are compared, too."""
-_REASONS = {"promela": missing_for("spin", "gcc"), "murphi": missing_for("rumur", "gcc")}
+Witnessed = Callable[[str, str, Callable[[], Compared]], Compared]
 WITNESSES = [
     pytest.param(target, id=target, marks=pytest.mark.skipif(reason != "", reason=reason))
-    for target, reason in _REASONS.items()
+    for target, reason in MISSING.items()
 ]
 
 
@@ -71,18 +72,19 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 @pytest.mark.timeout(3000)
 @pytest.mark.parametrize("target", WITNESSES)
-def test_random_swarms(seeds: range, target: str, tmp_path: Path) -> None:
-    found = Compared(0, 0, 0)
-    for seed in seeds:
-        found += random(seed, target, tmp_path)
+def test_random_swarms(seeds: range, target: str, tmp_path: Path, witnessed: Witnessed) -> None:
+    def compare_all() -> Compared:
+        return sum((random(seed, target, tmp_path) for seed in seeds), Compared(0, 0, 0))
+
+    found = witnessed("random swarms", target, compare_all)
 
     assert min(found) > 0
 
 
 @pytest.mark.timeout(3000)
 @pytest.mark.parametrize("target", WITNESSES)
-def test_models(name: str, target: str, tmp_path: Path) -> None:
-    found = compare(SOURCES[name], target, tmp_path)
+def test_models(name: str, target: str, tmp_path: Path, witnessed: Witnessed) -> None:
+    found = witnessed(name, target, lambda: compare(SOURCES[name], target, tmp_path))
 
     # Others may have too many states.
     assert found.counts or name not in FEW

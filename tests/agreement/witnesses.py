@@ -1,11 +1,14 @@
-"""SPIN and rumur on the models that targets `promela` and `murphi` write of a swarm."""
+"""SPIN, rumur and Storm on the models that targets `promela`, `murphi` and `jani` write."""
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
-from collections.abc import Callable, Iterator, Mapping
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from importlib.util import find_spec
 from math import factorial
 from pathlib import Path
 from typing import NamedTuple
@@ -25,6 +28,7 @@ from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.verdict import Verdict
 from swarmdsl.ir import System
 
+ROOT = Path(__file__).resolve().parents[2]
 MOST = 20_000
 """Number of states, without symmetry, up to which a swarm is compared."""
 
@@ -48,21 +52,25 @@ class Compared(NamedTuple):
         return Compared(*map(sum, zip(self, other, strict=True)))
 
 
-Checker = Callable[[Path, Path], Found]
-"""Function of a model and a folder to work in."""
-
-
 def missing_for(*programs: str) -> str:
     """Return the programs that are not installed, as the reason for a skip, or ""."""
     missing = [each for each in programs if shutil.which(each) is None]
     return f"no {' and '.join(missing)}: `.ci/run` installs them" if missing else ""
 
 
+def missing_storm() -> str:
+    """Return the reason why Storm cannot run, or ""."""
+    if sys.version_info < (3, 11):
+        return "no stormpy: it needs Python 3.11"
+    return "" if find_spec("stormpy") else "no stormpy: `make .venv/.storm` installs it"
+
+
 def spin(model: Path, folder: Path) -> Found:
     """Look at all states of a file of target `promela`, breadth first and without reduction."""
     _run(["spin", "-a", str(model)], folder)
     _run(["gcc", "-O0", "-w", "-DBFS", "-DNOREDUCE", "-DSAFETY", "-o", "pan", "pan.c"], folder)
-    told = _run(["./pan"], folder)
+    # Room for 65,536 states, and more if there are: to make it takes as long as a small search.
+    told = _run(["./pan", "-w16"], folder)
     errors = _number(r"errors: (\d+)", told)
     assert errors or "Search not completed" not in told, told
     return Found(_number(r"(\d+) states, stored", told), errors > 0)
@@ -80,6 +88,23 @@ def rumur(model: Path, folder: Path) -> Found:
     return Found(_number(r"(\d+) states", told), violated)
 
 
+def storm(models: Sequence[Path]) -> list[Found]:
+    """Look at all states of files of target `jani`, in one process."""
+    names = [str(model.resolve()) for model in models]
+    lines = _run([sys.executable, "-m", "tests.agreement.storm", *names], ROOT).splitlines()
+    return [Found(states, not holds) for states, holds in map(json.loads, lines)]
+
+
+def check(target: str, models: Sequence[Path], folder: Path) -> list[Found]:
+    """Look at all states of files of a target with its checker, in a folder to work in."""
+    match target:
+        case "promela":
+            return [spin(model, folder) for model in models]
+        case "murphi":
+            return [rumur(model, folder) for model in models]
+    return storm(models)
+
+
 def compare(
     source: Path,
     target: str,
@@ -90,9 +115,8 @@ def compare(
 ) -> Compared:
     """Compare numbers of states and verdicts on a model with those of the checker of a target.
 
-    rumur counts states that differ in the order of equal robots once, SPIN each of them.
+    rumur counts states that differ in the order of equal robots once, SPIN and Storm each of them.
     """
-    check = CHECKERS[target]
     system = _system(source)
     counts, options = counts or {}, options or Options()
     files = _build(source, target, counts, options, folder / "out")
@@ -111,19 +135,30 @@ def compare(
         if every >= MOST:
             continue
         suffix = next(iter(files)).suffix if files else ""
-        found = check(folder / "out" / target / f"{subject.name}{suffix}", folder)
+        alone = folder / "out" / target / f"{subject.name}{suffix}"
+        watching = {
+            each.name: [f for f in files if _is_of(f, f"{subject.name}_{each.name}")]
+            for each in watchable(subject)
+        }
+        models = [alone, *(file for made in watching.values() for file in made)]
+        found = dict(zip(models, check(target, models, folder), strict=True))
         wanted = len(graph.seen) if target == "murphi" else every
-        assert found == Found(wanted, violated=False), subject.name
+        assert found[alone] == Found(wanted, violated=False), subject.name
         total += Compared(1, 0, 0)
         for property_ in watchable(subject):
-            made = [f for f in files if _is_of(f, f"{subject.name}_{property_.name}")]
+            made = watching[property_.name]
             if made:
-                violated = any(check(each, folder).violated for each in made)
+                violated = any(found[each].violated for each in made)
                 total += _same(prove(property_, model, Budget(Limits())), violated)
     return total
 
 
-CHECKERS: Mapping[str, Checker] = {"promela": spin, "murphi": rumur}
+MISSING: Mapping[str, str] = {
+    "promela": missing_for("spin", "gcc"),
+    "murphi": missing_for("rumur", "gcc"),
+    "jani": missing_storm(),
+}
+"""Targets, with the reasons why their checkers cannot run, or ""."""
 
 
 def _same(verdict: Verdict, violated: bool) -> Compared:

@@ -3,7 +3,9 @@
 Usage: `python -m tests.verify.seeded [WALKS] [EXAMPLE...]`
 
 Random walks decide which mutants of an example do anything else than it does; of these, `swarmc
-verify` shall report as many as it can.
+verify` shall report as many as it can. A walk knows how functions end, which nobody can see. So the
+share is also shown of those mutants that an observer can convict: they have a run that the original
+has not. The others only leave out some of its runs.
 """
 
 from __future__ import annotations
@@ -25,6 +27,7 @@ from swarmdsl.driver.config import find_settings
 from swarmdsl.ir import Swarm, System
 
 from .mutants import Mutant, mutants
+from .observable import Views, does_more
 from .walks import Surroundings, Walk, walk
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -43,13 +46,15 @@ class Case(NamedTuple):
     """What became of a mutant of a swarm, with the codes that are reported about it.
 
     It is `refused` by the compiler, does the `same` in all walks, or else a check before the search
-    or the search finds it, or nothing. It is `wrong` if a walk violates a property of the model.
+    or the search finds it, or nothing. It is `wrong` if a walk violates a property of the model. It
+    does `more` if it has runs that an observer can tell from all of the original.
     """
 
     mutant: Mutant
     fate: Fate
     codes: Sequence[str] = ()
     wrong: bool = False
+    more: bool = False
 
 
 class Original:
@@ -60,6 +65,7 @@ class Original:
         self.system = system_of(folder)
         self.swarm = _swarm(self.system, swarm)
         self.alarms = reports(folder, swarm)
+        self._views = Views(self.system, self.swarm)
         self._around = Surroundings(self.system, self.swarm)
         self._walks = [walk(self.system, self.swarm, self._around, n) for n in range(number)]
         self._violated = frozenset[str]().union(*(each.violated for each in self._walks))
@@ -78,7 +84,9 @@ class Original:
             return Case(mutant, "same")
         new = sorted({code for code, _ in reports(folder, self.swarm.name) - self.alarms})
         found = any(code.startswith("SW17") for code in new)
-        return Case(mutant, "verified" if found else "checked" if new else "missed", new, wrong)
+        fate: Fate = "verified" if found else "checked" if new else "missed"
+        more = does_more(self._views, Views(system, _swarm(system, self.swarm.name)))
+        return Case(mutant, fate, new, wrong, more)
 
     def _machines(self) -> set[str]:
         return {
@@ -145,9 +153,12 @@ def main() -> None:
                     count[case.fate] += 1
                     count["wrong"] += case.wrong
                     count["wrong and found"] += case.wrong and case.fate != "missed"
+                    count["more"] += case.more
+                    count["more and found"] += case.more and case.fate != "missed"
                     if case.fate == "missed":
                         wrong = ", though a walk violates a property" if case.wrong else ""
-                        _say(f"{name} {swarm.name}: missed {mutant}{wrong}")
+                        less = "" if case.more else " (only leaves out runs)"
+                        _say(f"{name} {swarm.name}: missed {mutant}{less}{wrong}")
                 total += count
                 _say(f"{name} {swarm.name}: {_summary(count)}")
     _say(f"\nmutants that {number:,} random walks tell from the original: {_summary(total)}")
@@ -162,13 +173,17 @@ def _say(line: str) -> None:
 def _summary(count: Counter[str]) -> str:
     found = count["verified"] + count["checked"]
     apart = found + count["missed"]
-    share = f" ({found / apart:.1%})" if apart else ""
     return (
-        f"{found} of {apart} found{share}, {count['verified']} by the search and"
-        f" {count['checked']} by checks before it;"
+        f"{_share(found, apart)} found, {count['verified']} by the search and"
+        f" {count['checked']} by checks before it; {_share(count['more and found'], count['more'])}"
+        " of those with runs that an observer can tell from all of the original;"
         f" {count['wrong and found']} of {count['wrong']} whose walks violate a property;"
         f" {count['same']} do the same, {count['refused']} do not compile"
     )
+
+
+def _share(part: int, whole: int) -> str:
+    return f"{part} of {whole}" + (f" ({part / whole:.1%})" if whole else "")
 
 
 if __name__ == "__main__":

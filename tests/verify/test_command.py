@@ -122,7 +122,9 @@ def test_a_limit_of_time_ends_the_search_for_the_states_of_a_robot(
 ) -> None:
     run(["verify", str(MODELS / "explodes.swarm"), "--limit", "1ms"])
 
-    assert re.search(r"^  1 state, .*: there are more$", capsys.readouterr().out, re.MULTILINE)
+    out = capsys.readouterr().out
+    why = "there are more, as the search came to its limit"
+    assert re.search(rf"^  1 state, .*: {why}", out, re.MULTILINE)
 
 
 def test_limits_of_time_and_memory_end_a_search(

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from .mutants import mutants
-from .seeded import Case, Original, system_of
+from .observable import Views, does_more
+from .seeded import EXAMPLES, Case, Original, system_of
 
 # Kind of mistake, and the text in which it is made. The rest is for `make mutants`.
 FATES = {
@@ -30,6 +33,30 @@ def test_mistakes_are_found_and_nothing_else(examples: Path, tmp_path: Path) -> 
 
     assert original.alarms == set()
     assert {what: case.fate for what, case in found.items()} == FATES
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "more"),
+    [
+        # All that it does, a blinker does whose blinks are aborted.
+        ("on succeeded -> Blink", "on succeeded -> Off", False),
+        ("on aborted   -> Off", "on aborted   -> Blink", False),
+        # It hears a stop, and goes on.
+        ("on Stop      -> Off", "on Stop      -> Blink", True),
+        ("on Stop      -> Off", "", True),
+        ("on succeeded -> Blink", "on succeeded / send Stop -> Blink", True),
+    ],
+)
+def test_what_an_observer_can_tell(was: str, now: str, more: bool, tmp_path: Path) -> None:
+    text = (EXAMPLES / "minimal" / "blinker.swarm").read_text(encoding="utf-8")
+    assert text.count(was) == 1
+    (tmp_path / "blinker.swarm").write_text(text.replace(was, now), encoding="utf-8")
+    mine, other = (system_of(folder) for folder in (EXAMPLES / "minimal", tmp_path))
+
+    views = [Views(system, system.swarms[0]) for system in (mine, other)]
+
+    assert does_more(*views) is more
+    assert not does_more(views[0], views[0])
 
 
 def test_each_mutant_is_another_model(examples: Path, tmp_path: Path) -> None:

@@ -113,3 +113,4 @@ composition = _generator("composition", "Members of a swarm as XML, and launch f
 frevo = _generator("frevo", "Problem and configuration of a search with FREVO")
 promela = _generator("promela", "Composed swarms and their properties for the model checker SPIN")
 murphi = _generator("murphi", "Composed swarms and their properties for the model checker rumur")
+jani = _generator("jani", "Composed swarms and their properties for the model checker Storm")

@@ -30,6 +30,7 @@ BUILT_IN = {
     "frevo": "swarmdsl.codegen.exchange.frevo:generator",
     "promela": "swarmdsl.codegen.bundled.promela:generator",
     "murphi": "swarmdsl.codegen.bundled.murphi:generator",
+    "jani": "swarmdsl.codegen.bundled.jani:generator",
 }
 # Formats of other tools, built on request only.
 ON_REQUEST = frozenset(
@@ -44,6 +45,7 @@ ON_REQUEST = frozenset(
         "frevo",
         "promela",
         "murphi",
+        "jani",
     }
 )
 GROUP = "swarmdsl.generators"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import reduce
 from operator import or_
 from typing import Any
@@ -54,7 +54,7 @@ class Automaton:
         self.slots: list[list[Slot]] = []
         """Running activities and delays of each state, in the order of its representative."""
         self._labels: list[list[Any]] = []
-        self._deferred: list[set[str]] = []
+        self.deferred: list[set[str]] = []
         """Names of the deferred events of each state."""
         self.values: list[tuple[tuple[str, Any], ...]] = []
         """For each state, the values of the variables that decide on anything."""
@@ -136,6 +136,14 @@ class Automaton:
             for each in move.carried
             if each.length is not None
         }
+
+    def configurations(self) -> Iterator[Any]:
+        """Yield for each state which states of its machines are active."""
+        yield from (tuple(each[:3] for each in machines) for (machines, *_), _ in self._keys)
+
+    def waiting(self) -> Iterator[Any]:
+        """Yield for each state the deferred events."""
+        yield from (tuple(each[4] for each in machines) for (machines, *_), _ in self._keys)
 
     @property
     def is_complete(self) -> bool:
@@ -239,7 +247,7 @@ class Automaton:
 
         It must not if a machine of the robot does anything else with it.
         """
-        if given.name not in self._deferred[number]:
+        if given.name not in self.deferred[number]:
             return False
         body = self._at(number)
         self.apply(body, given)
@@ -312,7 +320,7 @@ class Automaton:
             self.is_lost.append(body.is_lost)
             self.heard.append({})
             self.late.append(set())
-            self._deferred.append(
+            self.deferred.append(
                 {each.name for one in body.instances for each in one._deferred or ()}
             )
             self._origins.append(origin)

@@ -296,7 +296,7 @@ class _Session:
         for found in surveys:
             states = diagnostics.counted_in_thousands(found.states, "state")
             steps = diagnostics.counted_in_thousands(found.transitions, "step")
-            rest = "all there are" if found.complete else "there are more"
+            rest = f"there are more, as {found.missing}" if found.missing else "all there are"
             self._say(f"  {states}, {steps}: {rest}")
         if left:
             sizes_left = diagnostics.counted_in_thousands(left, "larger size")

@@ -236,10 +236,8 @@ def _input(model: Model, group: Group, move: Move) -> str:
 def _text(value: Any) -> str:
     """Return a value that the engine or an alphabet keeps, as text."""
     match value:
-        case ("true",):
-            return "true"
-        case ():
-            return "false"
+        case ("true" | "false" as truth,):
+            return str(truth)
         case bool():
             return str(value).lower()
     return repr(value)

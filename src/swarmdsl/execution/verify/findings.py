@@ -16,6 +16,7 @@ from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Group, Local, Step
 from swarmdsl.execution.verify.runs import Run, play, steps_between
+from swarmdsl.execution.verify.verdict import unfinished
 
 Fault = Literal["loops", "fails", "stuck", "waits", "unreachable", "untaken", "lost", "answers"]
 
@@ -42,11 +43,14 @@ class Finding:
 
 @dataclass(frozen=True)
 class Survey:
-    """States of a swarm that were looked at, and what was found."""
+    """States of a swarm that were looked at, and what was found.
+
+    `missing` is the reason why not all states were looked at, or "".
+    """
 
     states: int
     transitions: int
-    complete: bool
+    missing: str
     findings: tuple[Finding, ...]
     full: tuple[str, ...] = ()
 
@@ -75,7 +79,8 @@ def survey(model: Model, budget: Budget) -> Survey:
     ignored = {each.name for each in findings if each.fault == "lost"}
     for machine in reached.values():
         findings += machine.missing(ignored)
-    return Survey(states, transitions, complete, tuple(findings), tuple(sorted(full)))
+    missing = "" if complete else unfinished(model, budget)
+    return Survey(states, transitions, missing, tuple(findings), tuple(sorted(full)))
 
 
 class _Part:

@@ -8,8 +8,8 @@ from typing import Literal
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
-from swarmdsl.execution.verify.automaton import Automaton
 from swarmdsl.execution.verify.explore import Graph
+from swarmdsl.execution.verify.explosion import explain
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.runs import Run
@@ -56,29 +56,9 @@ def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> 
 
 
 def unfinished(model: Model, budget: Budget) -> str:
-    """Return the reason why a search ended too early, with the variable to bound."""
+    """Return the reason why a search ended too early, with what makes the states so many."""
     large = next((each for each in model.kinds if each.is_too_large), None)
     if large is None:
         other = "another one with `--limit`, or fewer robots with `--size`"
         return f"the search came to its limit of {budget.reached}: set {other}"
-    wide = _widest(large, model)
-    what = f": bound `{wide}`" if wide else ""
-    return f"a `{large.kind.role}` has too many states{what}"
-
-
-def _widest(large: Automaton, model: Model) -> str | None:
-    """Return the variable with the most values.
-
-    In other variables, and in other robots, there may be copies of one that grows.
-    """
-    growing: dict[str, int] = {}
-    for automaton in model.kinds:
-        for name, number in automaton.numbers_of_values().items():
-            if name in model.demands.growing:
-                growing[name] = max(number, growing.get(name, 0))
-    values = large.numbers_of_values()
-    for numbers in (growing, values):
-        best = max(numbers, key=numbers.__getitem__, default=None)
-        if best is not None and numbers[best] > 1:
-            return best
-    return None
+    return f"a `{large.kind.role}` has too many states{explain(large, model)}"
