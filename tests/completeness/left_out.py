@@ -119,6 +119,7 @@ _REASONS: dict[str, dict[str, str]] = {
             "System.optimizations System.swarms"
         ),
         "SCXML has no space": (
+            "FitnessInput.space SpaceMeasure.of SpaceMeasure.quantity "
             "Area.box Area.doc Area.name Box.high Box.highest Box.low Box.lowest "
             "Component.sights Disc.centre Disc.height Disc.radius Environment.areas "
             "Environment.obstacles Environment.rains Environment.targets Environment.walls "

@@ -143,6 +143,18 @@ PLACES = {
         {"height", "MOST"},
         {"meadow"},
     ),
+    "role of a measure in space": (
+        HEAD + SPACE + "member Car { } swarm S { car : Car  fitness F }\n"
+        "fitness F { in way : float64 in m = distance(|) }",
+        {"car"},
+        {"person"},
+    ),
+    "target of a measure in space": (
+        HEAD + SPACE + "member Car { } swarm S { car : Car  fitness F }\n"
+        "fitness F { in seen : uint32 = found(|) }",
+        {"person"},
+        {"car"},
+    ),
     "param of a role": (
         HEAD + WORK + "member Car { param length : int32 } swarm S { car : Car { | } }",
         {"length"},

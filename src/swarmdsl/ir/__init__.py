@@ -98,6 +98,7 @@ if TYPE_CHECKING:
         Rain,
         Shape,
         Sight,
+        SpaceMeasure,
         Targets,
         Wall,
         Wind,
@@ -167,7 +168,8 @@ else:
                 "Chance Claim Count Fact Junction Measure Property Robots Scope"
             ),
             "swarmdsl.ir.space": (
-                "Area Box Disc ModelUse Obstacle Point Rain Shape Sight Targets Wall Wind Zone"
+                "Area Box Disc ModelUse Obstacle Point Rain Shape Sight SpaceMeasure Targets Wall "
+                "Wind Zone"
             ),
             "swarmdsl.ir.statemachine": (
                 "Activity Address Assignment Cancel DoneTrigger Effect EventTrigger OutcomeTrigger "
@@ -270,6 +272,7 @@ __all__ = [
     "Service",
     "Shape",
     "Sight",
+    "SpaceMeasure",
     "State",
     "StateKind",
     "StateMachine",

@@ -10,18 +10,20 @@ from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param
 from swarmdsl.ir.properties import Measure
+from swarmdsl.ir.space import SpaceMeasure
 from swarmdsl.syntax.types import Type
 
 
 @dataclass(frozen=True, slots=True)
 class FitnessInput:
-    """Value that is measured in a run; without a measure, by other programs."""
+    """Value that is measured in a run or in a `space`; without a measure, by other programs."""
 
     name: str
     type: Type
     measure: Measure | None = None
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+    space: SpaceMeasure | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,8 @@ start of the run. The origin of an environment is its lower left corner.
 
 from __future__ import annotations
 
+from typing import Literal
+
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.ir.docs import Docs
@@ -146,3 +148,16 @@ class ModelUse:
     arguments: Values = ()
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class SpaceMeasure:
+    """Value of a run that only a space knows.
+
+    `distance` is the way of all robots of role `of` in metres, `energy` what they used in J, and
+    `covered` the share of the environment that they have seen; `found` is the number of targets of
+    kind `of` that a robot has seen.
+    """
+
+    quantity: Literal["distance", "energy", "covered", "found"]
+    of: str

@@ -16,6 +16,7 @@ from swarmdsl.syntax.ast import (
     Optimization,
     ParamRange,
     Setting,
+    SpaceMeasure,
 )
 
 
@@ -31,6 +32,7 @@ def lower_fitness(fitness: Fitness, context: Context) -> ir.Fitness:
                 lower_measure(item.measure, context) if item.measure is not None else None,
                 item.doc,
                 item.name.span,
+                _space(item.space),
             )
             for item in fitness.items
             if isinstance(item, FitnessInput)
@@ -43,6 +45,14 @@ def lower_fitness(fitness: Fitness, context: Context) -> ir.Fitness:
         origin=fitness.name.span,
         subject=context.names[fitness.about] if fitness.about is not None else None,
     )
+
+
+def _space(measure: SpaceMeasure | None) -> ir.SpaceMeasure | None:
+    if measure is None:
+        return None
+    of = measure.target if measure.role is None else measure.role
+    assert of is not None
+    return ir.SpaceMeasure(measure.quantity, of.name)
 
 
 def lower_optimization(optimization: Optimization, context: Context) -> ir.Optimization:

@@ -5,9 +5,19 @@ from __future__ import annotations
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.properties import check_facts
 from swarmdsl.analysis.resolve.properties import facts_in
+from swarmdsl.analysis.types.space_types import LENGTH
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import Fitness, FitnessInput, FitnessUse, Measure, Swarm
-from swarmdsl.syntax.types import DURATION, FLOAT, INT, Type
+from swarmdsl.syntax.types import DURATION, FLOAT, INT, Type, with_unit
+from swarmdsl.syntax.units import UNITS
+
+_IN_SPACE = {
+    "distance": LENGTH,
+    "energy": with_unit(FLOAT, UNITS["J"]),
+    "covered": FLOAT,
+    "found": INT,
+}
+"""Types of measures of a space."""
 
 
 def check_measures(fitness: Fitness, context: Context) -> None:
@@ -17,6 +27,8 @@ def check_measures(fitness: Fitness, context: Context) -> None:
             check_facts(item.measure, fitness, context)
             _check_lasting(item.measure, context)
             context.check_fits(_type(item.measure), item.type.type, item.measure.span)
+        if isinstance(item, FitnessInput) and item.space is not None:
+            context.check_fits(_IN_SPACE[item.space.quantity], item.type.type, item.space.span)
 
 
 def check_measured_swarm(swarm: Swarm, context: Context) -> None:

@@ -33,6 +33,7 @@ from swarmdsl.syntax.ast import (
     Node,
     Property,
     Send,
+    SpaceMeasure,
     State,
     StateMachine,
     Swarm,
@@ -46,7 +47,9 @@ from swarmdsl.syntax.types import BOOL, DURATION
 def check_subjects(project: Project, context: Context) -> None:
     """Check that a property that names no swarm or machine is about the only one."""
     for file, owner in project.declarations():
-        measures = isinstance(owner, Fitness) and bool(nodes_of(owner, Measure))
+        measures = isinstance(owner, Fitness) and any(
+            nodes_of(owner, kind) for kind in (Measure, SpaceMeasure)
+        )
         if not isinstance(owner, Property) and not measures:
             continue
         assert isinstance(owner, (Property, Fitness))

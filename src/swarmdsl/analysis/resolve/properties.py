@@ -14,6 +14,7 @@ from typing import TypeVar
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.report_unresolved import report_missing_inside, resolve_or_report
 from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.space import targets_of
 from swarmdsl.analysis.resolve.states import content, regions, states_by_name
 from swarmdsl.analysis.resolve.values import ValueLinker
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
@@ -38,6 +39,7 @@ from swarmdsl.syntax.ast import (
     PropertySubject,
     Ref,
     Role,
+    SpaceMeasure,
     StateMachine,
     Swarm,
     TopLevel,
@@ -96,21 +98,42 @@ def link_fitness(
     owner: Fitness, scope: FileScope, values: ValueLinker, report: Diagnostics
 ) -> None:
     """Resolve the names in a fitness except those of events and functions."""
-    measures = nodes_of(owner, Measure)
+    measures, in_space = nodes_of(owner, Measure), nodes_of(owner, SpaceMeasure)
     owner.about = owner.subject.target if owner.subject is not None else None
-    if measures and owner.subject is None:
+    if (measures or in_space) and owner.subject is None:
         found = measured_swarms(owner, scope.project)
         owner.about = found[0] if len(found) == 1 else None
     guards: set[Expression] = set()
     for measure in measures:
         measure.about = owner.about
         guards |= _link_facts(measure, owner, scope, values, report)
+    for each in in_space:
+        _link_in_space(each, owner, scope, report)
     own: dict[str, FitnessInput | Param] = {}
     for kind in (FitnessInput, Param):
         for item in owner.items:
             if isinstance(item, kind):
                 own.setdefault(str(item.name), item)
     values.link_only([e for e in nodes_of(owner, Expression) if e not in guards], owner, own)
+
+
+def _link_in_space(
+    measure: SpaceMeasure, owner: Fitness, scope: FileScope, report: Diagnostics
+) -> None:
+    """Resolve the role, or the kind of target, of a measure of space."""
+    if measure.role is not None and owner.about is not None:
+        roles = roles_of(owner.about)
+        measure.role.target = roles.get(measure.role.name)
+        if measure.role.target is None:
+            kind = f"role in swarm `{owner.about.name}`"
+            name, at = measure.role.name, measure.role.span
+            report_missing_inside(kind, name, at, roles, scope, report)
+    if measure.target is not None:
+        known = targets_of(scope.project)
+        measure.target.target = known.get(measure.target.name)
+        if measure.target.target is None and known:
+            name, at = measure.target.name, measure.target.span
+            report_missing_inside("target", name, at, known, scope, report)
 
 
 def facts_in(sentence: Sentence) -> list[Fact]:

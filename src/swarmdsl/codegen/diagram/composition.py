@@ -12,7 +12,7 @@ from swarmdsl.codegen.shared.property_texts import measure_text
 from swarmdsl.codegen.swarm_printer.composition import heartbeat
 from swarmdsl.codegen.swarm_printer.expressions import expression, with_names
 from swarmdsl.codegen.swarm_printer.layout import quoted
-from swarmdsl.codegen.swarm_printer.space import space_items, start, text
+from swarmdsl.codegen.swarm_printer.space import space_items, space_measure, start, text
 
 
 def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
@@ -170,6 +170,8 @@ def _fitness(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edge]]:
 
 def _input(field: ir.FitnessInput) -> str:
     declared = f"in {field.name} : {type_name(field.type)}"
+    if field.space is not None:
+        return f"{declared} = {space_measure(field.space)}"
     if field.measure is None:
         return declared
     return f"{declared} = {measure_text(field.measure)}"

@@ -8,7 +8,7 @@ from swarmdsl.codegen.swarm_printer.expressions import duration, expression
 from swarmdsl.codegen.swarm_printer.interfaces import print_params
 from swarmdsl.codegen.swarm_printer.layout import block, documented, quoted
 from swarmdsl.codegen.swarm_printer.names import Names
-from swarmdsl.codegen.swarm_printer.space import metres, print_space, start
+from swarmdsl.codegen.swarm_printer.space import metres, print_space, space_measure, start
 from swarmdsl.ir import (
     CountRange,
     Environment,
@@ -94,6 +94,8 @@ def print_fitness(fitness: Fitness, names: Names) -> list[str]:
 
 def _input(each: FitnessInput, names: Names) -> str:
     declared = f"in {each.name} : {names.type(each.type)}"
+    if each.space is not None:
+        return f"{declared} = {space_measure(each.space)}"
     if each.measure is None:
         return declared
     return f"{declared} = {measure_text(each.measure)}"

@@ -18,6 +18,7 @@ from swarmdsl.ir import (
     Rain,
     Shape,
     Sight,
+    SpaceMeasure,
     Targets,
     Wall,
     Wind,
@@ -108,6 +109,11 @@ def start(of: str | Point | None) -> str:
     if of is None:
         return ""
     return f" in {of}" if isinstance(of, str) else f" at {point(of)}"
+
+
+def space_measure(measure: SpaceMeasure) -> str:
+    """Return a measure of space: `distance(uav)`."""
+    return f"{measure.quantity}({measure.of})"
 
 
 def print_sights(sights: Iterable[Sight]) -> list[str]:

@@ -23,6 +23,7 @@ from swarmdsl.syntax.ast import (
     Interface,
     Property,
     Sight,
+    SpaceMeasure,
     Swarm,
     nodes_of,
 )
@@ -104,7 +105,7 @@ def affected(
         found.update(each for each in fragments if _names_no_subject(each))
     if change.declarations_changed or any(_has(Environment, each) for each in found):
         # What a sensor finds is in any environment.
-        found.update(each for each in fragments if _has_sight(each))
+        found.update(each for each in fragments if _names_targets(each))
     if change.names:
         found.update(_containing(change.names, fragments))
     return with_users(found).intersection(fragments)
@@ -122,9 +123,12 @@ def _has(kind: type[Declaration], fragment: Fragment) -> bool:
     return any(isinstance(each, kind) for each in fragment.parsed.model.declarations)
 
 
-def _has_sight(fragment: Fragment) -> bool:
-    components = (each for each in fragment.parsed.model.declarations if type(each) is Component)
-    return any(nodes_of(each, Sight) for each in components)
+def _names_targets(fragment: Fragment) -> bool:
+    return any(
+        nodes_of(each, SpaceMeasure if isinstance(each, Fitness) else Sight)
+        for each in fragment.parsed.model.declarations
+        if isinstance(each, (Component, Fitness))
+    )
 
 
 def _containing(names: Collection[str], fragments: Iterable[Fragment]) -> Iterator[Fragment]:

@@ -151,9 +151,19 @@ class Measure(Node):
 
 
 @dataclass(slots=True, eq=False)
-class FitnessInput(Input):
-    """`in name : Type = measure`, measured in a run."""
+class SpaceMeasure(Node):
+    """`distance(role)`, `energy(role)`, `covered(role)` or `found(target)`."""
 
+    quantity: Literal["distance", "energy", "covered", "found"]
+    role: Ref[Role] | None
+    target: Ref[Targets] | None
+
+
+@dataclass(slots=True, eq=False)
+class FitnessInput(Input):
+    """`in name : Type = measure`, measured in a run, or in a space."""
+
+    space: SpaceMeasure | None
     measure: Measure | None
 
 

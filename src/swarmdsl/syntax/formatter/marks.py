@@ -28,6 +28,7 @@ from swarmdsl.syntax.ast import (
     RobotValues,
     Send,
     ServiceType,
+    SpaceMeasure,
     State,
     Targets,
     Transition,
@@ -117,6 +118,8 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                 marks.tight.add(tokens.before(counted.span.start).start)
             case IndexUse(base=base):
                 marks.tight.add(tokens.code(base.span.end)[0].start)
+            case SpaceMeasure():
+                _mark_list(marks, tokens, start, node.quantity)
             case Measure(until=""):
                 marks.tight.add(tokens.before(node.claim.span.start).start)
             case State(machine=machine) if machine is not None:

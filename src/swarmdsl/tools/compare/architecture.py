@@ -336,6 +336,11 @@ def _input(each: FitnessInput, fitness: Fitness, system: System) -> Element:
     if each.measure is not None and fitness.subject is not None:
         parts = sentences.measure(each.measure)
         measured = _says(parts, each.measure.each, fitness.subject, system)
+    if each.space is not None:
+        of = each.space.of
+        role = fitness.subject is not None and each.space.quantity != "found"
+        named = Ref(role_kind(fitness.subject or ""), of) if role else of
+        measured = (f"{each.space.quantity}(", named, ")")
     values = properties(type=type_value(each.type), measure=measured)
     return with_doc(Element("input", (each.name,), values, origin=each.origin), each.doc)
 

@@ -169,7 +169,7 @@ def fitness(element: Element, builder: EntryBuilder) -> Entry:
             doc: Cell = (" ", Prose(item.doc)) if item.doc else ()
             facts.append((item.goal, (*builder.code(item.value, element), *doc)))
         elif isinstance(item, FitnessInput) and inner is not None:
-            measure = builder.code(item.measure, inner)
+            measure = builder.code(item.measure or item.space, inner)
             inputs.append(builder.row(inner, (builder.type(item.type, inner), measure)))
     blocks = (
         Table("Inputs", ("input", "type", "measure", "description"), tuple(inputs)),
