@@ -18,18 +18,18 @@ from swarmdsl.cli.suggestions import Choice
 @options.files
 @click.option(
     "--kind",
-    type=Choice(("composition", "internal", "statechart", "all")),
+    type=Choice(("composition", "internal", "statechart", "map", "all")),
     default="all",
     show_default=True,
     help="composition: swarms with their members; internal: members with parts and connectors; "
-    "statechart: state machines.",
+    "statechart: state machines; map: environments, as SVG.",
 )
 @click.option(
     "--name",
     "names",
     metavar="NAME",
     multiple=True,
-    help="Draw this swarm, member or state machine; may be repeated.",
+    help="Draw this swarm, member, state machine or environment; may be repeated.",
 )
 @click.option(
     "--format",

@@ -16,9 +16,11 @@ from swarmdsl.codegen.diagram.graph import KINDS, Diagram
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.tools.diagram.formats import FORMATS, SUFFIXES
+from swarmdsl.tools.diagram.map import Map, maps
 from swarmdsl.tools.diagram.views import diagrams
 
 _MAX_NAMED = 12
+_MAPS = "a map shows the areas, zones, walls, obstacles and targets of an environment"
 
 
 @dataclass(frozen=True)
@@ -36,8 +38,8 @@ def draw(
 ) -> DrawResult:
     """Draw the selected diagrams of the model in the given files.
 
-    `kind` is one of `KINDS` or `all`; `names` select diagrams, by default all. Several diagrams go
-    to a folder; a single one goes to file `out` or to standard output.
+    `kind` is one of `KINDS`, `map` or `all`; `names` select diagrams, by default all. Several
+    diagrams go to a folder; a single one goes to file `out` or to standard output.
     """
     report = Diagnostics()
     settings = find_settings(paths, report)
@@ -48,13 +50,19 @@ def draw(
     if checked.system is None:
         return DrawResult(report, checked.files)
     kinds = KINDS if kind == "all" else tuple(each for each in KINDS if each == kind)
-    every = list(diagrams(checked.system, kinds))
+    every: list[Diagram | Map] = [*diagrams(checked.system, kinds)]
+    if kind == "map" or (kind == "all" and format_ == "svg"):
+        every += maps(checked.system)
     chosen = _select(every, names, report)
     if not every:
+        what = "any diagram" if kind == "all" else f"{kind} diagrams"
+        report.report("nothing-to-draw", what=what, help=_MAPS if kind == "map" else None)
+    elif kind == "map" and format_ != "svg":
         report.report(
-            "nothing-to-draw", what="any diagram" if kind == "all" else f"{kind} diagrams"
+            "nothing-to-draw",
+            what=f"format `{format_}`",
+            help="maps are drawn as SVG only: leave `--format` out",
         )
-    write = FORMATS[format_]
     if report.has_errors:
         return DrawResult(report, checked.files)
     suffix = SUFFIXES[format_]
@@ -65,15 +73,22 @@ def draw(
         report.report("unclear-diagram", count=len(chosen), where=where, help=help_)
         return DrawResult(report, checked.files)
     if out is None:
-        return DrawResult(report, checked.files, write(chosen[0]))
+        return DrawResult(report, checked.files, _text(chosen[0], format_))
     inside = is_folder(out) or len(chosen) > 1 or (not out.suffix and not exists(out))
     texts = {
-        out / f"{each.stem}{suffix}" if inside else out: write(each).encode() for each in chosen
+        out / f"{each.stem}{suffix}" if inside else out: _text(each, format_).encode()
+        for each in chosen
     }
     return DrawResult(report, checked.files, written=_write(texts, report))
 
 
-def _select(every: Sequence[Diagram], names: Sequence[str], report: Diagnostics) -> list[Diagram]:
+def _text(drawn: Diagram | Map, format_: str) -> str:
+    return drawn.svg() if isinstance(drawn, Map) else FORMATS[format_](drawn)
+
+
+def _select(
+    every: Sequence[Diagram | Map], names: Sequence[str], report: Diagnostics
+) -> list[Diagram | Map]:
     """Diagrams with the given names, by default all."""
     known = {each.name for each in every}
     for name in names:
@@ -85,7 +100,7 @@ def _select(every: Sequence[Diagram], names: Sequence[str], report: Diagnostics)
     return [each for each in every if not names or each.name in names]
 
 
-def _selection_hint(chosen: Sequence[Diagram]) -> str:
+def _selection_hint(chosen: Sequence[Diagram | Map]) -> str:
     names = list(dict.fromkeys(f"--name {each.name}" for each in chosen))
     return f"give a folder with `-o`, or select one: {listed(names[:_MAX_NAMED])}"
 

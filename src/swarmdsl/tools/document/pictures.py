@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from urllib.parse import quote
 
 from markupsafe import Markup
@@ -11,6 +11,7 @@ from swarmdsl import ir
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.diagram.graph import Diagram
 from swarmdsl.tools.diagram.layout import lay_out
+from swarmdsl.tools.diagram.map import maps
 from swarmdsl.tools.diagram.svg import draw
 from swarmdsl.tools.diagram.views import diagrams
 from swarmdsl.tools.document.elements import Element, Elements
@@ -26,12 +27,17 @@ _TITLES = {
 
 
 def pictures(system: ir.System, elements: Elements) -> Mapping[Element, Figure]:
-    """Diagrams of swarms, members and state machines by element."""
+    """Diagrams of swarms, members and state machines, and maps of environments, by element."""
     found = {}
     for diagram in diagrams(system):
         element = elements.at(diagram.frame.origin)
         if element is not None:
             found[element] = _figure(diagram, element, elements)
+    for drawn in maps(system):
+        element = elements.at(drawn.environment.origin)
+        if element is not None:
+            link = _links(element, elements)
+            found[element] = Figure(f"Map of {element.path}", Markup(drawn.svg(link)))
     return found
 
 
@@ -43,8 +49,14 @@ def _figure(diagram: Diagram, subject: Element, elements: Elements) -> Figure:
         too_large = f"With {count} nodes, the diagram is too large for this page: use `{command}`."
         return Figure(title, None, too_large)
 
+    return Figure(title, Markup(draw(lay_out(diagram), _links(subject, elements))))
+
+
+def _links(subject: Element, elements: Elements) -> Callable[[Span | None], str | None]:
+    """Return a function for the links of a picture, which has none to its subject."""
+
     def link(origin: Span | None) -> str | None:
         element = elements.at(origin)
         return f"#{quote(element.anchor)}" if element not in (None, subject) else None
 
-    return Figure(title, Markup(draw(lay_out(diagram), link)))
+    return link
