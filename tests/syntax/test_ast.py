@@ -19,7 +19,7 @@ OTHERS = {
 }
 # What stands inside a line. All else begins one, and has documentation.
 INLINE = {
-    *("Box", "Height", "Point", "Start"),
+    *("Box", "Height", "Point", "SpaceMeasure", "Start"),
     *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Address"),
     *(
         "Chance",
