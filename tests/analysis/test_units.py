@@ -225,3 +225,21 @@ def test_a_wrong_value_of_a_field_is_told_its_unit(tmp_path: Path) -> None:
 def test_a_unit_exists_and_is_that_of_a_number(tmp_path: Path) -> None:
     assert system(tmp_path, type="string in m", initial='""', value='""')[1][0][0] == "SW0621"
     assert system(tmp_path, type="float64 in metres", value="0")[1][0] == ("SW0202", "write `m`")
+
+
+@pytest.mark.parametrize(
+    ("unit", "code"), [("", None), (" in m", None), (" in s", "SW0621")], ids=("none", "m", "s")
+)
+def test_arguments_of_models_take_fields_of_goals(
+    unit: str, code: str | None, tmp_path: Path
+) -> None:
+    """A field without a unit is a number of ROS that may have any unit."""
+    file = tmp_path / "model.swarm"
+    file.write_text(
+        f"action lab_msgs/Sweep {{ goal {{ altitude : float64{unit} }} }}\n"
+        'function sweep : swarm {\n  action "sweep" : lab_msgs/Sweep\n'
+        "  model coverage(height = altitude)\n}\n",
+        encoding="utf-8",
+    )
+    found = [each.code for each in pipeline.check([file]).report if each.severity is Severity.ERROR]
+    assert found == ([code] if code else [])

@@ -189,6 +189,8 @@ class Typing:
             return None
         if isinstance(target, Element):
             return self.element_type(target)
+        if isinstance(target, Field):  # of a goal, in an argument of a model
+            return of_field(target.type.type)
         return target.type.type if target is not None else None
 
     def quietly(self, tree: ExpressionTree) -> Type | None:
