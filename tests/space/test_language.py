@@ -159,3 +159,52 @@ class Spray(Model):
     assert code == 1
     assert "SW0623" in err
     assert "field.swarm:9" in err
+
+
+MEASURED = FIELD.replace(
+    "  heartbeat 1 s lost after 5 s\n}",
+    """  fitness Worth
+}
+fitness Worth {
+  in way   : float64 in m = distance(uav)
+  in spent : float64 in J = energy(uav)
+  in share : float64 = covered(uav)
+  in seen  : uint32  = found(person)
+  maximize share * 1000 + seen * 100 - spent / 1000 J - way / 100 m
+}
+""",
+)
+
+
+def measures(path: str) -> dict[str, Any]:
+    found = json.loads(Path(path).read_text(encoding="utf-8"))
+    return {each["name"]: each for each in found["measures"]}
+
+
+def test_a_fitness_measures_what_happens_in_the_world(swarmc: Run) -> None:
+    code, out, err = swarmc(
+        "simulate", "--trace", "json", "--until", "40s", "--results", "r.json", text=MEASURED
+    )
+    assert code == 0, err
+    found = {name: each["value"] for name, each in measures("r.json").items()}
+    ends = {line["data"]["target_id"] for line in lines(out) if "succeeded" in str(line["event"])}
+    assert found["seen"] >= len(ends) > 0
+    assert 0 < found["way"] <= 3 * 40 * 5.4
+    assert found["spent"] > 3 * 20 * 5
+    assert 0 < found["share"] < 0.7
+    code, _, err = swarmc(
+        "simulate", "--runs", "3", "--seed", "0", "--until", "40s", "--results", "m.json",
+        "--jobs", "1", text=MEASURED,
+    )  # fmt: skip
+    assert code == 0, err
+    several = measures("m.json")
+    alone = []
+    for seed in "012":
+        swarmc("simulate", "--seed", seed, "--until", "40s", "--results", "r.json", text=MEASURED)
+        alone.append({name: each["value"] for name, each in measures("r.json").items()})
+    assert several.keys() == {*alone[0], "Worth"}
+    for name in alone[0]:
+        assert several[name]["mean"] == pytest.approx(math.fsum(one[name] for one in alone) / 3)
+    code, _, err = swarmc("simulate", "--world", "abstract", "--until", "5s", text=MEASURED)
+    assert code == 0
+    assert "`way` has no value, because robots have no places here" in err

@@ -217,7 +217,7 @@ class _Play:
                     # What has not happened when nothing is left to happen never will.
                     over = ended or ending == _ENDINGS["quiet"]
                     readings = monitors.readings(now, self._limit if over else now)
-                    fitness = evaluate(self._fitness, readings)
+                    fitness = evaluate(self._fitness, readings, self._world.space)
                 if picture is not None:
                     picture({each.property.name: each.remark for each in results})
         except OSError as error:

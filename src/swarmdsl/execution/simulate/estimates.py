@@ -14,7 +14,7 @@ from swarmdsl.execution.estimation.sample import Sample, summarize
 from swarmdsl.execution.monitor import FALSE, OPEN, TRUE
 from swarmdsl.execution.simulate.chances import Chance, Level
 from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.measures import measures_of, value_text
+from swarmdsl.execution.simulate.measures import inputs_of, value_text
 from swarmdsl.execution.simulate.one_run import Outcome
 from swarmdsl.execution.simulate.summary import format_table
 from swarmdsl.ir import Fitness, Property
@@ -71,7 +71,7 @@ class Estimates:
         if self._fitness is None:
             return []
         found = []
-        for index, each in enumerate(measures_of(self._fitness)):
+        for index, each in enumerate(inputs_of(self._fitness)):
             read = [(o.seed, *o.measures[index]) for o in self.outcomes if o.measures]
             by_seed = tuple((seed, value) for seed, value, _ in read if value is not None)
             missed = sum(not reached for *_, reached in read)

@@ -12,6 +12,7 @@ from swarmdsl.execution.engine import ExecutionError, bounded
 from swarmdsl.execution.monitor import Reading
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.simulate.space import ABSTRACT, Space
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir import Fitness, FitnessInput, Param, VariableRef, subexpressions
 from swarmdsl.ir.integer_ranges import bound_of_any
@@ -66,18 +67,35 @@ def fitness_of(subject: Subject) -> Fitness | None:
     if system is None or swarm is None or swarm.fitness is None:
         return None
     found = next(each for each in system.fitness if each.name == swarm.fitness)
-    return found if measures_of(found) else None
+    return found if inputs_of(found) else None
 
 
 def measures_of(fitness: Fitness | None) -> list[FitnessInput]:
-    """Return the inputs of a fitness that are measured, in order."""
+    """Return the inputs of a fitness that monitors measure, in order."""
     inputs = fitness.inputs if fitness is not None else ()
     return [each for each in inputs if each.measure is not None]
 
 
-def evaluate(fitness: Fitness, readings: Sequence[Reading]) -> FitnessResult:
-    """Return the fitness of a run with these values of its measures."""
-    measures = tuple(map(Measured, measures_of(fitness), readings))
+def inputs_of(fitness: Fitness | None) -> list[FitnessInput]:
+    """Return the inputs of a fitness that have a value in a run, in order."""
+    inputs = fitness.inputs if fitness is not None else ()
+    return [each for each in inputs if each.measure is not None or each.space is not None]
+
+
+def evaluate(
+    fitness: Fitness, readings: Sequence[Reading], space: Space = ABSTRACT
+) -> FitnessResult:
+    """Return the fitness of a run with these values of its measures, and those of its space."""
+    given = iter(readings)
+    measures = tuple(
+        Measured(
+            each,
+            next(given)
+            if each.space is None
+            else Reading(space.measure(each.space.quantity, each.space.of)),
+        )
+        for each in inputs_of(fitness)
+    )
     data: dict[str, float | None] = {each.input.name: each.reading.value for each in measures}
     known = params_by_name(fitness.params)
     values = {each.name: _constant(each, known) for each in fitness.params}
@@ -109,6 +127,8 @@ def _missing(
     for each in fitness.inputs:
         if each.name not in data:
             yield f"`{each.name}` is not measured"
+        elif data[each.name] is None and each.space is not None:
+            yield f"`{each.name}` has no value, because robots have no places here"
         elif data[each.name] is None:
             yield f"`{each.name}` has no value, because there is no robot"
     for name, value in params.items():

@@ -11,7 +11,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import Verdict, Watch
 from swarmdsl.execution.simulate.inputs import Input
-from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_of
+from swarmdsl.execution.simulate.measures import evaluate, fitness_of, inputs_of, measures_of
 from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
 from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.reporter import observe
@@ -63,11 +63,13 @@ class Runner:
         self.properties = [each for each in watchable(subject) if request.watches(each.name)]
         self.fitness = fitness_of(subject)
         self._plan = plan(self.properties, measures_of(self.fitness))
+        asked = (each.space for each in inputs_of(self.fitness))
+        self._covers = any(each is not None and each.quantity == "covered" for each in asked)
         self.first_seed = request.seed if request.seed is not None else prepared.scenario.seed
 
     def run(self, seed: int) -> Outcome:
         """Run the subject with a seed."""
-        started = self._start(seed, self._prepared.spaces.alone(seed))
+        started = self._start(seed, self._prepared.spaces.alone(seed, covers=self._covers))
         try:
             ending = run(started.world, started.inputs, self._until)
         except (LoopError, ModelError) as error:
@@ -78,7 +80,7 @@ class Runner:
         """Run the subject with some seeds; robots with places move together."""
         if len(seeds) < 2 or not self.is_together:
             return [self.run(seed) for seed in seeds]
-        ensemble = self._prepared.spaces.together(seeds)
+        ensemble = self._prepared.spaces.together(seeds, covers=self._covers)
         started = [
             self._start(seed, space) for seed, space in zip(seeds, ensemble.spaces, strict=True)
         ]
@@ -152,7 +154,8 @@ class Runner:
             return outcome
         last = sum(each.after for each in inputs)
         limit = until if until is not None else last + DEFAULT_UNTIL
-        found = evaluate(self.fitness, monitors.readings(now, limit if ending in QUIET else now))
+        readings = monitors.readings(now, limit if ending in QUIET else now)
+        found = evaluate(self.fitness, readings, world.space)
         measures = tuple((each.reading.value, each.reading.reached) for each in found.measures)
         return outcome._replace(measures=measures, fitness=found.value, reason=found.reason)
 

@@ -11,7 +11,7 @@ from swarmdsl.execution.simulate.durations import duration
 from swarmdsl.execution.simulate.measures import (
     FitnessResult,
     fitness_of,
-    measures_of,
+    inputs_of,
     value_text,
 )
 from swarmdsl.execution.simulate.scenario_table import Table
@@ -65,7 +65,7 @@ def read_measures(table: Table, subject: Subject) -> tuple[ExpectedMeasure, ...]
         reason = f"`{subject.name}` has no fitness with measures"
         table.report.report("impossible-step", table.key_place("measures"), reason=reason)
         return ()
-    types = {each.name: each.type == DURATION for each in measures_of(fitness)}
+    types = {each.name: each.type == DURATION for each in inputs_of(fitness)}
     types[fitness.name] = False
     found = []
     for name in inner.values:

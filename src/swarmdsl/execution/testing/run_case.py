@@ -176,7 +176,7 @@ class _CaseRun:
         if self._watch is None or self._fitness is None:
             return
         readings = self._watch.readings(self._world.clock.now)
-        result = evaluate(self._fitness, readings)
+        result = evaluate(self._fitness, readings, self._world.space)
         for each in self._case.measures:
             actual = each.differs(result)
             if actual:
