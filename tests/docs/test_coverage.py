@@ -10,7 +10,9 @@ from swarmdsl.analysis.types import BUILT_INS
 from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.cli import COMMANDS
 from swarmdsl.codegen import registry
+from swarmdsl.ir.function_models import MODELS
 from swarmdsl.ir.operations import OPERATIONS
+from swarmdsl.ir.space_settings import SPACE_SETTINGS
 from swarmdsl.syntax.parser.keywords import RESERVED
 
 from .pages import LANGUAGE, PAGES, ROOT, Page
@@ -46,6 +48,19 @@ def test_the_reference_has_every_built_in_function() -> None:
     assert BUILT_INS.keys() - {"present", "elapsed"} <= OPERATIONS.keys()
     written = "".join(line for line in LANGUAGE.text.splitlines() if line.startswith("| `"))
     assert [name for name in BUILT_INS if f"`{name}(" not in written] == []
+
+
+def test_the_reference_has_every_model_of_functions_with_its_arguments() -> None:
+    for model in MODELS.values():
+        (row,) = re.findall(rf"^\| `{model.name}` \|.*$", LANGUAGE.text, re.MULTILINE)
+        arguments = [f"`{each.name}` ({each.kind})" for each in model.arguments]
+        assert row == f"| `{model.name}` | {model.doc} | {', '.join(arguments)} |"
+
+
+def test_the_reference_has_every_setting_of_robots_and_sensors() -> None:
+    rows = re.findall(r"^\| `(\w+)` \| `(\w+)` \|", LANGUAGE.text, re.MULTILINE)
+    settings = {(kind, name) for kind, known in SPACE_SETTINGS.items() for name in known}
+    assert settings - set(rows) == set()
 
 
 def test_the_reference_lists_the_reserved_words() -> None:
