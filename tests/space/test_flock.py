@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from swarmdsl.execution.space.functions.flock import reynolds, vicsek
-from swarmdsl.execution.space.functions.steering import unit
+from swarmdsl.execution.space.functions.vectors import unit
 
 DOUBT = 1e-6
 """Probability that a right model fails one of the comparisons with a mean."""
@@ -115,19 +115,19 @@ PAIR = (np.array([0, 1]), np.array([1, 0]))
 def test_each_rule_of_reynolds_acts_on_its_own():
     place = np.array([[0.0, 0, 0], [2.0, 0, 0]])
     along = np.array([[0.0, 1, 0], [0.0, -1, 0]])
-    apart = reynolds(place, along, *PAIR, 4.0, 100.0, 0, 0)
+    apart = reynolds(place, along, *PAIR, np.full(2, 4.0), 100.0, 0, 0)
     assert apart[0] == pytest.approx([-1, 0, 0], abs=0.05)
     assert apart[1] == pytest.approx([1, 0, 0], abs=0.05)
-    together = reynolds(place, along, *PAIR, 1.0, 5.0, 0, 100.0)
+    together = reynolds(place, along, *PAIR, np.full(2, 1.0), 5.0, 0, 100.0)
     assert together[0] == pytest.approx([1, 0, 0], abs=0.05)
-    aligned = reynolds(place, along, *PAIR, 1.0, 0, 1.0, 0)
+    aligned = reynolds(place, along, *PAIR, np.full(2, 1.0), 0, 1.0, 0)
     assert aligned == pytest.approx(along[::-1])
 
 
 def test_a_robot_alone_keeps_its_heading():
     place, along = np.zeros((1, 3)), np.array([[0.6, 0.8, 0.0]])
     none = np.array([], dtype=int)
-    assert reynolds(place, along, none, none, 1.0, 1, 1, 1) == pytest.approx(along)
+    assert reynolds(place, along, none, none, np.ones(1), 1, 1, 1) == pytest.approx(along)
 
 
 def test_flocking_turns_and_moves_with_the_world():
@@ -139,8 +139,10 @@ def test_flocking_turns_and_moves_with_the_world():
     turn = np.array(
         [[np.cos(angle), np.sin(angle), 0], [-np.sin(angle), np.cos(angle), 0], [0, 0, 1]]
     )
-    here = reynolds(place, along, first, second, 2.0, 1.5, 1.0, 0.8)
-    there = reynolds(place @ turn + [5, -3, 2], along @ turn, first, second, 2.0, 1.5, 1.0, 0.8)
+    here = reynolds(place, along, first, second, np.full(20, 2.0), 1.5, 1.0, 0.8)
+    there = reynolds(
+        place @ turn + [5, -3, 2], along @ turn, first, second, np.full(20, 2.0), 1.5, 1.0, 0.8
+    )
     assert there == pytest.approx(here @ turn, abs=1e-12)
 
 
@@ -149,6 +151,6 @@ def test_flocking_does_not_depend_on_the_order_of_robots():
     place, along = chance.normal(size=(9, 3)), unit(chance.normal(size=(9, 3)))
     first, second = (~np.eye(9, dtype=bool)).nonzero()
     mixed = chance.permutation(9)
-    here = reynolds(place, along, first, second, 1.0, 1, 1, 1)
-    there = reynolds(place[mixed], along[mixed], first, second, 1.0, 1, 1, 1)
+    here = reynolds(place, along, first, second, np.ones(9), 1, 1, 1)
+    there = reynolds(place[mixed], along[mixed], first, second, np.ones(9), 1, 1, 1)
     assert there == pytest.approx(here[mixed], abs=1e-12)

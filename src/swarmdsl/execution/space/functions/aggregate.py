@@ -16,7 +16,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from swarmdsl.execution.space.arrays import Flags, Floats, Whole
+from swarmdsl.execution.space.arrays import Flags, Floats, Rows, Small, Whole
+from swarmdsl.execution.space.functions.base import Arguments, Model, statuses
+from swarmdsl.execution.space.functions.random_walk import RandomWalk
+from swarmdsl.execution.space.functions.vectors import counts, near_pairs
+from swarmdsl.execution.space.hashing import key
+from swarmdsl.execution.space.stage import Stage
+
+_CHANGE = key("aggregate", "change")
 
 STOP = (0.03, 0.42, 0.50, 0.51)
 """Rates to stop, per second, with 0, 1, 2, and 3 or more resting neighbours."""
@@ -45,3 +52,48 @@ def resting(
 def _chances(rates: Sequence[float], dt: float, near: Whole) -> Floats:
     table = np.array([-math.expm1(-rate * dt) for rate in rates])
     return table[np.minimum(near, len(rates) - 1)]
+
+
+class Aggregate(Model):
+    """Walk about, and rest beside others that rest; done when enough of them are together.
+
+    Only robots that do the same count. Without a number of them, it is done when its time is over;
+    with one, it is aborted then.
+    """
+
+    stops_on_contact = False
+
+    def __init__(self, stage: Stage) -> None:
+        super().__init__(stage)
+        self._walk = RandomWalk(stage)
+        self._reach, self._size, self._left = np.zeros((3, stage.rows))
+        self.rests: Flags = np.zeros(stage.rows, dtype=np.bool_)
+        self._count = np.zeros(stage.rows, dtype=np.int64)
+
+    def start(self, who: Rows, arguments: Arguments) -> None:
+        """Begin with walking."""
+        self._walk.start(who, {**arguments, "time": None, "target": None})
+        self._reach[who] = arguments["range"]
+        self._size[who] = math.inf if arguments["size"] is None else arguments["size"]
+        self._left[who] = math.inf if arguments["time"] is None else arguments["time"]
+        self.rests[who] = False
+
+    def step(self, who: Rows, dt: float) -> Small:
+        """Let robots stop or walk on, as many as rest beside each of them say."""
+        stage = self.stage
+        first, second = near_pairs(stage, who, self._reach[who])
+        near = counts(first[self.rests[who][second]], len(who))
+        drawn = stage.chance(who, _CHANGE, self._count[who])
+        self._count[who] += 1
+        self.rests[who] = resting(self.rests[who], near, drawn, dt)
+        self._walk.step(who[~self.rests[who]], dt)
+        stage.halt(who[self.rests[who]])
+        together = self.rests[who] & (near + 1 >= self._size[who])
+        self._left[who] -= dt
+        over = self._left[who] < dt / 2
+        alone = np.isinf(self._size[who])
+        return statuses(together | (over & alone), over & ~alone & ~together)
+
+    def stop(self, who: Rows) -> None:
+        """Rest no more."""
+        self.rests[who] = False
