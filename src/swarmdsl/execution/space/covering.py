@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
-from swarmdsl.execution.space.arrays import Flags, Part, Whole
+from swarmdsl.execution.space.arrays import Flags, Floats, Part, Whole
 from swarmdsl.execution.space.robots import Robots
+from swarmdsl.execution.space.sensing import footprint, tangent_of
 
 _MOST_CELLS = 200
 """Maximum number of cells in each direction."""
@@ -30,14 +31,15 @@ class Covering:
         """True if somebody asks for what has been covered."""
         self._stage = stage
         self.reach = np.array(stage.radius)
-        """Distance up to which each robot covers the ground; models may make it greater."""
-        for number, unit in enumerate(stage.layout.units):
-            for eye in unit.eyes:
-                rows = np.arange(number, stage.rows, stage.robots)
-                self.reach[rows] = np.maximum(self.reach[rows], eye.range)
+        """Distance up to which each robot covers the ground without its sensors."""
+        units = stage.layout.units
+        self.has_eyes: Flags = np.tile([bool(unit.eyes) for unit in units], len(stage.seeds))
+        most = max((len(unit.eyes) for unit in units), default=0)
+        self._eyes = [(self._ranges(number), self._tangents(number)) for number in range(most)]
+        """Range and view of the sensors with each number."""
         self._noted_x = np.full(stage.rows, math.inf)
         """Where each robot was when it was noted last; likewise for y."""
-        self._noted_y = np.full(stage.rows, math.inf)
+        self._noted_y, self._noted_z = np.full((2, stage.rows), math.inf)
         self._side = 0.0
 
     @property
@@ -50,7 +52,11 @@ class Covering:
         stage = self._stage
         assert stage.bounds is not None
         low_x, low_y, high_x, high_y = stage.bounds
-        reach = float(self.reach.min(initial=math.inf)) or 1.0
+        # As in a run alone: what models say to some robots does not count.
+        reaches = (
+            max((eye.range for eye in u.eyes), default=u.body.radius) for u in stage.layout.units
+        )
+        reach = min(reaches, default=0.0) or 1.0
         longest = max(high_x - low_x, high_y - low_y)
         self._side = max(reach / _CELLS_OF_REACH, longest / _MOST_CELLS)
         self._columns = max(math.ceil((high_x - low_x) / self._side), 1)
@@ -69,18 +75,37 @@ class Covering:
             self._begin()
         rows = np.arange(stage.rows)[part]
         dx, dy = stage.x[rows] - self._noted_x[rows], stage.y[rows] - self._noted_y[rows]
-        enough = np.maximum(self.reach[rows], self._side) / _NOTES_OF_REACH
-        rows = rows[stage.alive[rows] & (dx * dx + dy * dy >= enough * enough)]
+        dz = stage.z[rows] - self._noted_z[rows]
+        enough = np.maximum(self._reaches(rows), self._side) / _NOTES_OF_REACH
+        rows = rows[stage.alive[rows] & (dx * dx + dy * dy + dz * dz >= enough * enough)]
         if not len(rows):
             return
         self._noted_x[rows], self._noted_y[rows] = stage.x[rows], stage.y[rows]
+        self._noted_z[rows] = stage.z[rows]
         for row in self._by_reach(rows):
             self._mark(*row)
 
     def _by_reach(self, rows: Whole) -> list[tuple[float, Whole]]:
-        """Return the rows with each reach."""
-        reaches = self.reach[rows]
+        """Return the rows with each reach, rounded to a quarter of a cell."""
+        reaches = np.rint(self._reaches(rows) / self._side * 4) * self._side / 4
         return [(float(reach), rows[reaches == reach]) for reach in np.unique(reaches)]
+
+    def _reaches(self, rows: Whole) -> Floats:
+        """Return the distance up to which robots cover the ground now."""
+        found: Floats = self.reach[rows]
+        for reach, tangent in self._eyes:
+            found = np.maximum(found, footprint(self._stage, rows, reach[rows], tangent[rows]))
+        return found
+
+    def _ranges(self, number: int) -> Floats:
+        """Return the range of the sensor of each robot with this number, 0 without one."""
+        of = [unit.eyes[number : number + 1] for unit in self._stage.layout.units]
+        return np.tile([eyes[0].range if eyes else 0.0 for eyes in of], len(self._stage.seeds))
+
+    def _tangents(self, number: int) -> Floats:
+        of = [unit.eyes[number : number + 1] for unit in self._stage.layout.units]
+        views = [tangent_of(eyes[0].view) if eyes else 0.0 for eyes in of]
+        return np.tile(views, len(self._stage.seeds))
 
     def _mark(self, reach: float, rows: Whole) -> None:
         stage, side = self._stage, self._side

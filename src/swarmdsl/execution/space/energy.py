@@ -7,12 +7,17 @@ import numpy as np
 from swarmdsl.execution.space.arrays import Part, Rows
 from swarmdsl.execution.space.robots import Robots
 
+GRAVITY = 9.81
+"""Acceleration of free fall, in m/s2."""
 _STILL = 0.01
 """Speed in m/s below which a robot does not move."""
 
 
 def drain(stage: Robots, part: Part) -> Rows:
-    """Use energy for a step; return the rows of robots that have none left."""
+    """Use energy for a step; return the rows of robots that have none left.
+
+    To climb takes the potential energy too; to go down gives nothing back.
+    """
     consumption = stage.consumption
     if not consumption.is_needed:
         return np.empty(0, dtype=np.int64)
@@ -21,10 +26,12 @@ def drain(stage: Robots, part: Part) -> Rows:
     hovers = ~moves & (stage.z[part] > 0)
     power = np.where(hovers, consumption.hovering[part], consumption.idling[part])
     power = np.where(moves, consumption.moving[part], power) + consumption.sensing[part]
-    power = power * alive
-    used = power * stage.dt
+    power = (power + stage.mass[part] * GRAVITY * np.maximum(stage.vz[part], 0.0)) * alive
+    # The last step before a battery is empty gets what is left.
+    used = np.minimum(power * stage.dt, stage.energy[part])
+    stage.power[part] = used / stage.dt
     stage.used[part] += used
     left = stage.energy[part] - used
-    stage.energy[part] = np.maximum(left, 0.0)
+    stage.energy[part] = left
     empty = np.flatnonzero(alive & (left <= 0))
     return empty if isinstance(part, slice) else part[empty]

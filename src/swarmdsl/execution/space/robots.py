@@ -82,12 +82,20 @@ class Robots:
         """Way that each robot has gone."""
         self.air_speed: Floats = np.zeros(self.rows)
         """Speed through the air, of the rows that have moved last."""
-        self.energy = self._each(
+        self.capacity = self._each(
             units, [each.battery.capacity if each.battery else math.inf for each in units]
         )
+        """Energy of each full battery, infinite without one."""
+        self.energy = self.capacity.copy()
         """Energy left in each battery, infinite without one."""
         self.used: Floats = np.zeros(self.rows)
         """Energy that each robot has used."""
+        self.power: Floats = np.zeros(self.rows)
+        """Power that each robot has used in the last step."""
+        self.charged: Floats = np.zeros(self.rows)
+        """Energy that each robot has got from chargers."""
+        self.tank: Floats = np.ones(self.rows)
+        """Share of what each robot can spray that it still has."""
         self.consumption = Consumption(layout, len(self.seeds))
         self.bounds = layout.bounds()
         self.ceiling = layout.size[2] if layout.size and len(layout.size) > 2 else math.inf

@@ -1,4 +1,8 @@
-"""Sensors of robots: which targets they see, miss, or take something else for."""
+"""Sensors of robots: which targets they see, miss, or take something else for.
+
+The field of view of a robot on the ground is around the direction in which it looks; a robot in the
+air looks down.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +21,29 @@ from swarmdsl.execution.space.weather import RAIN_SIGHT
 _NONE = -1
 _WRONG, _WHICH = key("sees", "wrong"), key("sees", "which")
 _DISTANCE, _ANGLE = key("sees", "distance"), key("sees", "angle")
+
+
+def radius_below(height: Floats, tangent: Floats | float) -> Floats:
+    """Return the radius of a cone that looks down, at some heights below its tip."""
+    below = np.where(height > 0, height, 1.0)
+    made: Floats = np.where(height > 0, below * tangent, 0.0)
+    return made
+
+
+def footprint(stage: Robots, rows: Rows, reach: Floats | float, tangent: Floats | float) -> Floats:
+    """Return the radius on the ground that sensors of robots see.
+
+    One in the air looks down: it sees more the higher it is, until its range ends.
+    """
+    z = np.where(stage.flies[rows], stage.z[rows], 0.0)
+    level = np.sqrt(np.maximum(np.square(reach) - z * z, 0.0))
+    made: Floats = np.where(z > 0, np.minimum(radius_below(z, tangent), level), reach)
+    return made
+
+
+def tangent_of(view: float) -> float:
+    """Return the tangent of half an angle, infinite for a half circle and more."""
+    return math.tan(view / 2) if view < math.pi else math.inf
 
 
 class Sighting(NamedTuple):
@@ -82,6 +109,7 @@ class _Group:
         self._miss, self._wrong = eye.miss, eye.wrong
         self._width = min(eye.view, 2 * math.pi)
         self._view = direction_of(eye.view / 2)[0] if eye.view < 2 * math.pi else -2.0
+        self._tangent = tangent_of(eye.view)
         self._period = max(round(SECOND / (eye.rate * stage.step_length)), 1)
         kind = stage.targets.kinds.index(eye.kind)
         self._targets = np.flatnonzero(stage.targets.kind[: stage.targets.count] == kind)
@@ -121,7 +149,10 @@ class _Group:
         seen &= targets.carrier[which] != rows[:, None]
         if self._view > -1:
             ahead = dx * stage.heading_x[rows][:, None] + dy * stage.heading_y[rows][:, None]
-            seen &= ahead >= self._view * np.sqrt(flat)
+            in_front = ahead >= self._view * np.sqrt(flat)
+            wide = radius_below(-dz, self._tangent)
+            in_air = stage.flies[rows] & (stage.z[rows] > 0)
+            seen &= np.where(in_air[:, None], (dz < 0) & (flat <= wide * wide), in_front)
         line, column = np.nonzero(seen)
         if self._miss and len(line):
             asked = np.array(self._missed, dtype=np.uint64)[column]
@@ -169,8 +200,11 @@ class _Group:
             return []
         share = stage.chance(rows, _WHICH + self._number, ticks)
         which = self._targets[(share * len(self._targets)).astype(np.int64)]
-        distance = self._range * np.sqrt(stage.chance(rows, _DISTANCE + self._number, ticks))
-        turn = (stage.chance(rows, _ANGLE + self._number, ticks) - 0.5) * self._width
+        reach = footprint(stage, rows, self._range, self._tangent)
+        distance = reach * np.sqrt(stage.chance(rows, _DISTANCE + self._number, ticks))
+        in_air = stage.flies[rows] & (stage.z[rows] > 0)
+        width = np.where(in_air, 2 * math.pi, self._width)
+        turn = (stage.chance(rows, _ANGLE + self._number, ticks) - 0.5) * width
         cosine, sine = direction(turn)
         ahead_x, ahead_y = stage.heading_x[rows], stage.heading_y[rows]
         x = stage.x[rows] + distance * (ahead_x * cosine - ahead_y * sine)

@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from swarmdsl.execution.space import energy
-from swarmdsl.execution.space.arrays import Floats, Rows, Small
+from swarmdsl.execution.space.arrays import Rows, Small
 from swarmdsl.execution.space.functions.base import Arguments, Model, statuses
 from swarmdsl.execution.space.functions.choice import Choice
 from swarmdsl.execution.space.functions.dock import AT
@@ -24,7 +23,6 @@ class Charge(Model):
 
     def __init__(self, stage: Stage) -> None:
         super().__init__(stage)
-        self._full: Floats = energy.full(stage.layout, stage.rows)
         self._power, self._level, self._left = np.zeros((3, stage.rows))
         self._choice = Choice(stage)
         self._at = np.full(stage.rows, -1)
@@ -47,12 +45,12 @@ class Charge(Model):
         stage.halt(who)
         connected = self._at[who] >= 0
         swaps = np.isfinite(self._left[who])
-        goal = self._full[who] * np.where(swaps, 1.0, self._level[who])
+        goal = stage.capacity[who] * np.where(swaps, 1.0, self._level[who])
         self._left[who] -= dt
         swapped = connected & (self._left[who] < dt / 2)
         added = np.where(connected & ~swaps, self._power[who] * dt, 0.0)
         added = np.where(swapped, np.inf, added)
-        has = np.isfinite(self._full[who])
+        has = np.isfinite(stage.capacity[who])
         more = np.where(has, np.minimum(added, np.maximum(goal - stage.energy[who], 0.0)), 0.0)
         stage.energy[who] += more
         stage.charged[who] += more

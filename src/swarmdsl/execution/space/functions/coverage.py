@@ -49,8 +49,9 @@ class Coverage(Model):
         self._height[who] = self.height(who, arguments)
         self._speed[who] = self.speed(who, arguments)
         self._target[who] = self._kind(arguments["target"])
+        blind = who[~stage.covering.has_eyes[who]]
         reach = stage.covering.reach
-        reach[who] = np.maximum(reach[who], self._width[who] / 2)
+        reach[blind] = np.maximum(reach[blind], self._width[blind] / 2)
 
     def step(self, who: Rows, dt: float) -> Small:
         """Go on to the next end of a lane; done when it sees a target, or after the last lane."""
