@@ -122,6 +122,18 @@ fitness Fast {
             '[functions.walk]\nmodel = "go_to"\nduration = "3 s"\n',
             "`duration` takes no value beside a `model`",
         ),
+        (
+            '[functions.walk]\nmodel = "flock"\narguments = { rule = "viscek" }\n',
+            "did you mean `vicsek`?",
+        ),
+        (
+            '[functions.walk]\nmodel = "follow_path"\narguments = { path = [[1, 2], [3]] }\n',
+            "`path` takes a place",
+        ),
+        (
+            '[functions.walk]\nmodel = "follow_path"\narguments = { path = [] }\n',
+            "`path` takes a path: a list of places",
+        ),
         ("[functions.walk]\narguments = {}\n", "`arguments` takes no arguments without a `model`"),
         ('[functions."*"]\nmodel = "go_to"\n', "`model` takes no model"),
         ('[world]\nkind = "round"\n', "no world called `round`"),
@@ -162,12 +174,12 @@ def test_documents_have_no_places(simulate: Simulate, capsys: pytest.CaptureFixt
     assert "error[SW1014]: there is no flat world here: it needs a model" in capsys.readouterr().err
 
 
-SPRAY = """
+PAINT = """
 import numpy as np
 from swarmdsl.execution.space.functions.base import Model, statuses
 from swarmdsl.ir.function_models import Argument
 
-class Spray(Model):
+class Paint(Model):
     arguments = (Argument("seconds", "number", 3.0, "how long"),)
 
     def __init__(self, stage):
@@ -182,13 +194,13 @@ class Spray(Model):
         return statuses(self.left[who] < dt / 2)
 
     def result(self, row):
-        return {"target_id": "sprayed"}
+        return {"target_id": "painted"}
 
-class Broken(Spray):
+class Broken(Paint):
     def step(self, who, dt):
         raise RuntimeError("no paint")
 
-class Long(Spray):
+class Long(Paint):
     def step(self, who, dt):
         return np.zeros(len(who) + 1)
 
@@ -199,17 +211,17 @@ NUMBER = 3
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     (tmp_path / "functions").mkdir()
-    (tmp_path / "functions" / "spray.py").write_text(SPRAY, encoding="utf-8")
+    (tmp_path / "functions" / "paint.py").write_text(PAINT, encoding="utf-8")
     (tmp_path / "functions" / "bad.py").write_text("import nowhere", encoding="utf-8")
     (tmp_path / "swarm.toml").write_text(
         """[models]
-spray  = "functions/spray.py:Spray"
-broken = "functions/spray.py:Broken"
-long   = "functions/spray.py:Long"
-number = "functions/spray.py:NUMBER"
-typo   = "functions/spray.py:Sprya"
-bad    = "functions/bad.py:Spray"
-gone   = "functions/gone.py:Spray"
+paint  = "functions/paint.py:Paint"
+broken = "functions/paint.py:Broken"
+long   = "functions/paint.py:Long"
+number = "functions/paint.py:NUMBER"
+typo   = "functions/paint.py:Piant"
+bad    = "functions/bad.py:Paint"
+gone   = "functions/gone.py:Paint"
 entry  = "no_such_entry"
 """,
         encoding="utf-8",
@@ -223,12 +235,12 @@ def uses(name: str, arguments: str = "") -> str:
 
 def test_a_project_has_models_of_its_own(simulate: Simulate, project: Path) -> None:
     code, out, err = simulate(
-        "--trace", "json", "--until", "9s", scenario=uses("spray", "arguments = { seconds = 4 }")
+        "--trace", "json", "--until", "9s", scenario=uses("paint", "arguments = { seconds = 4 }")
     )
     assert code == 0, err
     lines = [json.loads(line) for line in out.splitlines()]
     (end,) = (line for line in lines if line["event"] and line["member"] == "rover[0]")
-    assert (end["t"], end["data"]["target_id"]) == (4000, "sprayed")
+    assert (end["t"], end["data"]["target_id"]) == (4000, "painted")
 
 
 @pytest.mark.parametrize(
@@ -259,15 +271,15 @@ def test_a_model_of_a_project_that_fails_in_many_runs(simulate: Simulate, projec
 
 
 def test_an_unknown_argument_of_a_model_of_a_project(simulate: Simulate, project: Path) -> None:
-    code, _, err = simulate(scenario=uses("spray", "arguments = { secnods = 4 }"))
+    code, _, err = simulate(scenario=uses("paint", "arguments = { secnods = 4 }"))
     assert code == 1
-    assert "model `spray` has no key `secnods`" in err
+    assert "model `paint` has no key `secnods`" in err
 
 
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ('x = "spray.py"', "takes a class in a file"),
+        ('x = "paint.py"', "takes a class in a file"),
         ("x = 3", "`x` takes a string"),
         ('go_to = "a.py:B"', "takes a name that swarmdsl has no model of"),
         ('"a b" = "a.py:B"', "takes names, not `a b`"),

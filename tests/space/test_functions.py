@@ -15,9 +15,12 @@ from tests.space.stages import (
     wall,
 )
 
+from swarmdsl.execution.engine import ExecutionError
 from swarmdsl.execution.space.functions.catalog import CLASSES
 from swarmdsl.execution.space.functions.form_up import places
 from swarmdsl.execution.space.layout import Eye
+from swarmdsl.execution.space.messages import path_in
+from swarmdsl.execution.space.setting import Kind, Use
 from swarmdsl.ir.function_models import MODELS
 
 
@@ -343,3 +346,35 @@ def test_where_there_is_no_room_avoiding_is_aborted():
     cell = box((49, 49), (51, 51))
     play = Play(stage(units(1, starts=[(50, 50)]), edges=cell))
     assert play.start("avoid", [0], distance=3.0, time=5.0).run(60).outcomes() == ["aborted"]
+
+
+# ---- arguments
+
+
+ROUTE = {"route": {"poses": [{"pose": {"position": {"x": 1, "y": 2, "z": 0}}}, {"x": 3, "y": 4}]}}
+
+
+def test_a_path_is_the_first_list_of_places_in_a_goal():
+    assert path_in({"id": "a", "names": ["b"], **ROUTE}) == ((1, 2, 0), (3, 4, 0))
+    assert path_in({"names": ["b"], "none": [], "x": 3}) is None
+    assert path_in([{"x": 1, "y": 2}, {"z": 3}]) is None
+
+
+def test_arguments_come_from_the_goal_or_the_catalogue():
+    kind = Kind("follow_path", MODELS["follow_path"].arguments, CLASSES["follow_path"])
+    use = Use("go", kind, (), {})
+    assert use.arguments(ROUTE)["path"] == ((1, 2, 0), (3, 4, 0))
+    assert use.arguments({})["path"] is None
+    with pytest.raises(ExecutionError, match="`path` is no path"):
+        Use("go", kind, (("path", lambda data, event: 3),), {}).arguments({})
+
+
+def test_an_argument_with_choices_is_one_of_them():
+    kind = Kind("flock", MODELS["flock"].arguments, CLASSES["flock"])
+    good, bad = (
+        Use("fly", kind, (("rule", lambda data, event, word=word: word),), {})
+        for word in ("vicsek", "Vicsek")
+    )
+    assert good.arguments({})["rule"] == "vicsek"
+    with pytest.raises(ExecutionError, match="not `reynolds` or `vicsek`"):
+        bad.arguments({})

@@ -6,22 +6,28 @@ Lengths are in metres, speeds in m/s, angles in radians, times in nanoseconds.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
 ArgumentKind = Literal[
-    "length", "speed", "angle", "time", "number", "share", "place", "area", "text"
+    "length", "speed", "angle", "time", "number", "share", "place", "path", "area", "text"
 ]
-"""A `place` is a message with a position in it, an `area` and a `text` are strings."""
+"""A `place` is a message with a position in it, a `path` a list of them; an `area` and a `text`
+are strings."""
 
 
 class Argument(NamedTuple):
-    """Argument of a model; with `default` None, the model chooses a value by itself."""
+    """Argument of a model; with `default` None, the model chooses a value by itself.
+
+    A text with `choices` is one of them.
+    """
 
     name: str
     kind: ArgumentKind
     default: float | str | None
     doc: str
+    choices: tuple[str, ...] = ()
 
 
 class FunctionModel(NamedTuple):
@@ -39,6 +45,18 @@ class FunctionModel(NamedTuple):
 
 _HEIGHT = Argument("height", "length", None, "height above the ground; that of now without it")
 _SPEED = Argument("speed", "speed", None, "speed; that of the body without it")
+_TARGET = Argument("target", "text", None, "kind or name of the target; without it, any")
+_TOLERANCE = Argument("tolerance", "length", 0.1, "distance at which it has arrived")
+_SECOND = 1_000_000_000
+
+
+def _time(seconds: float | None, doc: str) -> Argument:
+    return Argument("time", "time", None if seconds is None else seconds * _SECOND, doc)
+
+
+def _charger(doc: str) -> Argument:
+    return Argument("target", "text", "charger", doc)
+
 
 MODELS: Mapping[str, FunctionModel] = {
     each.name: each
@@ -50,7 +68,7 @@ MODELS: Mapping[str, FunctionModel] = {
                 Argument("to", "place", None, "the place; without it, the first one in the goal"),
                 _HEIGHT,
                 _SPEED,
-                Argument("tolerance", "length", 0.1, "distance at which it has arrived"),
+                _TOLERANCE,
             ),
         ),
         FunctionModel(
@@ -58,7 +76,9 @@ MODELS: Mapping[str, FunctionModel] = {
             "Go straight on, and in another direction after a distance or a contact.",
             (
                 Argument("leg", "length", 10.0, "mean distance between two turns"),
-                Argument("time", "time", None, "time after which it succeeds; without it, never"),
+                Argument("turn", "angle", math.tau, "width of the interval of a turn"),
+                Argument("target", "text", None, "target that ends it; without it, none"),
+                Argument("time", "time", None, "time after which it ends; without it, never"),
                 _HEIGHT,
                 _SPEED,
             ),
@@ -73,6 +93,159 @@ MODELS: Mapping[str, FunctionModel] = {
                 _SPEED,
                 Argument("target", "text", None, "kind of target that ends it; without it, any"),
             ),
+        ),
+        FunctionModel(
+            "take_off",
+            "Climb to a height, above the place of now.",
+            (Argument("height", "length", None, "height; the altitude in the goal, or 2 m"),),
+        ),
+        FunctionModel("land", "Go down to the ground, below the place of now."),
+        FunctionModel(
+            "hover",
+            "Stay where the robot is, against the wind.",
+            (_time(None, "time after which it succeeds; without it, never"),),
+        ),
+        FunctionModel(
+            "follow_path",
+            "Go from one place of a path to the next, in straight lines.",
+            (
+                Argument("path", "path", None, "the path; without it, the first one in the goal"),
+                _HEIGHT,
+                _SPEED,
+                _TOLERANCE,
+            ),
+        ),
+        FunctionModel(
+            "track",
+            "Stay near a target; aborted when it has been out of sight for a time.",
+            (
+                _TARGET,
+                Argument("to", "place", None, "where it should be; else where it was seen last"),
+                Argument("distance", "length", 0.0, "distance to keep"),
+                Argument("lost", "time", 10 * _SECOND, "time out of sight after which it is lost"),
+                _time(None, "time after which it succeeds; without it, never"),
+                _HEIGHT,
+                _SPEED,
+            ),
+        ),
+        FunctionModel(
+            "avoid",
+            "Move away from walls, obstacles, zones and robots that are too near.",
+            (
+                Argument("distance", "length", 1.0, "distance to have to all of them"),
+                _time(30, "time after which it is aborted"),
+                _HEIGHT,
+                _SPEED,
+            ),
+        ),
+        FunctionModel(
+            "flock",
+            "Move with the robots in reach that do the same; aborted when it has lost them.",
+            (
+                Argument("rule", "text", "reynolds", "rule of the flock", ("reynolds", "vicsek")),
+                Argument("range", "length", 10.0, "distance at which robots see each other"),
+                Argument("spacing", "length", 3.0, "distance below which robots part"),
+                Argument("separation", "number", 1.5, "weight of parting"),
+                Argument("alignment", "number", 1.0, "weight of going the same way"),
+                Argument("cohesion", "number", 0.3, "weight of staying together"),
+                Argument("noise", "angle", 0.0, "width of the noise of a change of direction"),
+                Argument("period", "time", _SECOND, "time between two changes of direction"),
+                Argument("lost", "time", None, "time alone after which it is aborted; else never"),
+                _time(None, "time after which it succeeds; without it, never"),
+                _HEIGHT,
+                _SPEED,
+            ),
+        ),
+        FunctionModel(
+            "disperse",
+            "Move away from robots that are too near.",
+            (
+                Argument("distance", "length", 5.0, "distance to have to all others"),
+                _time(None, "time after which it is aborted; without it, never"),
+                _HEIGHT,
+                _SPEED,
+            ),
+        ),
+        FunctionModel(
+            "aggregate",
+            "Walk about, and rest beside others that rest.",
+            (
+                Argument("turn", "angle", math.tau, "width of the interval of a turn"),
+                Argument("range", "length", 1.0, "distance at which robots see each other"),
+                Argument("size", "number", None, "number of robots that are enough together"),
+                Argument("leg", "length", 5.0, "mean distance between two turns"),
+                _time(None, "time after which it ends; without it, never"),
+                _HEIGHT,
+                _SPEED,
+            ),
+        ),
+        FunctionModel(
+            "form_up",
+            "Go to the place of the robot in a formation of its role.",
+            (
+                Argument("shape", "text", "line", "formation", ("line", "wedge", "circle")),
+                Argument("spacing", "length", 3.0, "distance between neighbours"),
+                Argument("heading", "angle", 0.0, "direction in which the formation looks"),
+                Argument("at", "place", None, "its middle; without it, that of the robots"),
+                _HEIGHT,
+                _SPEED,
+                _TOLERANCE,
+            ),
+        ),
+        FunctionModel(
+            "dock",
+            "Wait for a free charger, go there and land: one robot at a charger at a time.",
+            (_charger("kind of target that is a charger"), _HEIGHT, _SPEED),
+        ),
+        FunctionModel(
+            "charge",
+            "Charge at a charger, up to a level, or have the battery swapped.",
+            (
+                _charger("kind or name of the charger"),
+                Argument("power", "number", 100.0, "power of the charger, in watts"),
+                Argument("level", "share", 1.0, "share of the capacity to charge up to"),
+                _time(None, "time after which the battery is swapped for a full one"),
+            ),
+        ),
+        FunctionModel(
+            "grasp",
+            "Take the nearest target in reach.",
+            (
+                _TARGET,
+                Argument("reach", "length", 0.5, "distance up to which the robot reaches"),
+                _time(2, "time that it takes"),
+            ),
+        ),
+        FunctionModel(
+            "carry",
+            "Go to a place with what the robot has taken.",
+            (
+                Argument("to", "place", None, "the place; without it, the first one in the goal"),
+                _HEIGHT,
+                _SPEED,
+                _TOLERANCE,
+            ),
+        ),
+        FunctionModel(
+            "place",
+            "Put down what the robot carries.",
+            (_time(2, "time that it takes"),),
+        ),
+        FunctionModel(
+            "spray",
+            "Spray the targets around the robot, with what is in its tank.",
+            (
+                _TARGET,
+                Argument("width", "length", 2.0, "width of the jet"),
+                Argument("amount", "share", 0.1, "share of a full tank that it takes"),
+                _time(10, "time that it takes"),
+            ),
+        ),
+        FunctionModel("refill", "Fill the tank.", (_time(60, "time that it takes"),)),
+        FunctionModel(
+            "sense",
+            "Stay and look for a target; aborted when a time is over.",
+            (_TARGET, _time(None, "time after which it is aborted; without it, never")),
         ),
     )
 }

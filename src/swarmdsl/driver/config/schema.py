@@ -146,7 +146,7 @@ class _Reader:
                 path = Path(os.path.normpath(self._folder / file))
                 yield ModelSource(name, attribute, path, place)
             else:
-                expected = "a class in a file, like `models/spray.py:Spray`, or an entry point"
+                expected = "a class in a file, like `models/auction.py:Auction`, or an entry point"
                 self._report_wrong(keys, expected, f"`{text}`")
 
     def _places(self, target: str, options: Iterable[str]) -> dict[str, Span]:

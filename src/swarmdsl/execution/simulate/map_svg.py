@@ -123,7 +123,7 @@ class _Map:
         deep = max(ground.high.y - ground.low.y, 1e-3)
         self.scale = min(_WIDEST / wide, _HIGHEST / deep)
         self.width, self.height = wide * self.scale, deep * self.scale
-        self.roles = {role: None for role in (track.role for track in moment.tracks)}
+        self.roles = dict.fromkeys(track.role for track in moment.tracks)
         self.colours = {
             role: _COLOURS[number % len(_COLOURS)] for number, role in enumerate(self.roles)
         }

@@ -7,6 +7,7 @@ from typing import Any
 
 from swarmdsl.base.suggest import suggest
 from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.space import Place
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir import Communication
 from swarmdsl.ir.function_models import MODELS, Argument
@@ -52,8 +53,12 @@ def _value(table: Table, argument: Argument, subject: Subject) -> Any:
             return table.duration(key)
         case "place":
             return _place(table, key)
+        case "path":
+            return _path(table, key)
         case "area":
             return _area(table, key, subject)
+        case "text" if argument.choices:
+            return table.name(key, argument.choices, argument.name)
         case "text":
             return value if value == "" else table.text(key, "a string")
         case "share":
@@ -75,17 +80,29 @@ _UNITS = {
 }
 
 
-def _place(table: Table, key: str) -> tuple[float, float, float] | None:
-    value = table.values[key]
+def _place(table: Table, *way: str | int) -> Place | None:
+    value: Any = table.values
+    for key in way:
+        value = value[key]
     is_list = isinstance(value, list) and len(value) in (2, 3)
     if not is_list or any(
         isinstance(each, bool) or not isinstance(each, (int, float)) or not abs(each) < 1e9
         for each in value
     ):
-        table.wrong((key,), "a place: a list of x, y and perhaps z, in metres", value)
+        table.wrong(way, "a place: a list of x, y and perhaps z, in metres", value)
         return None
     x, y, z = (*value, 0.0)[:3]
     return float(x), float(y), float(z)
+
+
+def _path(table: Table, key: str) -> tuple[Place, ...] | None:
+    value = table.values[key]
+    if not isinstance(value, list) or not value:
+        table.wrong((key,), "a path: a list of places", value)
+        return None
+    places = [_place(table, key, number) for number in range(len(value))]
+    found = tuple(place for place in places if place is not None)
+    return found if len(found) == len(places) else None
 
 
 def _area(table: Table, key: str, subject: Subject) -> str | None:

@@ -120,6 +120,17 @@ def place_in(value: Any) -> Place | None:
     return next((place for place in places if place is not None), None)
 
 
+def path_in(value: Any) -> tuple[Place, ...] | None:
+    """Return the places in the first list of a message, at any depth, or in a list."""
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        places = [place_in(each) for each in value]
+        found = tuple(place for place in places if place is not None)
+        return found if found and len(found) == len(places) else None
+    if not isinstance(value, Mapping):
+        return None
+    return next((path for path in map(path_in, value.values()) if path), None)
+
+
 def is_of_battery(type_: Type, system: System) -> bool:
     """Return True for a message that tells the charge of a battery."""
     message = system.known_interface(type_)

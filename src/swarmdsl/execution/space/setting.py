@@ -14,7 +14,7 @@ from swarmdsl.execution.simulate.machine_data import stored
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.space.functions.base import Model
 from swarmdsl.execution.space.layout import Layout
-from swarmdsl.execution.space.messages import place_in
+from swarmdsl.execution.space.messages import path_in, place_in
 from swarmdsl.ir import Function, System
 from swarmdsl.ir.function_models import Argument
 
@@ -112,7 +112,15 @@ def _converted(argument: Argument, value: Any) -> Any:
         if place is None:
             raise ExecutionError(f"argument `{argument.name}` is no place")
         return place
+    if argument.kind == "path":
+        path = value if isinstance(value, tuple) else path_in(value)
+        if path is None:
+            raise ExecutionError(f"argument `{argument.name}` is no path")
+        return path
     if argument.kind in ("area", "text"):
+        if argument.choices and value not in argument.choices:
+            choices = " or ".join(f"`{each}`" for each in argument.choices)
+            raise ExecutionError(f"argument `{argument.name}` is {value!r}, not {choices}")
         return str(value)
     number = float(value)
     if not math.isfinite(number):
@@ -126,6 +134,8 @@ def _default(argument: Argument, goal: Mapping[str, Any]) -> Any:
         return _converted(argument, argument.default)
     if argument.kind == "place":
         return place_in(goal)
+    if argument.kind == "path":
+        return path_in(goal)
     names = {"height": _HEIGHTS, "speed": _SPEEDS}.get(argument.name, ())
     found = next((goal[name] for name in names if _is_length(goal.get(name))), None)
     return float(found) if found is not None else None

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from swarmdsl.execution.space.arrays import Rows, Small
-from swarmdsl.execution.space.functions.base import Arguments, Model, statuses
+from swarmdsl.execution.space.functions.base import Arguments, Finding, Model, statuses
+from swarmdsl.execution.space.functions.choice import Choice
 from swarmdsl.execution.space.hashing import key
 from swarmdsl.execution.space.turning import direction
 
@@ -19,7 +20,13 @@ _DIRECTION, _LENGTH = key("random_walk", "direction"), key("random_walk", "lengt
 
 
 class RandomWalk(Model):
-    """Walk of straight legs, whose lengths are between half and one and a half of the mean."""
+    """Walk of straight legs, whose lengths are between half and one and a half of the mean.
+
+    With a target, it is done when the robot sees one, and aborted when its time is over.
+
+    It is a correlated random walk if turns are less than a full circle wide (P. M. Kareiva and
+    N. Shigesada: Analyzing insect movement as a correlated random walk. Oecologia 56, 1983).
+    """
 
     stops_on_contact = False
 
@@ -27,28 +34,42 @@ class RandomWalk(Model):
         super().__init__(stage)
         rows = stage.rows
         self._legs = np.zeros(rows, dtype=np.int64)
+        self._goes = np.zeros(rows, dtype=np.bool_)
         self._left, self._leg, self._time = np.zeros(rows), np.zeros(rows), np.zeros(rows)
         self._x, self._y, self._speed = np.zeros(rows), np.zeros(rows), np.zeros(rows)
-        self._height = np.zeros(rows)
+        self._height, self._turn = np.zeros(rows), np.zeros(rows)
+        self._choice = Choice(stage)
+        self._looks = np.zeros(rows, dtype=np.bool_)
 
     def start(self, who: Rows, arguments: Arguments) -> None:
         """Choose the first direction with the first step."""
         self._left[who] = 0.0
+        self._looks[who] = arguments["target"] is not None
+        self._choice.note(who, arguments["target"])
+        self.stage.eyes.latest[who[self._looks[who]]] = -1
         self._leg[who] = arguments["leg"]
+        self._turn[who] = arguments["turn"]
+        self._x[who], self._y[who] = self.stage.heading_x[who], self.stage.heading_y[who]
+        self._goes[who] = False
         self._time[who] = math.inf if arguments["time"] is None else arguments["time"]
         self._height[who] = self.height(who, arguments)
         self._speed[who] = np.minimum(self.speed(who, arguments), self.stage.speed[who])
 
     def step(self, who: Rows, dt: float) -> Small:
-        """Go on, or turn; done when its time is over."""
+        """Go on, or turn, until its time is over or it sees a target."""
         stage = self.stage
         turns = (self._left[who] <= 0) | stage.touched[who]
         if turns.any():
             turning = who[turns]
             self._legs[turning] += 1
             count = self._legs[turning]
-            angle = 2 * math.pi * stage.chance(turning, _DIRECTION, count)
-            self._x[turning], self._y[turning] = direction(angle)
+            # The first direction is any, and that after a contact.
+            goes_on = self._goes[turning] & ~stage.touched[turning]
+            width = np.where(goes_on, self._turn[turning], 2 * math.pi)
+            cosine, sine = direction(width * (stage.chance(turning, _DIRECTION, count) - 0.5))
+            x, y = self._x[turning], self._y[turning]
+            self._x[turning], self._y[turning] = cosine * x - sine * y, sine * x + cosine * y
+            self._goes[turning] = True
             self._left[turning] = self._leg[turning] * (0.5 + stage.chance(turning, _LENGTH, count))
         speed = self._speed[who]
         self._left[who] -= speed * dt
@@ -56,4 +77,18 @@ class RandomWalk(Model):
         stage.wanted_x[who] = self._x[who] * speed
         stage.wanted_y[who] = self._y[who] * speed
         stage.wanted_z[who] = (self._height[who] - stage.z[who]) / dt
-        return statuses(self._time[who] < dt / 2)
+        over, looks = self._time[who] < dt / 2, self._looks[who]
+        if not looks.any():
+            return statuses(over)
+        seen = looks & self._choice.sees(who)
+        return statuses(seen | (over & ~looks), over & looks & ~seen)
+
+    def result(self, row: int) -> Finding:
+        """Return the target that the robot has found, or where it is."""
+        if not self._looks[row]:
+            found = super().result(row)
+            assert isinstance(found, Finding)
+            return found
+        eyes = self.stage.eyes
+        place = float(eyes.place_x[row]), float(eyes.place_y[row]), 0.0
+        return Finding(place, id=self._choice.name_seen(row))
