@@ -35,9 +35,12 @@ def pairs(x: Floats, y: Floats, run: Whole, rows: Rows, radius: float) -> tuple[
     dx, dy = px[second] - px[first], py[second] - py[first]
     near = dx * dx + dy * dy <= radius * radius
     first, second = rows[first[near]], rows[second[near]]
-    both = np.concatenate((first, second)), np.concatenate((second, first))
-    sorted_ = np.lexsort((both[1], both[0]))
-    return both[0][sorted_], both[1][sorted_]
+    # One number per pair is sorted much faster than two.
+    total = len(run)
+    numbers = np.concatenate((first * total + second, second * total + first))
+    numbers.sort()
+    first = numbers // total
+    return first, numbers - first * total
 
 
 def _within(cells: Whole) -> tuple[Rows, Rows]:
