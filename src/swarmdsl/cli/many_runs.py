@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 
 _NEED_RUNS = ("jobs", "early", "confidence", "indifference", "error", "histogram")
-_ABOUT_ONE_RUN = ("replay", "trace_file", "timeline", "real_time", "stop_on_violation")
+_ABOUT_ONE_RUN = ("replay", "trace_file", "timeline", "map_file", "real_time", "stop_on_violation")
 
 
 def _share(flag: str, limit: float, default: float, help_: str) -> Callable[..., Any]:
@@ -94,7 +94,8 @@ def many_of(
             raise click.UsageError(f"`--{name}` needs `--runs`")
         return None
     for name in filter(_is_given, _ABOUT_ONE_RUN):
-        raise click.UsageError(f"`--runs` and `--{name.replace('_', '-')}` conflict")
+        flag = "map" if name == "map_file" else name.replace("_", "-")
+        raise click.UsageError(f"`--runs` and `--{flag}` conflict")
     given = click.get_current_context().params
     if given["trace"] not in (None, "none"):
         raise click.UsageError("`--runs` and `--trace` conflict")

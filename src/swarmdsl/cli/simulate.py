@@ -59,6 +59,12 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     help="Draw the states of all robots over time, as SVG.",
 )
 @click.option(
+    "--map",
+    "map_file",
+    type=click.Path(path_type=Path),
+    help="Draw where robots went, what they saw, and who is in reach at the end, as SVG.",
+)
+@click.option(
     "--results",
     type=click.Path(path_type=Path),
     help="Write verdicts on properties, measures and fitness to a file, as JSON.",
@@ -105,6 +111,7 @@ def simulate(
     trace: str | None,
     trace_file: Path | None,
     timeline: Path | None,
+    map_file: Path | None,
     results: Path | None,
     replay: tuple[Path, ...],
     seed: int | None,
@@ -148,6 +155,11 @@ def simulate(
     many = many_of(**many_options)
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
+    if map_file is not None:
+        options.check_picture(map_file, "--map", ".svg", {})
+        if replay or world == "abstract":
+            other = "--replay" if replay else "--world abstract"
+            raise click.UsageError(f"`--map` and `{other}` conflict")
     request = Request(
         paths,
         machine,
@@ -166,6 +178,7 @@ def simulate(
         properties,
         results,
         world,
+        map_file,
     )
     if many is None:
         simulate_ = run_simulation

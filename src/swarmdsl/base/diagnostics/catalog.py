@@ -320,6 +320,7 @@ CODES: dict[str, Code] = {
     "failed-model": Code("SW1015", "error", "the model of `{function}` fails at {time}: {reason}"),
     "bad-model": Code("SW1016", "error", "cannot load model `{name}`: {reason}"),
     "unfit-device": Code("SW1017", "error", "`{name}` of {owner} {reason}"),
+    "no-positions": Code("SW1018", "error", "there is no map: `{name}` has no places here"),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),

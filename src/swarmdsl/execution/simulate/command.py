@@ -184,6 +184,7 @@ class _Play:
             with ExitStack() as stack:
                 stream = self._stream(stack, report)
                 picture = self._picture(history, stack, report)
+                map_ = self._map(stack, report)
                 if report.has_errors:
                     tell(report)
                     return False
@@ -220,6 +221,8 @@ class _Play:
                     fitness = evaluate(self._fitness, readings, self._world.space)
                 if picture is not None:
                     picture({each.property.name: each.remark for each in results})
+                if map_ is not None:
+                    map_()
         except OSError as error:
             if error.filename is None:
                 raise  # of standard output
@@ -350,6 +353,17 @@ class _Play:
         self._listeners.append(timeline.note)
         self._world.network.transmitted = timeline.transmitted
         return lambda remarks: stream.write(timeline.svg(self._world.clock.now, history, remarks))
+
+    def _map(self, stack: ExitStack, report: Diagnostics) -> Callable[[], object] | None:
+        """Prepare drawing the map, if requested."""
+        path = self._request.map
+        stream = self._write_to(path, stack, report) if path is not None else None
+        if stream is None:
+            return None
+        from swarmdsl.execution.simulate.run_map import RunMap
+
+        recorded = RunMap(self._subject, self._world)
+        return lambda: stream.write(recorded.svg())
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         try:

@@ -53,8 +53,20 @@ class Surroundings(Protocol):
         """End the line of the trace."""
 
 
+class Viewer(Protocol):
+    """Whoever draws what happens in a space."""
+
+    def moved(self) -> None:
+        """Note that robots have moved."""
+
+    def saw(self, robot: Robot, what: str) -> None:
+        """Note that a robot sees a target."""
+
+
 class Space:
     """Abstract space, without places."""
+
+    viewer: Viewer | None = None
 
     has_radio = False
     """True if distances decide what reaches whom."""
@@ -97,6 +109,10 @@ class Space:
     def at(self, robot: Robot) -> Place | None:
         """Return where a robot is."""
         return None
+
+    def targets(self) -> Sequence[tuple[str, Place, bool]]:
+        """Return the targets: name, place, and whether somebody has seen it."""
+        return ()
 
     def rows(self) -> Sequence[tuple[str, ...]]:
         """Return the lines of the summary: a heading, and values by robot; empty without any."""

@@ -272,6 +272,10 @@ class FlatSpace(Space):
         values = {"distance": stage.distance, "energy": stage.used}[kind]
         return math.fsum(values[here][of].tolist())
 
+    def targets(self) -> list[tuple[str, Place, bool]]:
+        """Return the targets: name, place, and whether somebody has seen it."""
+        return self._stage.targets.of_run(self.number)
+
     def rows(self) -> list[tuple[str, ...]]:
         """Return the lines of the summary: distance, energy and coverage, where there are any."""
         stage = self._stage
@@ -318,6 +322,8 @@ class FlatSpace(Space):
         """Let the world know what has happened with a step."""
         self._ticking = False
         world, stage = self._world, self._stage
+        if self.viewer is not None:
+            self.viewer.moved()
         for row in happened.empty:
             world.lose(self._robot(row), reason=EMPTY)
         if links is not None and self.follows_links:
@@ -387,13 +393,15 @@ class FlatSpace(Space):
         stage, world = self._stage, self._world
         eye = stage.layout.units[sighting.row - self._first].eyes[sighting.eye]
         robot = self._robot(sighting.row)
+        name = stage.targets.names[sighting.target % stage.targets.count]
+        if self.viewer is not None:
+            self.viewer.saw(robot, name)
         if eye.topic is None or eye.type is None:
             return
         if not stage.alive[sighting.row] or not world.awaits(robot, eye.topic):
             return
         place = (sighting.x, sighting.y, sighting.z)
         here = self.at(robot)
-        name = stage.targets.names[sighting.target % stage.targets.count]
         distance = float(np.sqrt(sum((a - b) * (a - b) for a, b in zip(place, here, strict=True))))
         facts = Facts(world.clock.now, place, id=name, distance=distance)
         world.publish(robot, eye.topic, self._ensemble.messages.message(eye.type, facts))

@@ -73,6 +73,14 @@ class TargetsOfRuns:
         self.carrier[held] = NOBODY
         self.z[held] = 0.0
 
+    def of_run(self, run: int) -> list[tuple[str, tuple[float, float, float], bool]]:
+        """Return name and place of the targets of a run, and whether somebody has seen each."""
+        first = run * self.count
+        return [
+            (name, (float(self.x[at]), float(self.y[at]), float(self.z[at])), bool(self.seen[at]))
+            for at, name in enumerate(self.names, first)
+        ]
+
     def found(self, kind: str, run: int) -> int:
         """Return the number of targets of a kind that somebody has seen in a run."""
         if kind not in self.kinds:
