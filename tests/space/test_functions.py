@@ -378,3 +378,49 @@ def test_an_argument_with_choices_is_one_of_them():
     assert good.arguments({})["rule"] == "vicsek"
     with pytest.raises(ExecutionError, match="not `reynolds` or `vicsek`"):
         bad.arguments({})
+
+
+def test_a_robot_tracks_its_own_target_among_several():
+    of = units(1, FLYER, starts=[(10, 10)], eyes=_eye("person", 60.0))
+    people = things("person", (12.0, 10.0), (30.0, 30.0), (12.0, 12.0))
+    play = Play(stage(of, targets=(people,)))
+    play.start("track", [0], target="person[1]", lost=5.0, time=30.0).run(60)
+    on = play.stage
+    assert play.outcomes() == ["succeeded"]
+    assert (on.x[0], on.y[0]) == pytest.approx((30, 30), abs=0.1)
+    assert play.functions["track"].result(0).id == "person[1]"
+
+
+def test_a_walk_ends_where_it_sees_its_target():
+    of = units(2, WALKER, starts=[(10, 10), (90, 90)], eyes=_eye("exit", 4.0))
+    play = Play(stage(of, targets=(things("exit", (20.0, 10.0)), things("box", (85.0, 85.0)))))
+    play.start("random_walk", [0], target="exit", leg=20.0)
+    play.start("random_walk", [1], target="door", time=20.0).run(4000)
+    assert play.outcomes() == ["succeeded", "aborted"]
+    found = play.functions["random_walk"].result(0)
+    assert found.id == "exit[0]"
+    assert found.place == pytest.approx((20, 10, 0))
+
+
+def test_a_target_in_the_goal_is_the_one_that_is_tracked():
+    kind = Kind("track", MODELS["track"].arguments, CLASSES["track"])
+    assert Use("follow", kind, (), {}).arguments({"target": "person[2]"})["target"] == "person[2]"
+    assert Use("follow", kind, (), {}).arguments({"target": ""})["target"] is None
+
+
+def test_a_search_for_new_targets_goes_on_where_it_was():
+    of = units(1, FLYER, starts=[(1, 1)], eyes=_eye("person", 4.0))
+    people = things("person", (2.0, 30.0), (58.0, 30.0))
+    play = Play(stage(of, size=(60.0, 60.0), targets=(people,)))
+    names, times = [], []
+    for _ in range(3):
+        play.start("coverage", [0], width=6.0, target="person", which="new").run(600)
+        if play.outcomes() == ["succeeded"]:
+            names.append(play.functions["coverage"].result(0).id)
+        times.append(play.ended[0][1])
+    assert names == ["person[0]", "person[1]"]
+    assert play.outcomes() == ["aborted"]
+    # All lanes once: 10 of 60 m, and between them.
+    assert times[-1] == pytest.approx((10 * 54 + 9 * 6) / FLYER.speed, rel=0.1)
+    play.start("coverage", [0], width=6.0, target="person").run(600)
+    assert play.outcomes() == ["succeeded"]

@@ -45,6 +45,9 @@ class FunctionModel(NamedTuple):
 
 _HEIGHT = Argument("height", "length", None, "height above the ground; that of now without it")
 _SPEED = Argument("speed", "speed", None, "speed; that of the body without it")
+_WHICH = Argument(
+    "which", "text", "any", "targets that end it: any, or new for the robot", ("any", "new")
+)
 _TARGET = Argument("target", "text", None, "kind or name of the target; without it, any")
 _TOLERANCE = Argument("tolerance", "length", 0.1, "distance at which it has arrived")
 _SECOND = 1_000_000_000
@@ -78,6 +81,7 @@ MODELS: Mapping[str, FunctionModel] = {
                 Argument("leg", "length", 10.0, "mean distance between two turns"),
                 Argument("turn", "angle", math.tau, "width of the interval of a turn"),
                 Argument("target", "text", None, "target that ends it; without it, none"),
+                _WHICH,
                 Argument("time", "time", None, "time after which it ends; without it, never"),
                 _HEIGHT,
                 _SPEED,
@@ -92,6 +96,7 @@ MODELS: Mapping[str, FunctionModel] = {
                 _HEIGHT,
                 _SPEED,
                 Argument("target", "text", None, "kind of target that ends it; without it, any"),
+                _WHICH,
             ),
         ),
         FunctionModel(

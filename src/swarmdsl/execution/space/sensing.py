@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.space.arrays import Floats, Part, Rows, Whole
+from swarmdsl.execution.space.arrays import Flags, Floats, Part, Rows, Whole
 from swarmdsl.execution.space.hashing import key, shares
 from swarmdsl.execution.space.robots import Robots
 from swarmdsl.execution.space.turning import direction, direction_of
@@ -66,6 +66,8 @@ class Eyes:
     def __init__(self, stage: Robots) -> None:
         self._stage = stage
         self.latest: Whole = np.full(stage.rows, _NONE)
+        self.visible: Flags = np.zeros((stage.rows, stage.targets.count), dtype=np.bool_)
+        """Targets of the run that each robot has truly seen with its last look."""
         self.place_x: Floats = np.zeros(stage.rows)
         """Where each robot takes the target for that it saw last; likewise for y."""
         self.place_y: Floats = np.zeros(stage.rows)
@@ -127,6 +129,7 @@ class _Group:
         if not len(rows):
             return []
         self._eyes.latest[rows] = _NONE
+        self._eyes.visible[np.ix_(rows, self._targets)] = False
         found = self._told(*self._seen(rows, ticks))
         if self._wrong:
             found += self._mistaken(rows, ticks)
@@ -178,6 +181,7 @@ class _Group:
         stage, targets = self._stage, self._stage.targets
         there = stage.run[who] * targets.count + which
         targets.seen[there] = True
+        self._eyes.visible[who, which] = True
         # Of several, the one with the least number.
         eyes, backwards = self._eyes, slice(None, None, -1)
         eyes.latest[who[backwards]] = there[backwards]

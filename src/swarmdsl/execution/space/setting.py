@@ -136,6 +136,9 @@ def _default(argument: Argument, goal: Mapping[str, Any]) -> Any:
         return place_in(goal)
     if argument.kind == "path":
         return path_in(goal)
+    if argument.kind == "text":
+        said = goal.get(argument.name)
+        return said if isinstance(said, str) and said else None
     names = {"height": _HEIGHTS, "speed": _SPEEDS}.get(argument.name, ())
     found = next((goal[name] for name in names if _is_length(goal.get(name))), None)
     return float(found) if found is not None else None

@@ -72,7 +72,7 @@ class Aggregate(Model):
 
     def start(self, who: Rows, arguments: Arguments) -> None:
         """Begin with walking."""
-        self._walk.start(who, {**arguments, "time": None, "target": None})
+        self._walk.start(who, {**arguments, "time": None, "target": None, "which": "any"})
         self._reach[who] = arguments["range"]
         self._size[who] = math.inf if arguments["size"] is None else arguments["size"]
         self._left[who] = math.inf if arguments["time"] is None else arguments["time"]

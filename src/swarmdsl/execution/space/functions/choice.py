@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from swarmdsl.execution.space.arrays import Flags, Rows, Whole
+from swarmdsl.execution.space.arrays import Flags, Floats, Rows, Whole
+from swarmdsl.execution.space.functions.base import Finding
 from swarmdsl.execution.space.stage import Stage
 
 ANY = -1
@@ -20,15 +21,26 @@ class Choice:
         self._stage = stage
         self._kind: Whole = np.full(stage.rows, ANY)
         self._one: Whole = np.full(stage.rows, ANY)
+        self._only_new: Flags = np.zeros(stage.rows, dtype=np.bool_)
+        self._told: set[tuple[int, int]] = set()
+        """Robots with the targets that they have found before, of all runs."""
 
-    def note(self, who: Rows, word: str | None) -> None:
-        """Choose a kind or a target by its name; without a word, any target."""
+    def note(self, who: Rows, word: str | None, which: str = "any") -> None:
+        """Choose a kind or a target by its name; without a word, any target.
+
+        Which ones may be `new`: those that the robot has not found before with this function.
+        """
+        self._only_new[who] = which == "new"
         targets = self._stage.targets
         self._kind[who] = self._one[who] = ANY
         if word and word in targets.names:
             self._one[who] = targets.names.index(word)
         elif word:
             self._kind[who] = targets.kinds.index(word) if word in targets.kinds else NONE
+
+    def is_there(self, word: str) -> bool:
+        """Return True for a kind or the name of a target of the environment."""
+        return word in self._stage.targets.kinds or word in self._stage.targets.names
 
     def fits(self, who: Rows, targets: Whole) -> Flags:
         """Return which targets of all runs are chosen, one for each robot; -1 is no target."""
@@ -39,17 +51,40 @@ class Choice:
         kind, one = self._kind[who], self._one[who]
         fits: Flags = (targets >= 0) & ((kind == ANY) | (of.kind[there] == kind))
         fits &= (one == ANY) | (there % of.count == one)
+        for number in np.flatnonzero(fits & self._only_new[who]).tolist():
+            fits[number] = (int(who[number]), int(there[number])) not in self._told
         return fits
 
-    def sees(self, who: Rows) -> Flags:
-        """Return which robots have seen a target of theirs with their last look."""
-        return self.fits(who, self._stage.eyes.latest[who])
+    def claim(self, who: Rows, targets: Whole) -> None:
+        """Note that robots have found targets."""
+        self._told.update(zip(who.tolist(), targets.tolist(), strict=True))
 
-    def name_seen(self, row: int) -> str:
-        """Return the name of the target that a robot saw last, or "" without any."""
-        target = int(self._stage.eyes.latest[row])
-        of = self._stage.targets
-        return of.names[target % of.count] if target >= 0 else ""
+    def seen(self, who: Rows) -> Whole:
+        """Return the target that each robot sees of those, of all runs; -1 without any."""
+        stage, of = self._stage, self._stage.targets
+        latest = stage.eyes.latest[who]
+        found = np.where(self.fits(who, latest), latest, -1)
+        others = np.flatnonzero((found < 0) & stage.eyes.visible[who].any(axis=1))
+        for number in others.tolist():
+            # What a robot sees last is one of several targets.
+            row = int(who[number])
+            those = np.flatnonzero(stage.eyes.visible[row]) + int(stage.run[row]) * of.count
+            chosen = those[self.fits(np.full(len(those), row), those)]
+            found[number] = chosen[0] if len(chosen) else -1
+        return found
+
+    def places(self, who: Rows, seen: Whole) -> tuple[Floats, Floats]:
+        """Return where robots take targets for that they see."""
+        eyes, of = self._stage.eyes, self._stage.targets
+        last = eyes.latest[who] == seen
+        x = np.where(last, eyes.place_x[who], of.x[seen])
+        return x, np.where(last, eyes.place_y[who], of.y[seen])
+
+    def finding(self, row: int, target: int) -> Finding:
+        """Return a target that a robot sees, and where the robot takes it for."""
+        (x,), (y,) = self.places(np.array([row]), np.array([target]))
+        targets = self._stage.targets
+        return Finding((float(x), float(y), 0.0), id=targets.names[target % targets.count])
 
     def nearest(self, row: int, reach: float) -> int | None:
         """Return the nearest target in reach that is free, of all runs; of equal ones the first."""

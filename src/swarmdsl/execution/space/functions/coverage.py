@@ -8,18 +8,18 @@ import numpy as np
 
 from swarmdsl.execution.space.arrays import Rows, Small
 from swarmdsl.execution.space.functions.base import Arguments, Finding, Model, statuses
+from swarmdsl.execution.space.functions.choice import Choice
 
 if TYPE_CHECKING:
     from swarmdsl.execution.space.stage import Stage
-
-_ANY, _NO_TARGET = -1, -2
 
 
 class Coverage(Model):
     """Lanes along the longer side of a share of the area: one for each robot of a role.
 
     Where there are targets, it succeeds when the robot sees one, and is aborted at the end of the
-    last lane. Without any, it succeeds there.
+    last lane. Without any, it succeeds there. A search for new targets goes on where the robot
+    found the one before.
     """
 
     def __init__(self, stage: Stage) -> None:
@@ -29,8 +29,9 @@ class Coverage(Model):
         self._wide, self._deep, self._width = np.zeros(rows), np.zeros(rows), np.zeros(rows)
         self._height, self._speed = np.zeros(rows), np.zeros(rows)
         self._lane, self._end = np.zeros(rows, dtype=np.int64), np.zeros(rows, dtype=np.int64)
-        self._target = np.zeros(rows, dtype=np.int64)
+        self._searches, self._goes_on = np.zeros((2, rows), dtype=np.bool_)
         self._found = np.zeros(rows, dtype=np.int64)
+        self._choice = Choice(stage)
 
     def start(self, who: Rows, arguments: Arguments) -> None:
         """Divide the area, and begin with the first lane."""
@@ -45,10 +46,14 @@ class Coverage(Model):
         self._wide[who] = share if long_x else high_x - low_x
         self._deep[who] = high_y - low_y if long_x else share
         self._width[who] = arguments["width"]
-        self._lane[who], self._end[who] = 0, 0
+        anew = who[~self._goes_on[who]] if arguments["which"] == "new" else who
+        self._lane[anew], self._end[anew] = 0, 0
+        self._goes_on[who] = False
         self._height[who] = self.height(who, arguments)
         self._speed[who] = self.speed(who, arguments)
-        self._target[who] = self._kind(arguments["target"])
+        target, kinds = arguments["target"], stage.targets.kinds
+        self._searches[who] = bool(kinds) if target is None else self._choice.is_there(target)
+        self._choice.note(who, target, arguments["which"])
         blind = who[~stage.covering.has_eyes[who]]
         reach = stage.covering.reach
         reach[blind] = np.maximum(reach[blind], self._width[blind] / 2)
@@ -75,35 +80,24 @@ class Coverage(Model):
         self._lane[who] = lane + (arrives & (end == 1))
         self._end[who] = np.where(arrives, 1 - end, end)
         over = self._lane[who] >= lanes
-        seen, wanted = stage.eyes.latest[who], self._target[who]
-        sees = (seen >= 0) & (wanted != _NO_TARGET)
-        if sees.any():
-            kind = stage.targets.kind[np.maximum(seen, 0)]
-            sees &= (wanted == _ANY) | (wanted == kind)
-            self._found[who[sees]] = seen[sees]
-        return statuses(
-            sees | (over & (wanted == _NO_TARGET)), over & ~sees & (wanted != _NO_TARGET)
-        )
+        searches = self._searches[who]
+        target = np.where(searches, self._choice.seen(who), -1)
+        sees = target >= 0
+        self._found[who[sees]] = target[sees]
+        self._choice.claim(who[sees], target[sees])
+        self._goes_on[who[sees & ~over]] = True
+        return statuses(sees | (over & ~searches), over & ~sees & searches)
 
     def result(self, row: int) -> Finding:
         """Return the target that the robot has found, and where it takes it for."""
-        stage = self.stage
-        if self._target[row] == _NO_TARGET:
+        if not self._searches[row]:
             found = super().result(row)
             assert isinstance(found, Finding)
             return found
-        target = int(self._found[row])
-        x, y = float(stage.eyes.place_x[row]), float(stage.eyes.place_y[row])
-        return Finding((x, y, 0.0), id=stage.targets.names[target % stage.targets.count])
+        return self._choice.finding(row, int(self._found[row]))
 
     def _bounds(self, area: str | None) -> tuple[float, float, float, float]:
         bounds = self.stage.layout.bounds(area)
         if bounds is None:
             raise ValueError("the environment has no size: name an area")
         return bounds
-
-    def _kind(self, name: str | None) -> int:
-        kinds = self.stage.targets.kinds
-        if name:
-            return kinds.index(name) if name in kinds else _NO_TARGET
-        return _ANY if kinds and name is None else _NO_TARGET

@@ -39,14 +39,17 @@ class RandomWalk(Model):
         self._x, self._y, self._speed = np.zeros(rows), np.zeros(rows), np.zeros(rows)
         self._height, self._turn = np.zeros(rows), np.zeros(rows)
         self._choice = Choice(stage)
+        self._found = np.full(rows, -1)
         self._looks = np.zeros(rows, dtype=np.bool_)
 
     def start(self, who: Rows, arguments: Arguments) -> None:
         """Choose the first direction with the first step."""
         self._left[who] = 0.0
         self._looks[who] = arguments["target"] is not None
-        self._choice.note(who, arguments["target"])
-        self.stage.eyes.latest[who[self._looks[who]]] = -1
+        self._choice.note(who, arguments["target"], arguments["which"])
+        looking = who[self._looks[who]]
+        self.stage.eyes.latest[looking] = -1
+        self.stage.eyes.visible[looking] = False
         self._leg[who] = arguments["leg"]
         self._turn[who] = arguments["turn"]
         self._x[who], self._y[who] = self.stage.heading_x[who], self.stage.heading_y[who]
@@ -80,7 +83,10 @@ class RandomWalk(Model):
         over, looks = self._time[who] < dt / 2, self._looks[who]
         if not looks.any():
             return statuses(over)
-        seen = looks & self._choice.sees(who)
+        target = np.where(looks, self._choice.seen(who), -1)
+        seen = target >= 0
+        self._found[who[seen]] = target[seen]
+        self._choice.claim(who[seen], target[seen])
         return statuses(seen | (over & ~looks), over & looks & ~seen)
 
     def result(self, row: int) -> Finding:
@@ -89,6 +95,4 @@ class RandomWalk(Model):
             found = super().result(row)
             assert isinstance(found, Finding)
             return found
-        eyes = self.stage.eyes
-        place = float(eyes.place_x[row]), float(eyes.place_y[row]), 0.0
-        return Finding(place, id=self._choice.name_seen(row))
+        return self._choice.finding(row, int(self._found[row]))

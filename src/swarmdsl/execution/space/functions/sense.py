@@ -20,6 +20,7 @@ class Sense(Model):
     def __init__(self, stage: Stage) -> None:
         super().__init__(stage)
         self._left = np.zeros(stage.rows)
+        self._found = np.full(stage.rows, -1)
         self._choice = Choice(stage)
 
     def start(self, who: Rows, arguments: Arguments) -> None:
@@ -27,17 +28,18 @@ class Sense(Model):
         self._choice.note(who, arguments["target"])
         self._left[who] = math.inf if arguments["time"] is None else arguments["time"]
         self.stage.eyes.latest[who] = -1
+        self.stage.eyes.visible[who] = False
 
     def step(self, who: Rows, dt: float) -> Small:
         """Stay, and note whether a target is in sight."""
         self.stage.halt(who)
-        seen = self._choice.sees(who)
+        target = self._choice.seen(who)
+        seen = target >= 0
+        self._found[who[seen]] = target[seen]
         self._left[who] -= dt
         over = self._left[who] < dt / 2
         return statuses(seen, over & ~seen)
 
     def result(self, row: int) -> Finding:
         """Return the target, and where the robot takes it for."""
-        eyes = self.stage.eyes
-        place = float(eyes.place_x[row]), float(eyes.place_y[row]), 0.0
-        return Finding(place, id=self._choice.name_seen(row))
+        return self._choice.finding(row, int(self._found[row]))

@@ -23,12 +23,14 @@ class Track(Model):
         super().__init__(stage)
         self._x, self._y, self._height, self._speed, self._distance = np.zeros((5, stage.rows))
         self._lost, self._unseen, self._left = np.zeros((3, stage.rows))
+        self._target = np.full(stage.rows, -1)
         self._choice = Choice(stage)
 
     def start(self, who: Rows, arguments: Arguments) -> None:
         """Note which target, and where it should be."""
         stage, to = self.stage, arguments["to"]
         self._choice.note(who, arguments["target"])
+        self._target[who] = -1
         seen = stage.eyes.latest[who] >= 0
         self._x[who] = np.where(seen, stage.eyes.place_x[who], stage.x[who])
         self._y[who] = np.where(seen, stage.eyes.place_y[who], stage.y[who])
@@ -43,9 +45,11 @@ class Track(Model):
     def step(self, who: Rows, dt: float) -> Small:
         """Go on to where the target was seen last, and stay at the distance."""
         stage = self.stage
-        seen = self._choice.sees(who)
+        target = self._choice.seen(who)
+        seen = target >= 0
         at = who[seen]
-        self._x[at], self._y[at] = stage.eyes.place_x[at], stage.eyes.place_y[at]
+        self._x[at], self._y[at] = self._choice.places(at, target[seen])
+        self._target[at] = target[seen]
         self._unseen[who] = np.where(seen, 0.0, self._unseen[who] + dt)
         dx, dy = self._x[who] - stage.x[who], self._y[who] - stage.y[who]
         way = np.sqrt(dx * dx + dy * dy)
@@ -59,4 +63,5 @@ class Track(Model):
     def result(self, row: int) -> Finding:
         """Return where the target is, and which it is."""
         place = float(self._x[row]), float(self._y[row]), 0.0
-        return Finding(place, id=self._choice.name_seen(row))
+        targets, target = self.stage.targets, int(self._target[row])
+        return Finding(place, id=targets.names[target % targets.count] if target >= 0 else "")
