@@ -331,7 +331,7 @@ def test_the_summary_tells_how_far_robots_went(simulate: Simulate) -> None:
     rows = [line.split() for line in lines[head + 1 : head + 4]]
     assert [row[0] for row in rows] == ["rover[0]", "rover[1]", "together"]
     distances = [float(row[1]) for row in rows]
-    assert distances[:2] == [20, 20]
-    assert distances[2] == 40
+    assert all(19 < each <= 20 for each in distances[:2])  # less by the steps at walls
+    assert distances[2] == pytest.approx(sum(distances[:2]), abs=0.11)
     shares = [float(row[3]) for row in rows]
     assert 0 < shares[0] + shares[1] == pytest.approx(shares[2], abs=0.11)

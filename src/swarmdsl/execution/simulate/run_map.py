@@ -32,12 +32,11 @@ class RunMap:
         self._next = 0
         world.space.viewer = self
 
-    def moved(self) -> None:
+    def moved(self, now: int) -> None:
         """Note where all robots are, once a second."""
-        now = self._world.clock.now
         if now >= self._next:
             self._next = (now // SECOND + 1) * SECOND
-            self._note()
+            self._note(now)
 
     def saw(self, robot: Robot, what: str) -> None:
         """Note that a robot sees a target."""
@@ -49,8 +48,8 @@ class RunMap:
 
     def svg(self) -> str:
         """Draw the map of the run until now."""
-        self._note()
         world = self._world
+        self._note(world.clock.now)
         tracks = [
             Track(robot.name or "", robot.role, places, robot in world.network.gone)
             for robot, places in self._trails.items()
@@ -59,8 +58,7 @@ class RunMap:
         moment = Moment(world.clock.now, tracks, marks, self._links(), list(self._seen.values()))
         return map_svg(self._subject.name, self._ground(), moment)
 
-    def _note(self) -> None:
-        now = self._world.clock.now
+    def _note(self, now: int) -> None:
         for robot, places in self._trails.items():
             place = self._world.space.at(robot)
             if place is not None and (not places or places[-1][0] < now):

@@ -56,8 +56,8 @@ class Surroundings(Protocol):
 class Viewer(Protocol):
     """Whoever draws what happens in a space."""
 
-    def moved(self) -> None:
-        """Note that robots have moved."""
+    def moved(self, now: int) -> None:
+        """Note that robots have moved, at a time in nanoseconds."""
 
     def saw(self, robot: Robot, what: str) -> None:
         """Note that a robot sees a target."""

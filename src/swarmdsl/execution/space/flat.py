@@ -77,6 +77,9 @@ class Ensemble:
             ended += [(row, key, status) for row, status in running.step(part)]
         empty = stage.move(part)
         self.links.moved()
+        for space in due:
+            if space.viewer is not None:
+                space.viewer.moved(space.step_number * stage.step_length)
         for key, running in functions:
             ended += [(row, key, status) for row, status in running.contacts()]
         seen = stage.eyes.look(part) if stage.eyes.is_needed else []
@@ -322,8 +325,6 @@ class FlatSpace(Space):
         """Let the world know what has happened with a step."""
         self._ticking = False
         world, stage = self._world, self._stage
-        if self.viewer is not None:
-            self.viewer.moved()
         for row in happened.empty:
             world.lose(self._robot(row), reason=EMPTY)
         if links is not None and self.follows_links:
