@@ -11,7 +11,8 @@ from swarmdsl.driver import pipeline
 MODEL = """package crew
 swarm event Start : std_msgs/Empty
 swarm event Home : std_msgs/Empty
-message Spot { x : float64 }
+enum Sort { PERSON, CAR }
+message Spot { x : float64, sort : Sort }
 swarm event Seen : Spot
 event Low : std_msgs/Bool on "low"
 event Other : std_msgs/Bool
@@ -101,8 +102,20 @@ HELPS = {
     "Crew : never some robot hears Seen.x > 3": "write `hears Seen [event.x > 3]`",
     "Crew : never some robot hears Seen [x > 3]": "write `event.x`",
     "Crew : never some robot hears Seen [y > 3]": "",
+    "Crew : never some robot hears Seen [event.sort == Sort.DOG]": "it has `PERSON` and `CAR`",
+    "Crew : never some robot hears Seen [event.sort == Sort.CARS]": "did you mean `CAR`?",
+    'Crew : never some robot hears Seen [event.sort == "CAR"]': "write `Sort.CAR`",
+    "Crew : never some robot hears Seen [event.sort == 1]": (
+        "compare it with a value of the enum, such as `Sort.PERSON`"
+    ),
+    "Crew : never Seen [event.x > box]": (
+        "an event from outside is about no robot: write `hears Seen [...]`"
+    ),
+    "Carrying : never Seen [event.x > box]": (
+        "an event from outside is about no robot: write `hears Seen [...]`"
+    ),
     'Crew : never some robot hears Seen [sender == "scout"]': "write `event.sender`",
-    "Crew : never some robot sends Seen [event.y > 3]": "it has `x`",
+    "Crew : never some robot sends Seen [event.y > 3]": "it has `x` and `sort`",
     'Crew : never some robot sends Seen [event.sender == "scout"]': (
         "leave it out: the fact names the robot that sends the event"
     ),
@@ -119,6 +132,16 @@ HELPS = {
         "only an event has a condition: write `and`, and a fact with `has [x > 3]`"
     ),
     "Crew : each robot in Fetch leads to in Waiting": "write `:` before `in`",
+    "Crew : each robot, in Fetch leads to in Waiting": "write `each robot :`",
+    "Crew : never count(robot in Fetch)": "compare it, as in `count(robot in Fetch) > 1`",
+    "Crew : never count(robot in Fetch) > 2.5": "write a whole number",
+    "Crew : each robot : in Fetch at most 2.5 times": "write a whole number",
+    "Crew : never some robot sends Seen [event.x > 3, event.x < 5]": (
+        "join conditions with `and`, in one pair of brackets"
+    ),
+    "Crew : never some robot sends Seen [event.x > 3] [event.x < 5]": (
+        "join conditions with `and`, in one pair of brackets"
+    ),
     "Crew : each robot : in Fetsh leads to in Waiting": "did you mean `Fetch`?",
     "Crew : never in Fetch": (
         "begin the property with `each ROLE :`, or write `all ROLE`, `some ROLE` or `no ROLE` here"

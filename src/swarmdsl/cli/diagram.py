@@ -63,6 +63,7 @@ def diagram(
     if out is not None:
         others = {each: f"--format {name}" for name, each in SUFFIXES.items() if name != format_}
         options.check_picture(out, "-o", SUFFIXES[format_], others)
+    options.check_outputs({"-o": out}, paths)
     drawn = draw(paths, kind, names, format_, out)
     render(drawn.report, "text", sys.stderr)
     if drawn.text is not None:

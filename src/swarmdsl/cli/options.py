@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+import os
+from collections.abc import Callable, Iterable, Mapping
 from functools import reduce
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
-from swarmdsl.base.read_files import is_folder
+from swarmdsl.base.read_files import exists, is_folder
 from swarmdsl.cli.parameters import FORMAT, LEVELS, Option
 from swarmdsl.cli.suggestions import Choice
 
@@ -88,6 +89,33 @@ def check_picture(path: Path, option: str, suffix: str, others: Mapping[str, str
         way += f" ({', '.join(also)})"
     reason = f"`{path}` has the suffix of another format: `{named}` is not written"
     raise click.BadParameter(f"{reason}; {way}", param_hint=f"'{option}'")
+
+
+_SOURCES = (".swarm", ".swarmtest.toml", "swarm.toml")
+"""Ends of the names of files that people write."""
+
+
+def check_outputs(outputs: Mapping[str, Path | None], inputs: Iterable[Path | None]) -> None:
+    """Raise BadParameter for an output in the place of an input, a source or another output.
+
+    `outputs` are files by the options that name them; missing ones are None.
+    """
+    read = {os.path.realpath(path) for path in inputs if path is not None}
+    written: dict[str, str] = {}
+    for option, path in outputs.items():
+        if path is None or is_folder(path):
+            continue
+        place = os.path.realpath(path)
+        reason = ""
+        if place in read:
+            reason = f"`{path}` is an input of this command"
+        elif place in written:
+            reason = f"`{path}` is also the file of `{written[place]}`"
+        elif place.endswith(_SOURCES) and exists(path):
+            reason = f"`{path}` is part of a model, of its tests or of its settings"
+        if reason:
+            raise click.BadParameter(f"{reason}; name another file", param_hint=f"'{option}'")
+        written[place] = option
 
 
 def levels(function: _Decorated) -> _Decorated:

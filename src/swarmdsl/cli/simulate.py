@@ -160,6 +160,15 @@ def simulate(
         if replay or world == "abstract":
             other = "--replay" if replay else "--world abstract"
             raise click.UsageError(f"`--map` and `{other}` conflict")
+    given = Path(events) if events not in (None, "-") else None
+    outputs = {
+        "--trace-file": trace_file,
+        "--timeline": timeline,
+        "--map": map_file,
+        "--results": results,
+        "--histogram": many_options["histogram"],
+    }
+    options.check_outputs(outputs, (*paths, *replay, scenario, given))
     request = Request(
         paths,
         machine,

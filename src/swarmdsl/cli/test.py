@@ -58,5 +58,6 @@ def test(
     """
     from swarmdsl.execution.testing import command
 
+    options.check_outputs({"--junit": junit}, paths)
     request = command.Request(paths, pattern, seed, junit, trace, coverage, fail_under, format_)
     return OK if command.run(request, sys.stdout, sys.stderr) else ERRORS

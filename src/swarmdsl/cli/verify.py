@@ -204,6 +204,8 @@ def verify(
 
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` conflict")
+    outputs = {"--save-test": saved_test, "--results": results, "--junit": junit}
+    options.check_outputs(outputs, paths)
     request = Request(
         paths,
         machine,

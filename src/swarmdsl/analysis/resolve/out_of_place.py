@@ -21,6 +21,7 @@ from swarmdsl.syntax.ast import (
     IndexUse,
     NameUse,
     Parallel,
+    Param,
     Query,
     Region,
     State,
@@ -28,6 +29,7 @@ from swarmdsl.syntax.ast import (
     TopLevel,
     Transition,
     Value,
+    Variable,
     nodes_of,
     walk,
 )
@@ -52,6 +54,8 @@ def meaning_elsewhere(
         heard = fact.act == "hears"
         if fact.event is not None and _have_field(use.name, [fact.event.target], heard, scope):
             return f"write `event.{use.name}`"
+        if fact.event is not None and not fact.act:
+            return _of_a_robot(use.name, fact.event.name, machines)
     for machine in machines:
         if _is_field_of_event(use.name, within, machine, scope):
             return f"write `event.{use.name}`"
@@ -61,6 +65,15 @@ def meaning_elsewhere(
                     f"it is a variable of `{state.name}`: declare it in `{machine.name}` to use it "
                     "here"
                 )
+    return None
+
+
+def _of_a_robot(name: str, event: str, machines: Iterable[StateMachine]) -> str | None:
+    """Hint for a variable of robots in the condition of an event that is about no robot."""
+    for machine in machines:
+        values: list[Variable | Param] = [*nodes_of(machine, Variable), *nodes_of(machine, Param)]
+        if any(each.name == name for each in values):
+            return f"an event from outside is about no robot: write `hears {event} [...]`"
     return None
 
 

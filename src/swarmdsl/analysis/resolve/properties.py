@@ -188,8 +188,9 @@ def _link_facts(
             _link_state(fact.state, machines, scope, report)
         if fact.guard is not None:
             guards.add(fact.guard)
-            if is_from_outside(fact):
-                machines = []
+            if is_from_outside(fact) and isinstance(sentence.about, Swarm):
+                roles = roles_of(sentence.about)
+                machines = [each for role in roles.values() for each in _machines_of_role(role)]
             values.link_only([fact.guard], owner, values_of_fact(fact, sentence), machines)
     return guards
 
@@ -233,7 +234,10 @@ def machines_of_fact(fact: Fact, owner: Sentence) -> list[StateMachine]:
     """Return the machines that the robots of a fact and their parts run."""
     if isinstance(owner.about, StateMachine):
         return [owner.about] if fact.counted is None and fact.who is None else []
-    role = role_of_fact(fact, owner)
+    return _machines_of_role(role_of_fact(fact, owner))
+
+
+def _machines_of_role(role: Role | None) -> list[StateMachine]:
     member = role.member.target if role is not None else None
     if member is None:
         return []

@@ -204,7 +204,7 @@ class Typing:
 
     def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """Return the type of an operation on operands of these types."""
-        return Application(tree, types, self._is_enum, self.position, self.report).result()
+        return Application(tree, types, self._enum_of, self.position, self.report).result()
 
     def position(self, type_: Type | None) -> Position | None:
         """Return the position in a message; None if there is none."""
@@ -384,13 +384,21 @@ class Typing:
             )
         return ENVELOPE_FIELDS[name]
 
-    def _is_enum(self, type_: Named) -> bool:
-        return isinstance(self.interfaces.get(type_), EnumType)
+    def _enum_of(self, type_: Named) -> EnumType | None:
+        found = self.interfaces.get(type_)
+        return found if isinstance(found, EnumType) else None
 
     def _enum_value(self, enum: EnumType, name: Word) -> Type | None:
         known = self.folding.numbers(enum)
         if str(name) not in known:
-            report_missing(f"value of enum `{enum.name}`", name, name.span, known, self.report)
+            report_missing(
+                f"value of enum `{enum.name}`",
+                name,
+                name.span,
+                known,
+                self.report,
+                hint=lambda: f"it has {listed([*known], 'and')}" if known else None,
+            )
             return None
         return enum.type
 

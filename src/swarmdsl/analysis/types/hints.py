@@ -9,7 +9,15 @@ import re
 from collections.abc import Sequence
 
 from swarmdsl.analysis.resolve.interfaces import Interfaces
-from swarmdsl.syntax.ast import Call, ExpressionTree, FieldUse, NameUse, OperatorUse
+from swarmdsl.syntax.ast import (
+    Call,
+    EnumType,
+    ExpressionTree,
+    FieldUse,
+    NameUse,
+    OperatorUse,
+    Value,
+)
 from swarmdsl.syntax.types import Array, Named
 
 _LENGTHS = ("len", "length", "size", "count")
@@ -52,4 +60,18 @@ def number_of_robot_hint(tree: Call | OperatorUse) -> str | None:
         match use:
             case FieldUse(base=NameUse(name="self"), name="id"):
                 return "the number of a robot is `self.index`; its id is a string"
+    return None
+
+
+def enum_value_hint(tree: Call | OperatorUse, enums: Sequence[EnumType | None]) -> str | None:
+    """Hint for a comparison of the value of an enum with a string or a number."""
+    enum = next((each for each in enums if each is not None and each.values), None)
+    if enum is None:
+        return None
+    names = [str(each.name) for each in enum.values]
+    for literal in tree.operands if isinstance(tree, OperatorUse) else ():
+        if isinstance(literal, Value):
+            if literal.value in names:
+                return f"write `{enum.name}.{literal.value}`"
+            return f"compare it with a value of the enum, such as `{enum.name}.{names[0]}`"
     return None

@@ -12,7 +12,7 @@ from swarmdsl.analysis.types.unit_checks import check_operands
 from swarmdsl.analysis.types.unit_rules import in_seconds, result_unit, takes_angle
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, replace
-from swarmdsl.syntax.ast import Call, OperatorUse, RoleUse, Value
+from swarmdsl.syntax.ast import Call, EnumType, OperatorUse, RoleUse, Value
 from swarmdsl.syntax.types import (
     BOOL,
     DURATION,
@@ -34,7 +34,7 @@ class Application:
 
     tree: Call | OperatorUse
     types: list[Type | None]
-    is_enum: Callable[[Named], bool]
+    enum_of: Callable[[Named], EnumType | None]
     position: Callable[[Type | None], Position | None]
     report: Diagnostics
 
@@ -117,7 +117,7 @@ class Application:
         if array is not None and not isinstance(array, Array):
             self._report_operands("it takes an array and a value")
         elif isinstance(array, Array) and not self._comparable(array.element, value):
-            is_message = isinstance(array.element, Named) and not self.is_enum(array.element)
+            is_message = isinstance(array.element, Named) and not self._is_enum(array.element)
             hint = "compare a field: `any(x in array where x.id == ...)`"
             self._report_operands(hint if is_message else None)
 
@@ -141,9 +141,11 @@ class Application:
             return BOOL
         if operator in ("==", "!="):
             if not self._comparable(left, right):
-                from swarmdsl.analysis.types.hints import number_of_robot_hint
+                from swarmdsl.analysis.types.hints import enum_value_hint, number_of_robot_hint
 
                 hint = "compare their fields" if self._are_messages() else self._unit_hint()
+                enums = [self.enum_of(each) for each in self.types if isinstance(each, Named)]
+                hint = hint or enum_value_hint(self.tree, enums)
                 self._report_operands(hint or number_of_robot_hint(self.tree))
             return BOOL
         numbers = is_number(left) and is_number(right)
@@ -173,15 +175,18 @@ class Application:
         if left is None or right is None:
             return True
         if isinstance(left, Named) or isinstance(right, Named):
-            return left == right and isinstance(left, Named) and self.is_enum(left)
+            return left == right and isinstance(left, Named) and self._is_enum(left)
         if isinstance(left, Array) or isinstance(right, Array):
             return False
         return fits(left, right) or fits(right, left)
 
+    def _is_enum(self, type_: Named) -> bool:
+        return self.enum_of(type_) is not None
+
     def _are_messages(self) -> bool:
         """Return True if all operands are messages or structs of one type."""
         left = self.types[0]
-        return isinstance(left, Named) and not self.is_enum(left) and self.types == [left, left]
+        return isinstance(left, Named) and not self._is_enum(left) and self.types == [left, left]
 
     def _are_durations(self) -> bool:
         return DURATION in self.types and all(known in (DURATION, None) for known in self.types)
@@ -193,7 +198,7 @@ class Application:
 
     def _order_hint(self) -> str | None:
         """Hint for a comparison of unordered values."""
-        enums = any(isinstance(known, Named) and self.is_enum(known) for known in self.types)
+        enums = any(isinstance(known, Named) and self._is_enum(known) for known in self.types)
         return "values of enums have no order: use `==` or `!=`" if enums else self._unit_hint()
 
     def _unit_hint(self) -> str | None:

@@ -57,6 +57,8 @@ _TEST = re.compile(
 )
 _COMPARED_TO = re.compile(r"([=!<>]?=|[<>])\s*(\"[^\"\n]*\"|[\w.]+)")
 _NO_EVENT = re.compile(r"\b(?:in|starts|cancels)\s+[\w.]+\Z")
+_IN_CONDITION = re.compile(r"\[[^\[\]]*\Z")
+_COUNT = re.compile(r"\bcount\s*\([^()]*\)\Z")
 _WHO = re.compile(r"\w+(?:\[\d+\])?\Z")
 
 
@@ -86,8 +88,8 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
         return about_message
     if "`[`" in expected and re.search(r"\bhas\Z", said) and (test := _COMPARED.match(text, at)):
         return f"write `has [{test[0]}]`"
-    if found == "," and (each := re.search(r"\beach\s+\w+\Z", said)):
-        return f"write `{each[0]} :`"
+    if "`:`" in expected and (each := re.search(r"\beach\s+\w+\Z", said)):
+        return f"write `{each[0]} :`" if found == "," else f"write `:` before `{found}`"
     if "`until`" in expected and "`,`" in expected:
         return "end the first part with a comma: `after P, Q leads to R`"
     if soon := _SOON.match(text, at):
@@ -96,6 +98,8 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
         return f"write `at least {chance[1]}`"
     if found == "%" and (number := re.search(r"[\d.]+\Z", said)):
         return f"write `{Decimal(number[0]) / 100}`"
+    if found == "." and re.search(r"(?:[<>=]|\bmost)\s*\d+\Z", said):
+        return "write a whole number"
     if found == "." and (who := _WHO.search(said)):
         return f"write `{who[0]} in State`, or `{who[0]} has [x > 3]` for its variables"
     if found == ")" and re.search(r"\bcount\s*\(\s*\w+\Z", said):
@@ -115,6 +119,8 @@ def _message_hint(said: str, found: str, text: str, at: int) -> str | None:
         return f"write `{event[0]} [event.{test[1]} {_operator(test[2])} {test[3]}]`"
     if (event := _FIELD_OF_EVENT.search(said)) and (test := _COMPARED_TO.match(text, at)):
         return f"write `{event[1]} [event.{event[2]} {_operator(test[1])} {test[2]}]`"
+    if (found == "," and _IN_CONDITION.search(said)) or (found == "[" and said.endswith("]")):
+        return "join conditions with `and`, in one pair of brackets"
     if found == "[" and _NO_EVENT.search(said):
         return "only an event has a condition: write `and`, and a fact with `has [x > 3]`"
     return None
@@ -125,8 +131,13 @@ def _operator(written: str) -> str:
 
 
 def fact_hint(expected: set[str], text: str, at: int) -> str | None:
-    """Return a hint for a property that ends after a fact; None elsewhere."""
-    if "`leads`" not in expected or _PROPERTY.search(text, 0, at) is None:
+    """Return a hint for a property that ends after a fact or a number; None elsewhere."""
+    begun = _PROPERTY.search(text, 0, at)
+    if begun is None:
+        return None
+    if "`==`" in expected and (number := _COUNT.search(begun[0].rstrip())):
+        return f"compare it, as in `{number[0]} > 1`"
+    if "`leads`" not in expected:
         return None
     return "add `at all times`, or begin with `never` or `eventually`"
 
