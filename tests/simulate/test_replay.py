@@ -122,6 +122,19 @@ def test_several_traces(replay: Replay, tmp_path: Path) -> None:
     assert f"{other}:2:1: error[SW1011] `M` deviates from the model on `Start` at 500 ms" in wrong
 
 
+def test_a_trace_without_lines_says_nothing(replay: Replay, tmp_path: Path) -> None:
+    other = tmp_path / "other.jsonl"
+    other.write_text(json.dumps(START) + "\n")
+
+    code, err = replay(arguments=("--replay", str(other)))
+
+    assert code == 0
+    assert (
+        f"warning[SW1019] trace `{tmp_path / 'trace.jsonl'}` has no lines: it says nothing" in err
+    )
+    assert err.count("SW1019") == 1
+
+
 def test_what_an_activity_sends(replay: Replay) -> None:
     code, err = replay(START, GO, SENT)
 

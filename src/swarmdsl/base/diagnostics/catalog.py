@@ -321,6 +321,7 @@ CODES: dict[str, Code] = {
     "bad-model": Code("SW1016", "error", "cannot load model `{name}`: {reason}"),
     "unfit-device": Code("SW1017", "error", "`{name}` of {owner} {reason}"),
     "no-positions": Code("SW1018", "error", "there is no map: `{name}` has no places here"),
+    "empty-trace": Code("SW1019", "warning", "trace `{path}` has no lines: it says nothing"),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),

@@ -136,11 +136,14 @@ class _Play:
             source = read_source(path, None, report, "a trace", MOST_RECORDED)
             if source is None:
                 continue
+            before = len(report)
             recording = Recording(self._watched, self._fitness)
             found = replay(source, self._subject, self._cast, report, recording.see)
             results, fitness = recording.results(
                 found.end, found.loop if not found.left_out else None
             )
+            if not found.members and len(report) == before:
+                report.report("empty-trace", path=path)
             report_violations(results, report)
             left_out = {"left_out": found.left_out} if found.left_out else {}
             conditions = {"replayed": str(path), "lines": found.lines, **left_out}
