@@ -36,7 +36,7 @@ class Ensemble:
 
     def __init__(self, setting: Setting, seeds: Sequence[int], *, together: bool = False) -> None:
         self.setting = setting
-        self.stage = Stage(setting.layout, seeds)
+        self.stage = Stage(setting.layout, seeds, setting.motion)
         self.links = Links(self.stage)
         self.messages = Messages(setting.system)
         self.functions: dict[_Key, Running] = {}
@@ -224,14 +224,17 @@ class FlatSpace(Space):
         row = self._row(robot)
         stage = self._stage
         stage.alive[row] = False
-        stage.z[row] = 0.0
+        stage.motion.lose(row)
         stage.halt(np.array([row]))
         stage.targets.release(row)
         stage.moved()
+        if self._drifts:
+            self._wake()
 
     def restore(self, robot: Robot) -> None:
         """Let a lost robot go on where it is."""
         self._stage.alive[self._row(robot)] = True
+        self._stage.motion.restore(self._row(robot))
         self._stage.moved()
         self._wake()
 
@@ -311,7 +314,7 @@ class FlatSpace(Space):
         """Go on to the time of the next step, if nothing else happens until then."""
         clock, number = self._world.clock, self.step_number + 1
         time = number * self._stage.step_length
-        if time > self.limit or not (self._always or self._of):
+        if time > self.limit or not (self._always or self._of or self._drifts):
             return False
         if self._gauges.is_needed and self.step_number % self._gauges.every == 0:
             return False
@@ -345,7 +348,8 @@ class FlatSpace(Space):
 
     def _wake(self) -> None:
         """Schedule the next step, if anything can change until then."""
-        if self._ticking or not (self._always or self._of or self._gauges.is_needed):
+        needed = self._always or self._of or self._gauges.is_needed
+        if self._ticking or not (needed or self._drifts):
             return
         self._ticking = True
         length = self._stage.step_length
@@ -356,6 +360,11 @@ class FlatSpace(Space):
         self.due = True
         if not self._ensemble.together:
             self._ensemble.advance()
+
+    @property
+    def _drifts(self) -> bool:
+        """True if robots move that do not want to."""
+        return not self._stage.motion.rests(self.number)
 
     @property
     def _here(self) -> slice:

@@ -1,4 +1,7 @@
-"""Motion in one step: wanted velocities, wind, contact with what is in the way."""
+"""Motion of robots: the seam to who moves them, and the kinematic motion of the flat world.
+
+The kinematic one has wanted velocities, wind, and contact with what is in the way.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,42 @@ from swarmdsl.execution.space.arrays import Flags, Floats, Part
 from swarmdsl.execution.space.robots import Robots
 
 _LEAST_SPEED = 1e-9
+
+
+class Motion:
+    """Move robots as they want, in each step; here without masses and forces.
+
+    Others take the wanted velocities from the arrays of `robots`, and write there where robots
+    are: places, velocities, headings, the way, the speed through the air, and who was `touched`.
+    """
+
+    arrival = 0.0
+    """Distance in metres within which a robot has arrived at a place."""
+
+    def __init__(self, robots: Robots) -> None:
+        self.robots = robots
+
+    def move(self, part: Part) -> None:
+        """Move the robots in some rows, which are those of whole runs, by a step."""
+        move(self.robots, part)
+
+    def rests(self, run: int) -> bool:
+        """Return True if no robot of a run moves that does not want to."""
+        return True
+
+    def pace(self, gap: Floats, fastest: Floats) -> Floats:
+        """Return speeds at which robots approach what is a gap away; here they brake at once."""
+        return fastest
+
+    def lose(self, row: int) -> None:
+        """Let a robot fall that is lost."""
+        self.robots.z[row] = 0.0
+
+    def restore(self, row: int) -> None:
+        """Let a lost robot go on where it is."""
+
+    def close(self) -> None:
+        """Give back what the motion holds."""
 
 
 def move(stage: Robots, part: Part) -> None:

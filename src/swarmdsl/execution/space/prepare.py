@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.suggest import suggest
@@ -11,11 +11,18 @@ from swarmdsl.execution.simulate.subject import MOST_MEMBERS, Subject
 from swarmdsl.execution.space.building import UnfitError, build
 from swarmdsl.execution.space.functions.catalog import CLASSES
 from swarmdsl.execution.space.functions.foreign import load
+from swarmdsl.execution.space.motion import Motion
+from swarmdsl.execution.space.robots import Robots
 from swarmdsl.execution.space.setting import Kind, Setting
 from swarmdsl.ir.function_models import MODELS
 
 
-def prepare_setting(subject: Subject, scenario: Scenario, report: Diagnostics) -> Setting | None:
+def prepare_setting(
+    subject: Subject,
+    scenario: Scenario,
+    report: Diagnostics,
+    motion: Callable[[Robots], Motion] = Motion,
+) -> Setting | None:
     """Return the setting of a subject; None if something of it cannot be, which is reported."""
     assert subject.system is not None
     if subject.size(scenario.counts) > MOST_MEMBERS:
@@ -28,7 +35,7 @@ def prepare_setting(subject: Subject, scenario: Scenario, report: Diagnostics) -
     except UnfitError as error:
         report.report("unfit-device", name=error.name, owner=error.owner, reason=error.reason)
         return None
-    return Setting(layout, subject.system, scenario, kinds)
+    return Setting(layout, subject.system, scenario, kinds, motion)
 
 
 def _of_project(subject: Subject, scenario: Scenario, report: Diagnostics) -> Mapping[str, Kind]:

@@ -15,6 +15,8 @@ from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.space.functions.base import Model
 from swarmdsl.execution.space.layout import Layout
 from swarmdsl.execution.space.messages import path_in, place_in
+from swarmdsl.execution.space.motion import Motion
+from swarmdsl.execution.space.robots import Robots
 from swarmdsl.ir import Function, System
 from swarmdsl.ir.function_models import Argument
 
@@ -66,6 +68,8 @@ class Setting:
     system: System
     scenario: Scenario
     kinds: Mapping[str, Kind]
+    motion: Callable[[Robots], Motion] = Motion
+    """Maker of what moves the robots of some runs."""
     _uses: dict[tuple[str, str | None], Use | None] = field(default_factory=dict)
 
     def use(self, function: str, robot: Robot) -> Use | None:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from swarmdsl.execution.space import energy, motion
+from swarmdsl.execution.space import energy
 from swarmdsl.execution.space.arrays import Flags, Floats, Part, Rows
 from swarmdsl.execution.space.covering import Covering
 from swarmdsl.execution.space.layout import Layout
+from swarmdsl.execution.space.motion import Motion
 from swarmdsl.execution.space.neighbours import pairs
 from swarmdsl.execution.space.robots import Robots
 from swarmdsl.execution.space.sensing import Eyes
@@ -20,8 +21,11 @@ _ALL = slice(None)
 class Stage(Robots):
     """Robots of some runs, with what they see and cover, and what models of functions use."""
 
-    def __init__(self, layout: Layout, seeds: Sequence[int]) -> None:
+    def __init__(
+        self, layout: Layout, seeds: Sequence[int], motion: Callable[[Robots], Motion] = Motion
+    ) -> None:
         super().__init__(layout, seeds)
+        self.motion = motion(self)
         self.eyes = Eyes(self)
         self.covering = Covering(self)
         self._pairs: dict[float, tuple[Rows, Rows]] = {}
@@ -32,15 +36,23 @@ class Stage(Robots):
         """Let robots go to places; return True for those that arrive with this step."""
         dx, dy, dz = x - self.x[who], y - self.y[who], z - self.z[who]
         flat = np.sqrt(dx * dx + dy * dy)
-        longest = np.minimum(speed, self.speed[who]) * dt
+        longest = self.motion.pace(flat, np.minimum(speed, self.speed[who])) * dt
         share = np.where(flat > longest, longest / np.where(flat > 0, flat, 1.0), 1.0)
-        most = self.climb[who] * dt
+        most = self.motion.pace(np.abs(dz), self.climb[who]) * dt
         rise = np.where(self.flies[who], np.clip(dz, -most, most), 0.0)
         self.wanted_x[who] = dx * share / dt
         self.wanted_y[who] = dy * share / dt
         self.wanted_z[who] = rise / dt
-        arrives: Flags = (flat <= longest) & ((rise == dz) | ~self.flies[who])
+        near = self.motion.arrival
+        level = (np.abs(dz - rise) <= near) | ~self.flies[who]
+        arrives: Flags = (flat <= np.maximum(longest, near)) & level
         return arrives
+
+    def keep_height(self, who: Rows, z: Floats, dt: float) -> None:
+        """Let robots go up or down to a height, or stay there."""
+        dz = z - self.z[who]
+        most = self.motion.pace(np.abs(dz), self.climb[who])
+        self.wanted_z[who] = np.clip(dz / dt, -most, most)
 
     def halt(self, who: Rows) -> None:
         """Let robots stay where they are."""
@@ -70,7 +82,7 @@ class Stage(Robots):
     def move(self, part: Part) -> Rows:
         """Move the robots in some rows as they want; return those whose battery gets empty."""
         self.moved()
-        motion.move(self, part)
+        self.motion.move(part)
         self.targets.follow(self.x, self.y, self.z)
         self.covering.note(part)
         return energy.drain(self, part)

@@ -55,7 +55,7 @@ class Avoid(Model):
         direction = at_most_one(push[number] + unit(np.nan_to_num(slope)) * lack[:, None])
         wanted = direction * self._speed[who, None]
         stage.wanted_x[who], stage.wanted_y[who] = wanted[:, 0], wanted[:, 1]
-        stage.wanted_z[who] = (self._height[who] - z) / dt
+        stage.keep_height(who, self._height[who], dt)
         clear = free[number] & ~near
         self._left[who] -= dt
         over = self._left[who] < dt / 2

@@ -70,7 +70,7 @@ class Disperse(Model):
         push, clear = away(places(stage, everybody)[:, :2], first, second, distance)
         wanted = push[number] * self._speed[who, None]
         stage.wanted_x[who], stage.wanted_y[who] = wanted[:, 0], wanted[:, 1]
-        stage.wanted_z[who] = (self._height[who] - stage.z[who]) / dt
+        stage.keep_height(who, self._height[who], dt)
         crowded = np.zeros(len(stage.seeds), dtype=np.bool_)
         crowded[stage.run[who[~clear[number]]]] = True
         done = ~crowded[stage.run[who]]

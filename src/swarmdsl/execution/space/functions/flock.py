@@ -124,7 +124,7 @@ class Flock(Model):
         self._x[who], self._y[who] = heading[:, 0], heading[:, 1]
         stage.wanted_x[who] = heading[:, 0] * self._speed[who]
         stage.wanted_y[who] = heading[:, 1] * self._speed[who]
-        stage.wanted_z[who] = (self._height[who] - stage.z[who]) / dt
+        stage.keep_height(who, self._height[who], dt)
         alone = counts(first, len(who)) == 0
         self._alone[who] = np.where(alone, self._alone[who] + dt, 0.0)
         self._left[who] -= dt

@@ -79,7 +79,7 @@ class RandomWalk(Model):
         self._time[who] -= dt
         stage.wanted_x[who] = self._x[who] * speed
         stage.wanted_y[who] = self._y[who] * speed
-        stage.wanted_z[who] = (self._height[who] - stage.z[who]) / dt
+        stage.keep_height(who, self._height[who], dt)
         over, looks = self._time[who] < dt / 2, self._looks[who]
         if not looks.any():
             return statuses(over)
