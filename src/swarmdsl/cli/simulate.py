@@ -92,9 +92,9 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
 )
 @click.option(
     "--world",
-    type=Choice(("abstract", "flat")),
-    help="Space of the run: none, or the plane.  [default: the scenario's, or flat if the model "
-    "says where something is]",
+    type=Choice(("abstract", "flat", "physics")),
+    help="Space of the run: none, the plane, or bodies with masses and forces.  [default: the "
+    "scenario's, or flat if the model says where something is]",
 )
 @many_runs
 @click.option("--no-properties", is_flag=True, help="Do not watch the properties of the model.")

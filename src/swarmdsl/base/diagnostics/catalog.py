@@ -316,7 +316,7 @@ CODES: dict[str, Code] = {
     "positions-left-out": Code(
         "SW1013", "warning", "the positions of `{name}` are left out: there is no NumPy"
     ),
-    "no-flat-world": Code("SW1014", "error", "there is no flat world here: it needs {what}"),
+    "no-such-world": Code("SW1014", "error", "there is no {kind} world here: it needs {what}"),
     "failed-model": Code("SW1015", "error", "the model of `{function}` fails at {time}: {reason}"),
     "bad-model": Code("SW1016", "error", "cannot load model `{name}`: {reason}"),
     "unfit-device": Code("SW1017", "error", "`{name}` of {owner} {reason}"),

@@ -15,9 +15,10 @@ if TYPE_CHECKING:
     from swarmdsl.execution.space.flat import Ensemble
     from swarmdsl.execution.space.setting import Setting
 
-KINDS = ("abstract", "flat")
+KINDS = ("abstract", "flat", "physics")
 _INSTALL = "`pip install 'swarmdsl[world]'` installs it"
-_ABSTRACT = "leave `--world flat` out"
+_INSTALL_PHYSICS = "`pip install 'swarmdsl[physics]'` installs it"
+_ABSTRACT = "leave `--world` out"
 
 
 def has_geometry(subject: Subject, scenario: Scenario) -> bool:
@@ -56,6 +57,11 @@ def is_installed() -> bool:
     return find_spec("numpy") is not None
 
 
+def has_mujoco() -> bool:
+    """Return True if there is MuJoCo, which physics needs."""
+    return find_spec("mujoco") is not None
+
+
 class Spaces:
     """Makes the spaces of runs; without a setting, they are abstract."""
 
@@ -92,19 +98,31 @@ def choose_space(
     scenario: Scenario,
     report: Diagnostics,
 ) -> Spaces:
-    """Return the spaces of a subject: of a kind, or flat if it has geometry."""
+    """Return the spaces of a subject: of a kind, or flat ones if it has geometry."""
     if kind == "abstract" or (kind is None and not has_geometry(subject, scenario)):
         return Spaces()
     if not is_installed():
         if kind is None:
             report.report("positions-left-out", name=subject.name, help=_INSTALL)
         else:
-            report.report("no-flat-world", what="NumPy", help=_INSTALL)
+            report.report("no-such-world", kind=kind, what="NumPy", help=_INSTALL)
+        return Spaces()
+    if kind == "physics" and not has_mujoco():
+        report.report("no-such-world", kind=kind, what="MuJoCo", help=_INSTALL_PHYSICS)
         return Spaces()
     if subject.system is None:
         if kind is not None:
-            report.report("no-flat-world", what="a model: SCXML has no robots", help=_ABSTRACT)
+            what = "a model: SCXML has no robots"
+            report.report("no-such-world", kind=kind, what=what, help=_ABSTRACT)
         return Spaces()
     from swarmdsl.execution.space.prepare import prepare_setting
 
-    return Spaces(prepare_setting(subject, scenario, report))
+    if kind != "physics":
+        return Spaces(prepare_setting(subject, scenario, report))
+    from swarmdsl.execution.physics.fitting import check_bodies
+    from swarmdsl.execution.physics.motion import PhysicalMotion
+
+    setting = prepare_setting(subject, scenario, report, PhysicalMotion)
+    if setting is not None:
+        check_bodies(setting.layout, report)
+    return Spaces(setting)

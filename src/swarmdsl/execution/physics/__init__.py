@@ -1,0 +1,1 @@
+"""Physics of robots in simulations, by MuJoCo: masses, forces and contacts."""

@@ -1,0 +1,88 @@
+"""Physics by `swarmc simulate`: the choice of it, and the verdicts of a model in all worlds."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.cli import run
+from swarmdsl.execution.simulate import choose_space
+
+from ..worlds import TEXT
+
+PROPERTIES = """
+property Arrives  of S : each rover : eventually in Done
+property Unharmed of S : each rover : never in Stuck
+property Alone    of S : never count(rover in Done) > 1
+"""
+BODY = "body { radius = 0.3 m, mass = 8 kg, speed = 2 m/s }"
+PLACES = "rover[0] at (10 m, 10 m)\n  rover[1] at (10 m, 30 m)"
+SCENARIO = """
+until = "20 s"
+[functions.walk]
+{choice}
+"""
+GO = 'model = "random_walk"\narguments = {{ leg = 3, time = "{time} s" }}'
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    text = TEXT.replace("ROBOTS", "2").replace(
+        "  behavior Walking", f"  behavior Walking\n  {BODY}"
+    )
+    text = text.replace("rover : Rover[2]", f"rover : Rover[2]\n  {PLACES}")
+    Path("demo.swarm").write_text(text + PROPERTIES, encoding="utf-8")
+    return tmp_path
+
+
+def verdicts(kind: str, scenario: str) -> dict[str, str]:
+    Path("s.toml").write_text(scenario, encoding="utf-8")
+    command = ["simulate", "demo.swarm", "--scenario", "s.toml", "--trace", "none"]
+    run([*command, "--world", kind, "--results", "r.json"])
+    found = json.loads(Path("r.json").read_text(encoding="utf-8"))
+    return {each["name"]: each["verdict"] for each in found["properties"]}
+
+
+@pytest.mark.parametrize(
+    ("time", "expected"),
+    [
+        (4, {"Arrives": "true", "Unharmed": "true", "Alone": "false"}),
+        (60, {"Arrives": "open", "Unharmed": "true", "Alone": "true"}),
+    ],
+    ids=["arrive", "go on"],
+)
+def test_a_model_has_the_same_verdicts_in_all_worlds(
+    folder: Path, time: int, expected: dict[str, str]
+) -> None:
+    walk = SCENARIO.format(choice=GO.format(time=time))
+    assert verdicts("flat", walk) == expected
+    assert verdicts("physics", walk) == expected
+    assert verdicts("abstract", SCENARIO.format(choice=f'duration = "{time} s"')) == expected
+
+
+def test_without_mujoco_it_is_said(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(choose_space, "has_mujoco", lambda: False)
+    assert run(["simulate", "demo.swarm", "--world", "physics"]) == 1
+    said = capsys.readouterr().err
+    assert "error[SW1014]: there is no physics world here: it needs MuJoCo" in said
+    assert "pip install 'swarmdsl[physics]'" in said
+
+
+def test_a_scenario_chooses_physics(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    scenario = '[world]\nkind = "physics"\n' + SCENARIO.replace('until = "20 s"\n', "").format(
+        choice='model = "go_to"\narguments = { to = [14, 10] }'
+    )
+    Path("s.toml").write_text(scenario, encoding="utf-8")
+    command = ["simulate", "demo.swarm", "--scenario", "s.toml", "--trace", "json"]
+    assert run([*command, "--until", "6s"]) == 0
+    lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
+    (end,) = (line for line in lines if line["event"] == "do.Walk.succeeded")
+    assert end["member"] == "rover[0]"
+    assert end["at"] == pytest.approx([14, 10, 0], abs=0.1)
+    # At 2 m/s it takes 2 s; with an acceleration and a way to brake it takes longer.
+    assert 2500 < end["t"] < 5500
