@@ -8,6 +8,7 @@ from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.errors import describe_exception
+from swarmdsl.base.read_files import is_file
 from swarmdsl.base.suggest import suggest
 from swarmdsl.driver.config import ModelSource
 from swarmdsl.execution.space.functions.base import Model
@@ -37,7 +38,7 @@ def load(source: ModelSource, report: Diagnostics) -> Kind | None:
 
 
 def _class_in(path: Path, source: ModelSource) -> type[Model]:
-    if not path.is_file():
+    if not is_file(path):
         raise _BadError(f"there is no file `{path}`")
     spec = spec_from_file_location(f"swarmdsl_model_{source.name}", path)
     assert spec is not None
