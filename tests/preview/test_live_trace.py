@@ -112,6 +112,7 @@ def test_growing_trace_is_followed(snapshot: Snapshot, tmp_path: Path) -> None:
     # A monitor writes its verdicts and measures between lines.
     verdict = json.dumps({"t": 0, "property": "Calm", "verdict": "true"}) + "\n"
     verdict += json.dumps({"t": 0, "fitness": "Most", "measures": [], "final": True}) + "\n"
+    verdict += json.dumps({"t": 1000, "moved": {"uav[0]": [1.0, 2.0, 0.0]}}) + "\n"
     lines = step("dog[0]", "Lie") + verdict + step("dog[1]", "Lie")
     trace.write_text(lines, encoding="utf-8")
     assert page.told() == {"dog[0]": ["Lie"], "dog[1]": ["Lie"]}

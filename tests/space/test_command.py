@@ -335,3 +335,15 @@ def test_the_summary_tells_how_far_robots_went(simulate: Simulate) -> None:
     assert distances[2] == pytest.approx(sum(distances[:2]), abs=0.11)
     shares = [float(row[3]) for row in rows]
     assert 0 < shares[0] + shares[1] == pytest.approx(shares[2], abs=0.11)
+
+
+def test_trace_files_tell_where_robots_are(simulate: Simulate) -> None:
+    scenario = '[functions.walk]\nmodel = "random_walk"\narguments = { time = "3500 ms" }\n'
+    code, _, err = simulate("--trace-file", "t.jsonl", "--until", "9s", scenario=scenario)
+    assert code == 0, err
+    lines = [json.loads(line) for line in Path("t.jsonl").read_text().splitlines()]
+    moved = [line for line in lines if "moved" in line]
+    assert [line["t"] for line in moved] == [1000, 2000, 3000]
+    assert all(line["moved"].keys() == {"rover[0]", "rover[1]"} for line in moved)
+    assert [line["t"] for line in lines] == sorted(line["t"] for line in lines)
+    assert run(["simulate", "demo.swarm", "--replay", "t.jsonl"]) == 0

@@ -33,6 +33,7 @@ from swarmdsl.execution.simulate.measures import (
     fitness_of,
     measures_of,
 )
+from swarmdsl.execution.simulate.moved_lines import MovedLines
 from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Prepared, Request, prepare
 from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.replay import replay
@@ -382,6 +383,8 @@ class _Play:
         width = max(len(actor.name or "") for actor in self._cast)
         form = as_json if kind == "json" else partial(as_text, width=width)
         at_once = self._request.real_time or self._request.events == STANDARD_INPUT
+        if kind == "json" and self._request.trace_file is not None:
+            self._world.space.viewers += (MovedLines(self._world, stream),)
 
         def write(line: Line) -> None:
             stream.write(f"{form(line)}\n")

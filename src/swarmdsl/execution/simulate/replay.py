@@ -32,7 +32,7 @@ from swarmdsl.execution.simulate.robot_data import convert, with_fields
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, Trace
-from swarmdsl.execution.simulate.trace_line import NAMES, is_of_monitor, numbers
+from swarmdsl.execution.simulate.trace_line import NAMES, is_beside_steps, numbers
 from swarmdsl.execution.simulate.trace_records import Record, find_loop, read_records
 from swarmdsl.execution.simulate.world import LATE
 
@@ -78,7 +78,7 @@ def replay(
     loop = find_loop(records, report)
     by_member: dict[str | None, list[Record]] = {}
     for record in records:
-        if not is_of_monitor(record.done):
+        if not is_beside_steps(record.done):
             by_member.setdefault(record.done.get("member"), []).append(record)
     actors = {actor.name: actor for actor in cast}
     followed = 0

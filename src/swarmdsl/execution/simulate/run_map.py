@@ -30,7 +30,7 @@ class RunMap:
         self._trails: dict[Robot, list[tuple[int, Place]]] = {each: [] for each in world.robots}
         self._seen: dict[tuple[str, str], Sighting] = {}
         self._next = 0
-        world.space.viewer = self
+        world.space.viewers += (self,)
 
     def moved(self, now: int) -> None:
         """Note where all robots are, once a second."""

@@ -54,7 +54,7 @@ class Surroundings(Protocol):
 
 
 class Viewer(Protocol):
-    """Whoever draws what happens in a space."""
+    """Follower of what happens in a space."""
 
     def moved(self, now: int) -> None:
         """Note that robots have moved, at a time in nanoseconds."""
@@ -66,7 +66,8 @@ class Viewer(Protocol):
 class Space:
     """Abstract space, without places."""
 
-    viewer: Viewer | None = None
+    viewers: tuple[Viewer, ...] = ()
+    """Those who follow what happens in this space alone."""
 
     has_radio = False
     """True if distances decide what reaches whom."""

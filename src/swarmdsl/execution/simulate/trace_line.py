@@ -53,9 +53,13 @@ def read_line(text: str | bytes) -> dict[str, Any] | str:
     return _fault(value) or value
 
 
-def is_of_monitor(value: Mapping[str, Any]) -> bool:
-    """Return True for a line in which a monitor on robots tells a verdict or measures."""
-    return isinstance(value.get("property"), str) or isinstance(value.get("measures"), list)
+def is_beside_steps(value: Mapping[str, Any]) -> bool:
+    """Return True for a line without a step: verdicts or measures of a monitor, or places."""
+    return (
+        isinstance(value.get("property"), str)
+        or isinstance(value.get("measures"), list)
+        or isinstance(value.get("moved"), dict)
+    )
 
 
 def _fault(value: dict[str, Any]) -> str:
@@ -64,7 +68,7 @@ def _fault(value: dict[str, Any]) -> str:
         time = value.get(key, 0 if key == "began" else None)
         if not isinstance(time, int) or isinstance(time, bool) or not 0 <= time <= _LONGEST:
             return f"`{key}` must be a number of milliseconds"
-    if is_of_monitor(value):
+    if is_beside_steps(value):
         return ""
     for key, least in (("loop", 0), ("cause", 1)):
         number = value.get(key, least)

@@ -78,8 +78,8 @@ class Ensemble:
         empty = stage.move(part)
         self.links.moved()
         for space in due:
-            if space.viewer is not None:
-                space.viewer.moved(space.step_number * stage.step_length)
+            for viewer in space.viewers:
+                viewer.moved(space.step_number * stage.step_length)
         for key, running in functions:
             ended += [(row, key, status) for row, status in running.contacts()]
         seen = stage.eyes.look(part) if stage.eyes.is_needed else []
@@ -404,8 +404,8 @@ class FlatSpace(Space):
         eye = stage.layout.units[sighting.row - self._first].eyes[sighting.eye]
         robot = self._robot(sighting.row)
         name = stage.targets.names[sighting.target % stage.targets.count]
-        if self.viewer is not None:
-            self.viewer.saw(robot, name)
+        for viewer in self.viewers:
+            viewer.saw(robot, name)
         if eye.topic is None or eye.type is None:
             return
         if not stage.alive[sighting.row] or not world.awaits(robot, eye.topic):

@@ -12,7 +12,7 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.read_files import MOST, OddFileError, lines_of, open_file
-from swarmdsl.execution.simulate.trace_line import is_of_monitor, read_line
+from swarmdsl.execution.simulate.trace_line import is_beside_steps, read_line
 from swarmdsl.ide.preview.pictures import Steps
 from swarmdsl.ide.preview.serving import Snapshot
 from swarmdsl.project.read_source import report_unreadable
@@ -93,7 +93,7 @@ class TraceReader:
             if isinstance(value, str):
                 self._report_invalid(value)
                 continue
-            if is_of_monitor(value):
+            if is_beside_steps(value):
                 continue
             member = value.get("member")
             if member is None:
