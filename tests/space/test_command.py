@@ -347,3 +347,22 @@ def test_trace_files_tell_where_robots_are(simulate: Simulate) -> None:
     assert all(line["moved"].keys() == {"rover[0]", "rover[1]"} for line in moved)
     assert [line["t"] for line in lines] == sorted(line["t"] for line in lines)
     assert run(["simulate", "demo.swarm", "--replay", "t.jsonl"]) == 0
+
+
+def test_devices_whose_values_cannot_be_are_reported(simulate: Simulate) -> None:
+    devices = """  param reach : float64 = 2.0
+  radio { range = 1 m * reach, loss = reach / 8.0 }
+  body { speed = 1 m/s / (reach - 5.0) * 0.0 + 1 m/s }
+"""
+    text = TEXT.replace("  behavior Walking\n", f"  behavior Walking\n{devices}")
+    code, _, err = simulate("--until", "1s", "--world", "flat", text=text)
+    assert code == 0, err
+    for reach, reason in (
+        (-3.0, "`range` of the radio of member `Rover` is -3: it must be a number from 0 on"),
+        (16.0, "`loss` of the radio of member `Rover` is 2: it must be a probability"),
+        (5.0, "`speed` of the body of member `Rover` has no value: "),
+    ):
+        scenario = f"[params.rover]\nreach = {reach}\n"
+        code, out, err = simulate("--until", "1s", "--world", "flat", scenario=scenario, text=text)
+        assert (code, out) == (1, ""), err
+        assert f"error[SW1017]: {reason}" in err
