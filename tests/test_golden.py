@@ -47,6 +47,10 @@ SAME_IN_ALL = re.compile(
 )
 
 
+# A map of the usual cells has millions of them.
+OPTIONS = {"nav2_map": {"resolution": "5"}}
+
+
 def make(model: Path, out: Path) -> dict[str, str]:
     model = model.relative_to(ROOT)
     checked = pipeline.check([model])
@@ -54,7 +58,7 @@ def make(model: Path, out: Path) -> dict[str, str]:
     texts = {"ir.txt": dump(checked.system)}
     # What is to be filled in has golden files of its own, in tests/skeleton.
     for target in [name for name in registry.BUILT_IN if name not in {"skeleton", *COMPOSED}]:
-        result = pipeline.build([model], [Request(target)], out)
+        result = pipeline.build([model], [Request(target, OPTIONS.get(target, {}))], out)
         if len(result.report):
             texts[f"{target}.diagnostics.txt"] = rendered(result)
     pipeline.build([model], [Request("smach", {"ros": "2"})], out / "with")

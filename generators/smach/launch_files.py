@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from swarmdsl.codegen import OutputFile
 from swarmdsl.codegen.xml import Element, document
 
+from ..gazebo.world import World, is_furnished
 from .launch import fleet_launch, robot_launch, simulation_launch, test_launch, world_file
 from .parameters import node_params, own_params
 from .robots import Fleet, Robot
@@ -62,7 +63,9 @@ def _robot(robot: Robot, package: PackageView) -> Iterator[OutputFile]:
 
 
 def _world(fleet: Fleet) -> str:
-    """Return an empty world to start with (SDF 1.6, Gazebo 11)."""
+    """Return a world to start with (SDF 1.6, Gazebo 11): of the environment, or an empty one."""
+    if fleet.environment is not None and is_furnished(fleet.environment):
+        return document(World(fleet.environment).sdf("1.6", fleet.name))
     root = Element("sdf", {"version": "1.6"})
     world = root.add("world", {"name": fleet.name})
     for model in ("sun", "ground_plane"):

@@ -38,6 +38,7 @@ from swarmdsl.ir import (
     System,
 )
 
+from ..gazebo.render import report_left_out
 from . import names, package
 from .expressions import USERDATA, default_value, python_expression
 from .imports import Imports, RosTypes, ros_types
@@ -190,6 +191,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     for fleet in started if options.simulation else ():
         if fleet.environment is not None and (file := world_file(fleet)):
             names.check_world(fleet.environment, file, report)
+            report_left_out(fleet.environment, TARGET, report)
     if report.has_errors:
         return None
     needs = third_party_packages((type_ for type_, _ in used), interfaces, system)

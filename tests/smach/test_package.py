@@ -186,6 +186,18 @@ def test_simulation(generate: Generate) -> None:
     assert "gazebo_ros" in files["package.xml"].text
 
 
+def test_the_world_has_what_is_in_the_environment(generate: Generate) -> None:
+    assert "wall_1" not in generate(MODEL, simulation="true")["world/field.world"].text
+    item = "environment Field { wall : (0 m, 0 m) -> (3 m, 4 m); "
+    files = generate(MODEL.replace("environment Field {", item), simulation="true")
+    root = etree.fromstring(files["world/field.world"].text.encode())
+
+    assert root.get("version") == "1.6"
+    assert root.find("world").get("name") == "search"
+    (box,) = root.findall("world/model[@name='wall_1']/link/collision/geometry/box/size")
+    assert box.text == "5 0.1 3"
+
+
 def test_readme(generate: Generate) -> None:
     text = generate(MODEL)["README.md"].text
     assert "| `~wait` | `duration` |" in text

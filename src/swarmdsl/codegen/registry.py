@@ -31,6 +31,8 @@ BUILT_IN = {
     "promela": "swarmdsl.codegen.bundled.promela:generator",
     "murphi": "swarmdsl.codegen.bundled.murphi:generator",
     "jani": "swarmdsl.codegen.bundled.jani:generator",
+    "gazebo": "swarmdsl.codegen.bundled.gazebo:generator",
+    "nav2_map": "swarmdsl.codegen.bundled.nav2_map:generator",
 }
 # Formats of other tools, built on request only.
 ON_REQUEST = frozenset(
@@ -46,6 +48,8 @@ ON_REQUEST = frozenset(
         "promela",
         "murphi",
         "jani",
+        "gazebo",
+        "nav2_map",
     }
 )
 GROUP = "swarmdsl.generators"

@@ -1,0 +1,1 @@
+"""Geometry of environments that several targets write."""
