@@ -53,9 +53,9 @@ class Views:
         deaf = other._model.kinds[theirs]
         outside = {
             self._arrived(heard, name, number)
-            for name, messages in heard.kind.outside.items()
+            for name, messages in heard.kind.outside.messages.items()
             for number in range(len(messages))
-            if name not in deaf.kind.outside
+            if name not in deaf.kind.outside.messages
         }
         mine, sent = (each._model.alphabet.messages for each in (self, other))
         known = {self._message(n) for n in range(len(mine)) if heard.listens(n)}
@@ -98,7 +98,7 @@ class Views:
         )
 
     def _arrived(self, automaton: Automaton, name: str, number: int) -> Any:
-        return name, repr(automaton.kind.outside[name][number])
+        return name, repr(automaton.kind.outside.messages[name][number])
 
     def _message(self, number: int) -> Any:
         alphabet = self._model.alphabet
