@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.codegen import Generator, chosen_machines, emit_of
+from swarmdsl.codegen import ALL_FEATURES, Feature, Generator, chosen_machines, emit_of
 
 from .mapping import MAPPING
 from .options import Options
@@ -14,4 +14,5 @@ generator = Generator(
     options_type=Options,
     machines=chosen_machines,
     mapping=MAPPING,
+    supports=ALL_FEATURES - {Feature.NEIGHBORS},
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.codegen import Generator, chosen_machines, emit_of
+from swarmdsl.codegen import ALL_FEATURES, Feature, Generator, chosen_machines, emit_of
 
 from ..ros2.options import Options
 from .mapping import MAPPING
@@ -14,4 +14,5 @@ generator = Generator(
     options_type=Options,
     machines=chosen_machines,
     mapping=MAPPING,
+    supports=ALL_FEATURES - {Feature.NEIGHBORS},
 )

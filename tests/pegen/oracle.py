@@ -16,6 +16,7 @@ from textx import TextXSyntaxError
 from swarmdsl.base.resources import grammar
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import (
+    NEIGHBORS,
     NODES,
     Call,
     Construction,
@@ -222,6 +223,10 @@ def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
             )
         case "call":
             return Call(span, words[0], tuple(operands))
+        case "neighbors":
+            first, second = words
+            place = Span(source, first.span.start, second.span.end)
+            return Call(span, Word(NEIGHBORS, place), tuple(operands))
         case "elapsed":
             path = words[1] if len(words) > 1 else None
             state = Ref(str(path), "Vertex", path.span) if path is not None else None

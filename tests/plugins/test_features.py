@@ -20,7 +20,8 @@ statemachine M {
   initial Plain
   state Plain {
     defer Told
-    on member_lost [present() < 2 and in(Plain) and elapsed() > 1 s] -> Work
+    on member_lost
+      [present() < 2 and neighbors within 3 m < 2 and in(Plain) and elapsed() > 1 s] -> Work
     on Low / send Low(level = got) after 2 s, cancel Low -> Work
   }
   state Work {
@@ -84,7 +85,7 @@ def found(compiled) -> dict[Feature, list[str]]:
         (
             Feature.GUARD,
             [
-                "present() < 2 and in(Plain) and elapsed() > 1 s",
+                "present() < 2 and neighbors within 3 m < 2 and in(Plain) and elapsed() > 1 s",
                 "event.level < 2.0",
                 'event.sender == ""',
                 "got < 1.0",
@@ -107,6 +108,7 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.SELF, ["self.index"]),
         (Feature.MEMBER_EVENT, ["member_lost"]),
         (Feature.PRESENT, ["present()"]),
+        (Feature.NEIGHBORS, ["neighbors within 3 m"]),
         (Feature.IN_STATE, ["in(Plain)"]),
         (Feature.ELAPSED, ["elapsed()"]),
         (Feature.CROSS_LEVEL, ["on Low -> End"]),

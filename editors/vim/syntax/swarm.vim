@@ -76,6 +76,7 @@ syn match swarmDeclaration #\<min\>\ze[ \t]*\%(count\|each\)\>#
 syn match swarmStatement #\<minimize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<model\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<most\>\ze[ \t]*[0-9"]#
+syn match swarmDeclaration #\<neighbors\>\ze[ \t]*\%(within\)\>#
 syn match swarmDeclaration #\<never\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<no\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<obstacle\>\ze[ \t]*[A-Za-z_]#

@@ -50,6 +50,7 @@ class Feature(Enum):
     IN_STATE = "a test of the active states"
     MEMBER_EVENT = "an event of the members of a swarm"
     PRESENT = "the number of robots that are there"
+    NEIGHBORS = "the number of robots nearby"
     ELAPSED = "the time in a state"
     CROSS_LEVEL = "a transition out of the enclosing state"
     INTO_STATE = "a transition into a nested state"

@@ -39,6 +39,7 @@ from swarmdsl.ir import (
 Use = tuple[Feature, Span | None]
 
 WAYS_OUT = {
+    Feature.NEIGHBORS: "let a sensor publish the number, and `monitor` its topic",
     Feature.PRESENT: "count `member_joined` and `member_lost` in a variable, or build it for ROS 2",
 }
 """Ways to do without a feature that a target does not support."""
@@ -206,6 +207,9 @@ def _uses_in_expression(expression: Expression) -> Iterator[Use]:
             yield from _uses_in_expression(right)
         case Call(function="present"):
             yield Feature.PRESENT, expression.origin
+        case Call(function="neighbors", arguments=(distance,)):
+            yield Feature.NEIGHBORS, expression.origin
+            yield from _uses_in_expression(distance)
         case Call(arguments=arguments):
             for argument in arguments:
                 yield from _uses_in_expression(argument)

@@ -14,7 +14,7 @@ from swarmdsl.analysis.types.unit_rules import (
     has_root,
     must_be_alike,
     result_unit,
-    takes_angle,
+    taken_unit,
     units_fit,
 )
 from swarmdsl.base.records import fields_of, replace
@@ -49,7 +49,7 @@ from swarmdsl.ir import (
 )
 from swarmdsl.ir.operations import SECOND
 from swarmdsl.syntax.types import DURATION, FLOAT, INT, unit_of, with_unit
-from swarmdsl.syntax.units import ANY, PERCENT, PLAIN, RADIAN, UNITS, Unit, unit_of_ros
+from swarmdsl.syntax.units import ANY, PERCENT, PLAIN, UNITS, Unit, unit_of_ros
 
 T = TypeVar("T")
 
@@ -205,13 +205,11 @@ class _Units:
         self, word: str, operands: tuple[Expression, ...]
     ) -> tuple[tuple[Expression, ...], Unit | None]:
         pairs = [self.expression(each) for each in operands]
-        expected: Unit | None = None
-        if takes_angle(word):
-            expected = RADIAN
-        elif must_be_alike(word):
+        expected = taken_unit(word)
+        if expected is None and must_be_alike(word):
             known = (unit for _, unit in pairs if unit is not None and unit.dimension != PLAIN)
             expected = next(known, None)
-        alike = takes_angle(word) or expected is not None
+        alike = expected is not None
         if word == "sqrt" and not has_root(pairs[0][1]):
             alike = True
         if alike:

@@ -66,6 +66,7 @@ def model_construction(made: Construction, text: Printer) -> str:
 
 MODEL_FUNCTIONS: Mapping[str, Callable[[Sequence[str]], str]] = {
     "item": lambda values: "{}[{}]".format(*values),
+    "neighbors": lambda values: f"neighbors within {values[0]}",
     "present": lambda values: f"present({values[0][1:-1] if values else ''})",
 }
 """Built-in functions that the model does not write as calls."""
@@ -152,7 +153,9 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             written = dialect.functions.get(function, function)
             if isinstance(written, str) and written.startswith("."):
                 return f"{_operand(arguments[0], _PRIMARY, dialect)}{written}", _PRIMARY
-            values = [translate(argument, dialect) for argument in arguments]
+            # Only the distance in `neighbors within distance` has no parentheses of its own.
+            least = _PRIMARY if function == "neighbors" else 0
+            values = [_operand(argument, least, dialect) for argument in arguments]
             if not isinstance(written, str):
                 return written(values), _PRIMARY
             return f"{written}({', '.join(values)})", _PRIMARY

@@ -18,6 +18,7 @@ from swarmdsl.ir.expressions import Conversion
 from swarmdsl.ir.operations import SECOND
 from swarmdsl.lowering.context import Context
 from swarmdsl.syntax.ast import (
+    NEIGHBORS,
     Append,
     Argument,
     Assignment,
@@ -163,6 +164,9 @@ def lower_tree(tree: ExpressionTree, context: Context) -> ir.Expression:
             return ir.Literal(name, STRING, tree.span)
         case Call(function="seconds", arguments=(argument,)):
             return _seconds(lower_tree(argument, context), tree.span)
+        case Call(function=function, arguments=(distance,)) if function == NEIGHBORS:
+            reach = lower_tree(distance, context)
+            return ir.Call("neighbors", (reach,), _result(tree, (reach,), context), tree.span)
         case Call(function=function, arguments=arguments):
             values = _operands(str(function), arguments, context)
             return ir.Call(str(function), values, _result(tree, values, context), tree.span)

@@ -7,6 +7,7 @@ from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.checks.livelock import EventlessSteps
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.syntax.ast import (
+    NEIGHBORS,
     Branch,
     Call,
     Choice,
@@ -66,21 +67,28 @@ def _check(
 
 
 def _check_time(transition: Transition, context: Context) -> None:
-    """Report a guard that only time changes, without a trigger: time takes no transition."""
+    """Report a guard that only time changes, without a trigger: time takes no transition.
+
+    With time, other robots come near.
+    """
     guard = transition.guard
     if transition.triggers or guard is None or guard.tree is None:
         return
     parts = list(walk(guard))
-    time = next((part for part in parts if isinstance(part, Elapsed)), None)
+    near = [part for part in parts if isinstance(part, Call) and part.function == NEIGHBORS]
+    time = next((part for part in parts if isinstance(part, Elapsed) or part in near), None)
     changes = any(
         isinstance(part, (InState, Call)) or isinstance(getattr(part, "target", None), Variable)
         for part in parts
+        if part not in near
     )
     if time is not None and not changes:
         context.report.report(
             "unnoticed-time",
             time.span,
-            help="write `after` and the time in its place, or name an event with `on`",
+            help="look now and then, `after 1 s [...]`, or name an event with `on`"
+            if near
+            else "write `after` and the time in its place, or name an event with `on`",
         )
 
 

@@ -5,7 +5,12 @@ from __future__ import annotations
 from swarmdsl.analysis.checks.addresses import EVERYBODY
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.resolve.addresses import Crew, crews_of
-from swarmdsl.analysis.resolve.membership import MEMBER_EVENTS, is_member_event, presence_calls
+from swarmdsl.analysis.resolve.membership import (
+    MEMBER_EVENTS,
+    is_member_event,
+    neighbor_calls,
+    presence_calls,
+)
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
@@ -157,12 +162,14 @@ def _check_sent(machine: StateMachine, context: Context) -> None:
 
 
 def _check_values(owner: Declaration, context: Context) -> None:
-    """Report `present` where no robot runs; constants are checked elsewhere."""
-    for call in presence_calls(owner) if isinstance(owner, (Fitness, Property)) else ():
+    """Report counts of robots where no robot runs; constants are checked elsewhere."""
+    if not isinstance(owner, (Fitness, Property)):
+        return
+    for call in (*presence_calls(owner), *neighbor_calls(owner)):
         context.report.report(
             "misplaced-membership",
             call.span,
-            name="present",
+            name=call.function,
             fault="is known to state machines only",
             help="use it in a guard, an effect or an argument of a state machine",
         )

@@ -12,7 +12,16 @@ from swarmdsl.analysis.resolve.type_names import written_type
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Call, Declaration, Event, Node, TopLevel, nodes_of, references
+from swarmdsl.syntax.ast import (
+    NEIGHBORS,
+    Call,
+    Declaration,
+    Event,
+    Node,
+    TopLevel,
+    nodes_of,
+    references,
+)
 from swarmdsl.syntax.parse import parse
 from swarmdsl.syntax.types import MEMBER
 
@@ -57,6 +66,11 @@ def used_member_events(owners: Iterable[Declaration]) -> Iterator[tuple[File, De
     if used:
         file, _ = member_events()
         yield from ((file, used[name]) for name in MEMBER_EVENTS if name in used)
+
+
+def neighbor_calls(owner: TopLevel) -> list[Call]:
+    """Return the uses of `neighbors within` in a declaration."""
+    return [call for call in nodes_of(owner, Call) if call.function == NEIGHBORS]
 
 
 def presence_calls(owner: TopLevel) -> list[Call]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from swarmdsl.analysis.types.unit_rules import NUMBER_OF_SECONDS
 from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.ast import NEIGHBORS
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, Primitive, Type, with_unit, written
 from swarmdsl.syntax.units import RADIAN
 
@@ -26,6 +27,8 @@ class BuiltIn:
     def signature(self, name: str) -> str:
         """Return the declaration, as the reference shows it."""
         more = ", ..." if self.more else ""
+        if name == NEIGHBORS:
+            return f"{name} {self.parameters[0]} : {written(self.result)}"
         result = f" : {written(self.result)}" if self.result is not None else ""
         return f"{name}({', '.join(self.parameters)}{more}){result}"
 
@@ -69,6 +72,11 @@ BUILT_INS: Mapping[str, BuiltIn] = {
         Primitive("int32"),
         "The number of robots of a role, or of the swarm, that are there.",
         optional=1,
+    ),
+    NEIGHBORS: BuiltIn(
+        ("distance",),
+        Primitive("int32"),
+        "The number of other robots of the swarm within a distance, now.",
     ),
     "contains": BuiltIn(("array", "x"), BOOL, "True if an item of an array equals `x`."),
 }

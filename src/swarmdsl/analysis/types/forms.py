@@ -25,7 +25,7 @@ def constant(tree: ExpressionTree) -> bool:
     machine.
     """
     match tree:
-        case NameUse(name="event") | Call(function="present"):
+        case NameUse(name="event") | Call(function="present" | "neighbors within"):
             return False
         case Value() | InState() | Elapsed() | NameUse(target=Constant() | EnumType() | None):
             return True

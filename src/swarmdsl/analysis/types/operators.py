@@ -9,7 +9,7 @@ from swarmdsl.analysis.types.built_ins import BUILT_INS
 from swarmdsl.analysis.types.fitting import fits, is_float, is_number, is_text
 from swarmdsl.analysis.types.positions import Position
 from swarmdsl.analysis.types.unit_checks import check_operands
-from swarmdsl.analysis.types.unit_rules import in_seconds, result_unit, takes_angle
+from swarmdsl.analysis.types.unit_rules import in_seconds, result_unit, taken_unit
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.syntax.ast import Call, EnumType, OperatorUse, RoleUse, Value
@@ -46,7 +46,7 @@ class Application:
             return replace(self, types=types).result()
         before = len(self.report)
         found = self._plain_result(word)
-        measured = takes_angle(word) or any(unit_of(each) is not None for each in types)
+        measured = taken_unit(word) is not None or any(unit_of(each) is not None for each in types)
         if measured and len(self.report) == before:
             check_operands(self.tree, types, self.report)
         if not is_number(found) or found is None:

@@ -8,14 +8,14 @@ from swarmdsl.analysis.types.fitting import is_number
 from swarmdsl.analysis.types.unit_rules import (
     has_root,
     must_be_alike,
-    takes_angle,
+    taken_unit,
     units_fit,
 )
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import Call, ExpressionTree, NameUse, OperatorUse, Value
 from swarmdsl.syntax.types import Array, Type, unit_of
-from swarmdsl.syntax.units import PERCENT, RADIAN, Unit, unit_of_ros
+from swarmdsl.syntax.units import PERCENT, Unit, unit_of_ros
 
 
 def check_value(
@@ -49,9 +49,10 @@ def check_operands(
     """Report operands whose units an operator or function does not take."""
     word = str(tree.function if isinstance(tree, Call) else tree.operator)
     operands = tree.arguments if isinstance(tree, Call) else tree.operands
-    if takes_angle(word):
-        if not _fits(operands[0], unit_of(types[0]), RADIAN):
-            _report(operands[0], unit_of(types[0]), RADIAN, report)
+    taken = taken_unit(word)
+    if taken is not None:
+        if not _fits(operands[0], unit_of(types[0]), taken):
+            _report(operands[0], unit_of(types[0]), taken, report)
     elif word == "sqrt":
         unit = unit_of(types[0])
         if unit is not None and not has_root(unit):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from swarmdsl.syntax.ast import NEIGHBORS
 from swarmdsl.syntax.types import DURATION, FLOAT, INT, Primitive, Type, unit_of, with_unit
 from swarmdsl.syntax.units import (
     ANY,
@@ -117,9 +118,9 @@ def must_be_alike(word: str) -> bool:
     return word in _SAME
 
 
-def takes_angle(word: str) -> bool:
-    """Return True for a function of an angle."""
-    return word in _ANGULAR
+def taken_unit(word: str) -> Unit | None:
+    """Return the unit of what a function takes, if it takes no other one."""
+    return RADIAN if word in _ANGULAR else UNITS["m"] if word == NEIGHBORS else None
 
 
 def units_fit(found: Unit | None, expected: Unit | None) -> bool:

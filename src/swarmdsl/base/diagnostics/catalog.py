@@ -322,6 +322,9 @@ CODES: dict[str, Code] = {
     "unfit-device": Code("SW1017", "error", "`{name}` of {owner} {reason}"),
     "no-positions": Code("SW1018", "error", "there is no map: `{name}` has no places here"),
     "empty-trace": Code("SW1019", "warning", "trace `{path}` has no lines: it says nothing"),
+    "not-replayed": Code(
+        "SW1020", "warning", "`{name}` counts robots near it: its lines are not compared"
+    ),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),

@@ -19,6 +19,16 @@ def follows_members(machine: StateMachine) -> bool:
     return any(True for _ in member_uses(machine))
 
 
+def counts_neighbors(machine: StateMachine) -> bool:
+    """Return True if a machine asks how many robots are near."""
+    return any(True for _ in neighbor_uses(machine))
+
+
+def neighbor_uses(machine: StateMachine) -> Iterator[Use]:
+    """Yield the uses of the number of robots nearby in a machine."""
+    return (use for use in uses_in_machine(machine) if use[0] is Feature.NEIGHBORS)
+
+
 def member_uses(machine: StateMachine) -> Iterator[Use]:
     """Yield the uses of events of members in a machine, and of their number."""
     followed = (Feature.MEMBER_EVENT, Feature.PRESENT)

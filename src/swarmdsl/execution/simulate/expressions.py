@@ -32,6 +32,8 @@ from swarmdsl.ir.operations import OPERATIONS
 
 PRESENT = "present()"
 """Key of a function in the data of a machine: the number of robots of a role that are there."""
+NEIGHBORS = "neighbors()"
+"""Key of a function in the data of a machine: the number of other robots within a distance."""
 SELF = "self"
 """Key of the identity of the robot in the data of a machine; no variable has this name."""
 
@@ -78,6 +80,9 @@ def function_of(expression: Expression) -> Value:
             return lambda data, event: _present(data, str(role))
         case Call(function="present"):
             return lambda data, event: _present(data, None)
+        case Call(function="neighbors", arguments=(distance,)):
+            reach = function_of(distance)
+            return lambda data, event: _neighbors(data, reach(data, event))
         case Call(function="empty"):
             return lambda data, event: []
         case Call(function=name, arguments=arguments):
@@ -100,6 +105,14 @@ def _present(data: Mapping[str, Any], role: str | None) -> Any:
     if PRESENT in data:
         return data[PRESENT](role)
     return int(role in (None, data[SELF]["role"]))
+
+
+def _neighbors(data: Mapping[str, Any], distance: float) -> int:
+    """Return the number of robots within a distance, where robots have places."""
+    found: int | None = data[NEIGHBORS](distance) if NEIGHBORS in data else None
+    if found is None:
+        raise ExecutionError("robots have no places here: `neighbors within` has no value")
+    return found
 
 
 def applied(name: str, values: Sequence[Value]) -> Value:

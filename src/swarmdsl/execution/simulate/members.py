@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
-from swarmdsl.codegen.shared import follows_members
+from swarmdsl.codegen.shared.identity import counts_neighbors, follows_members
 from swarmdsl.execution.simulate.clock import Alarm, Clock
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ir import Heartbeat, System
@@ -23,6 +23,12 @@ def following(system: System | None) -> frozenset[str]:
     """Return the names of the machines that handle events of members, or count them."""
     machines = system.machines if system is not None else ()
     return frozenset(machine.name for machine in machines if follows_members(machine))
+
+
+def counting_neighbors(system: System | None) -> frozenset[str]:
+    """Return the names of the machines that ask how many robots are near."""
+    machines = system.machines if system is not None else ()
+    return frozenset(machine.name for machine in machines if counts_neighbors(machine))
 
 
 class Roster:

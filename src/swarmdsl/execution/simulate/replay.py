@@ -27,7 +27,7 @@ from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.machine_data import first_data
-from swarmdsl.execution.simulate.members import Roster, following
+from swarmdsl.execution.simulate.members import Roster, counting_neighbors, following
 from swarmdsl.execution.simulate.robot_data import convert, with_fields
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
@@ -81,6 +81,7 @@ def replay(
         if not is_beside_steps(record.done):
             by_member.setdefault(record.done.get("member"), []).append(record)
     actors = {actor.name: actor for actor in cast}
+    blind = counting_neighbors(subject.system)
     followed = 0
     given = sum(map(len, by_member.values()))
     for member, records in by_member.items():
@@ -92,6 +93,10 @@ def replay(
                 _impersonate(actor, member, subject)
         if actor is None:
             _report_member(member, records[0].place, actors, report)
+            continue
+        if actor.machine.name in blind:
+            # A trace tells where this robot was when, and not where all others were.
+            report.report("not-replayed", records[0].place, name=actor.name or actor.machine.name)
             continue
         roster = Roster(dict.fromkeys(each.robot for each in cast))
         followed += _Replay(actor, subject, report, seen, roster).replay(records)

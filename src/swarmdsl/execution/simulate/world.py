@@ -21,9 +21,9 @@ from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.activities import Activities
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
-from swarmdsl.execution.simulate.expressions import PRESENT
+from swarmdsl.execution.simulate.expressions import NEIGHBORS, PRESENT
 from swarmdsl.execution.simulate.headers import signed
-from swarmdsl.execution.simulate.members import Members, following
+from swarmdsl.execution.simulate.members import Members, counting_neighbors, following
 from swarmdsl.execution.simulate.network import Network
 from swarmdsl.execution.simulate.random_source import RandomSource
 from swarmdsl.execution.simulate.scenario import (
@@ -113,9 +113,12 @@ class World:
             self._hears,
             self._tell_member,
         )
+        near = counting_neighbors(system)
         for actor in self._instances:
             if actor.robot in self.members.rosters:
                 actor.data[PRESENT] = self._presence(actor.robot)
+            if actor.machine.name in near:
+                actor.data[NEIGHBORS] = self._nearness(actor.robot)
         comes_back = any(each.lasts is not None and each.is_loss for each in scenario.faults)
         self._first_data = {
             actor: deepcopy(actor.data) for actor in (self._instances if comes_back else ())
@@ -415,6 +418,11 @@ class World:
         """Return the machines of a robot that follow who is there."""
         found = self._machines[robot.name]
         return [actor for actor in found if actor.machine.name in self._following]
+
+    def _nearness(self, robot: Robot) -> Callable[[float], int | None]:
+        """Return the function that counts the robots that are near a robot."""
+        # A copy of it with the data of a machine must not copy the space.
+        return lambda distance: self.space.neighbors(robot, distance)
 
     def _presence(self, robot: Robot) -> Callable[[str | None], int]:
         """Return the function that counts the robots that are present for a robot."""

@@ -22,7 +22,7 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.expressions import PRESENT
+from swarmdsl.execution.simulate.expressions import NEIGHBORS, PRESENT
 from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.members import DEPARTED, JOINED, Roster
 from swarmdsl.execution.simulate.trace import Line, Trace
@@ -119,6 +119,7 @@ class Body:
             self.roster = Roster(crew.robots)
         for instance, actor in zip(self.instances, cast, strict=True):
             self._trace.watch(instance, actor)
+            instance.data[NEIGHBORS] = _nobody
             if self.roster is not None:
                 instance.data[PRESENT] = self.roster.count
 
@@ -314,6 +315,11 @@ class Body:
         if declared.swarm:
             envelope = Envelope(robot.name or "", self.clock.now, to)
             self.sent.append(Event(event.name, data, envelope=envelope))
+
+
+def _nobody(distance: float) -> int:
+    """Return the number of robots within a distance where all are far from each other."""
+    return 0
 
 
 class _Desk:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
-from swarmdsl.codegen.shared.identity import member_uses
+from swarmdsl.codegen.shared.identity import member_uses, neighbor_uses
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.members import JOINED, following
 from swarmdsl.execution.simulate.scenario import Scenario
@@ -391,6 +392,8 @@ class Model:
             if not self._crew.has_heartbeat:
                 for _, place in member_uses(machine):
                     yield Doubt("without a swarm, it is open which robots are there", place)
+            for _, place in islice(neighbor_uses(machine), 1):
+                yield Doubt("only runs in which nobody is near are covered", place)
             for state in machine.walk():
                 activity = state.activity
                 if activity is not None and activity.result_callback is not None:

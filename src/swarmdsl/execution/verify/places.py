@@ -53,7 +53,7 @@ def is_constant(expression: ir.Expression) -> bool:
     return not any(
         isinstance(part, varies)
         or (isinstance(part, ir.SelfField) and part.field in ("id", "index"))
-        or (isinstance(part, ir.Call) and part.function == "present")
+        or (isinstance(part, ir.Call) and part.function in ("neighbors", "present"))
         for part in ir.subexpressions(expression)
     )
 

@@ -32,6 +32,7 @@ from swarmdsl.ide.server.speculative_parse import (
 from swarmdsl.ide.server.type_names import type_names
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
+    NEIGHBORS,
     Assignment,
     Component,
     FieldUse,
@@ -225,7 +226,8 @@ def _calls() -> Iterator[Completion]:
     """Yield the built-in functions."""
     for name, function in BUILT_INS.items():
         fields = ", ".join(f"${{{n}:{each}}}" for n, each in enumerate(function.parameters, 1))
-        yield Completion(name, function.signature(name), text=f"{name}({fields})")
+        text = f"{name} {fields}" if name == NEIGHBORS else f"{name}({fields})"
+        yield Completion(name, function.signature(name), text=text)
 
 
 def _completion(node: Node, text: str | None = None, word: str = "") -> Completion:

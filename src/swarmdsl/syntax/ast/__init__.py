@@ -135,6 +135,7 @@ from swarmdsl.syntax.ast.space import (
     Zone,
 )
 from swarmdsl.syntax.ast.values import (
+    NEIGHBORS,
     Argument,
     Call,
     Constant,
@@ -171,6 +172,7 @@ from swarmdsl.syntax.ast.walk import (
 )
 
 __all__ = [
+    "NEIGHBORS",
     "NODES",
     "ActionType",
     "Activity",

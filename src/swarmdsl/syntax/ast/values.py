@@ -116,6 +116,10 @@ class Elapsed(Node):
     owner: Any = field(default=None, init=False, metadata={"elsewhere": True})
 
 
+NEIGHBORS = "neighbors within"
+"""Function of `neighbors within distance`, which is a call of it; no call can name it."""
+
+
 @dataclass(slots=True, eq=False)
 class Call(Node):
     """`function(arguments)`, the function a built-in one."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.syntax.ast import (
+    NEIGHBORS,
     ActionType,
     Activity,
     Branch,
@@ -88,6 +89,8 @@ def find_marks(model: Model, tokens: Tokens) -> Marks:
                 _join(marks, tokens, start, f"{node.role.name}[{node.index}]")
             case OperatorUse(operands=(_,)) if node.operator == "-":
                 marks.tight.add(tokens.code(start, 2)[1].start)
+            case Call(function=function) if function == NEIGHBORS:
+                pass  # no parenthesis follows
             case Call() | Query() | Operation():
                 name = node.name if isinstance(node, Operation) else node.function
                 marks.tight.add(tokens.code(name.span.end)[0].start)

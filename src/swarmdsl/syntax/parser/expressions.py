@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import (
+    NEIGHBORS,
     Call,
     Construction,
     Elapsed,
@@ -50,7 +51,7 @@ _PARTS_OF_COMPARISONS = frozenset("=!<>")
 _PREFIXES = frozenset({"not", "-"})
 # A number may continue with the first; an expression after a number or a name with the second.
 _IN_NUMBERS = {name.partition("/")[0] for name in UNITS} | {"."}
-_CONTINUATIONS = _OPERATORS | _IN_NUMBERS | {"(", "["}
+_CONTINUATIONS = _OPERATORS | _IN_NUMBERS | {"(", "[", "within"}
 _SIMPLE_NUMBER = 9  # digits: no such number is too large
 
 # To call the classes takes longer.
@@ -237,6 +238,10 @@ class ExpressionParser:
                 found = found or self._query(at) or self._construction(at) or self._call(at)
                 if found is not None:
                     return found
+            if following == "within" and token == "neighbors":
+                found = self._neighbors(at)
+                if found is not None:
+                    return found
             if following == ".":
                 return self._construction(at) or self._path(at)
             if following == "[":
@@ -277,6 +282,22 @@ class ExpressionParser:
         self._size += 1
         made = Elapsed(self._span(start, end), self._word_at(at), state)
         return made, start, end, following + 1
+
+    def _neighbors(self, at: int) -> _Found | None:
+        """Parse the number of robots within a distance; None if no distance follows."""
+        before = self._fault, self._large
+        self._descend()
+        found = self._primary(at + 2)
+        self._level -= 1
+        if found is None:
+            self._fault, self._large = before
+            return None
+        distance, _, end, following = found
+        start = self._start(at)
+        self._size += 1
+        place = self._span(start, self._ends[at + 2])
+        made = Call(self._span(start, end), Word(NEIGHBORS, place), (distance,))
+        return made, start, end, following
 
     def _state(self, at: int) -> tuple[Ref[Vertex], int] | None:
         """Parse the path of a state; return it and the index of the next token."""

@@ -56,6 +56,7 @@ CONTEXTUAL = {
     'minimize': '[A-Za-z_0-9"-]',
     'model': '[A-Za-z_]',
     'most': '[0-9"]',
+    'neighbors': '(?:within)\\b',
     'never': '[*A-Za-z_0-9"]',
     'no': '[A-Za-z_]',
     'obstacle': '[A-Za-z_]',
@@ -101,7 +102,7 @@ CONTEXTUAL = {
 FIRST = {
     'ComponentItem': frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param', 'senses']),
     'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
-    'Effect': frozenset(['append', 'cancel', 'clear', 'event', 'false', 'in', 'not', 'remove', 'self', 'send', 'true']),
+    'Effect': frozenset(['append', 'cancel', 'clear', 'event', 'false', 'in', 'neighbors', 'not', 'remove', 'self', 'send', 'true']),
     'EnvironmentItem': frozenset(['area', 'obstacle', 'rain', 'size', 'target', 'wall', 'wind', 'world', 'zone']),
     'FitnessItem': frozenset(['in', 'maximize', 'minimize', 'param']),
     'FunctionItem': frozenset(['action', 'in', 'model', 'out', 'param', 'service']),

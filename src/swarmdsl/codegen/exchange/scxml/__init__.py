@@ -101,5 +101,5 @@ generator = Generator(
     summary="each state machine as SCXML, for any engine and for the CPSwarm code generator",
     emit=emit,
     options_type=Options,
-    supports=ALL_FEATURES - {Feature.PRESENT},
+    supports=ALL_FEATURES - {Feature.NEIGHBORS, Feature.PRESENT},
 )
