@@ -66,7 +66,6 @@ MAPPING = tuple(
         ),
         ("events of members", _EXACT, "raised by heartbeats: `follows_members=True`"),
         ("number of present robots", _EXACT, "heard in time: `machine.world.present(`"),
-        ("number of robots nearby", _REJECTED, "a node knows no places of others (SW0903)"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
         ("initial state of a machine that is final", _EXACT, "the node ends at once: `Kind.FINAL`"),
         ("name that Python cannot have", _REJECTED, "not a valid identifier (SW0905)"),

@@ -72,7 +72,6 @@ MAPPING = tuple(
         ),
         ("events of members", _REJECTED, "nodes of ROS 1 send no heartbeats (SW0903)"),
         ("number of present robots", _REJECTED, "nodes of ROS 1 send no heartbeats (SW0903)"),
-        ("number of robots nearby", _REJECTED, "a node knows no places of others (SW0903)"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `<remap from=`"),
         (
             "initial state of a machine that is final",

@@ -136,7 +136,6 @@ MODELS = {
         state A { on Go / send Call after 3 s; on Stop / cancel Call -> End }""",
     "events of members": "state A { on member_lost -> End }",
     "number of present robots": "state A { on Go [present() > 1] -> End }",
-    "number of robots nearby": "state A { on Go [neighbors within 3 m > 1] -> End }",
     "connector": "state A { on Go -> End }",
     "initial state of a machine that is final": "final A",
     "name that Python cannot have": """
