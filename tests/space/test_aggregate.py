@@ -1,4 +1,6 @@
-"""Aggregation: robots rest as the published rates say, and groups as the chain of the model does.
+"""Aggregation: robots rest as the rates of the model say, and groups as its Markov chain does.
+
+The rates have not been checked against the tables of the paper that the model names.
 
 Where all see all, the number of resting robots is a Markov chain: of k that rest, each walks on at
 the rate for k - 1 neighbours, and each of the others stops at the rate for k. Its distribution

@@ -7,6 +7,8 @@
 
 A robot that walks stops, and one that rests walks on, at a rate that depends on the number of
 resting robots within reach.
+
+The form of the rule is that of the paper. The rates have not been checked against its tables.
 """
 
 from __future__ import annotations
