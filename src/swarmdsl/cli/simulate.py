@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +19,8 @@ from swarmdsl.cli.suggestions import Choice
 if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostic
 
+_NOT_WITH_ROS2 = ("machine", "events", "timeline", "replay", "stop_on_violation", "real_time")
+
 
 def _duration(_context: click.Context, _param: click.Parameter, text: str | None) -> int | None:
     """Parse a duration with its unit, to nanoseconds."""
@@ -27,6 +30,20 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     if text is not None and length is None:
         raise click.BadParameter(f"`{text}` is not a duration like `90s`, `500ms` or `10min`")
     return length
+
+
+def _check_alone(many: bool) -> None:
+    """Raise UsageError for an option that is not about nodes of ROS 2."""
+    given = click.get_current_context().params
+    for name in _NOT_WITH_ROS2:
+        if given[name]:
+            raise click.UsageError(f"`--ros2` and `--{name.replace('_', '-')}` conflict")
+    if given["trace"] not in (None, "none"):
+        raise click.UsageError("`--ros2` and `--trace` conflict: `--trace-file` has all lines")
+    if many:
+        raise click.UsageError("`--ros2` and `--runs` conflict")
+    if given["world"] == "abstract":
+        raise click.UsageError("`--ros2` and `--world abstract` conflict")
 
 
 @click.command(
@@ -100,6 +117,16 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
 @click.option("--no-properties", is_flag=True, help="Do not watch the properties of the model.")
 @click.option("--stop-on-violation", is_flag=True, help="End the run when a property is violated.")
 @click.option("--real-time", is_flag=True, help="Run in real time.")
+@click.option(
+    "--ros2",
+    is_flag=True,
+    help="Serve the robots of the flat world to nodes of ROS 2, which are their minds.",
+)
+@click.option(
+    "--real-time-factor",
+    type=options.Number(0, 1000, min_open=True),
+    help="Speed of the time of `--ros2`, if the nodes keep up: 2 is twice as fast.  [default: 1]",
+)
 @options.diagnostics_format
 @options.debug
 def simulate(
@@ -121,6 +148,8 @@ def simulate(
     no_properties: bool,
     stop_on_violation: bool,
     real_time: bool,
+    ros2: bool,
+    real_time_factor: float | None,
     format_: str,
     **many_options: Any,
 ) -> int:
@@ -153,6 +182,10 @@ def simulate(
             "trace to a `--trace-file`"
         )
     many = many_of(**many_options)
+    if real_time_factor is not None and not ros2:
+        raise click.UsageError("`--real-time-factor` needs `--ros2`")
+    if ros2:
+        _check_alone(many is not None)
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
     if map_file is not None:
@@ -189,7 +222,11 @@ def simulate(
         world,
         map_file,
     )
-    if many is None:
+    if ros2:
+        from swarmdsl.execution.ros2_world.command import serve
+
+        simulate_: Callable[..., bool | None] = partial(serve, factor=real_time_factor or 1.0)
+    elif many is None:
         simulate_ = run_simulation
     else:
         from swarmdsl.execution.simulate.many import simulate_many

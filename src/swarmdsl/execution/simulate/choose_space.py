@@ -73,6 +73,11 @@ class Spaces:
         """True if robots have places."""
         return self._setting is not None
 
+    @property
+    def setting(self) -> Setting | None:
+        """Setting of the robots' places; None if they have none."""
+        return self._setting
+
     def alone(self, seed: int, *, covers: bool = True) -> Space:
         """Return the space of one run; with `covers` it notes which ground is covered."""
         if self._setting is None:

@@ -11,6 +11,7 @@ from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.measures import FitnessResult, evaluate, measures_of
 from swarmdsl.execution.simulate.properties import plan, watch
+from swarmdsl.execution.simulate.space import ABSTRACT, Space
 from swarmdsl.execution.simulate.trace import Line, as_text
 from swarmdsl.ir import Fitness, Property
 
@@ -79,11 +80,12 @@ class Recording:
             self._lines.append((place, line, dict(data or {})))
 
     def results(
-        self, end: int, loop: int | None = None
+        self, end: int, loop: int | None = None, space: Space = ABSTRACT
     ) -> tuple[list[PropertyResult], FitnessResult | None]:
         """Return verdicts and fitness of the traces until a time; a log can end at any time.
 
-        The last `loop` lines repeat for ever; with 0, nothing happens after them.
+        The last `loop` lines repeat for ever; with 0, nothing happens after them. Measures of space
+        are those of `space`.
         """
         if not self._lines:
             return [], None
@@ -104,7 +106,7 @@ class Recording:
             results = [_in_loop(result, at) for result, *at in zip(results, *ends, strict=True)]
         if self._fitness is None:
             return results, None
-        return results, evaluate(self._fitness, monitors.readings(end))
+        return results, evaluate(self._fitness, monitors.readings(end), space)
 
 
 def _in_loop(result: PropertyResult, ends: Sequence[PropertyResult]) -> PropertyResult:
