@@ -51,6 +51,7 @@ def generate_launch_description():
         ('namespace', 'search_and_rescue', 'namespace of the swarm'),
         ('member', '', 'the robot to launch, such as uav[0]; all when empty'),
         ('use_sim_time', 'false', 'whether time comes from the topic /clock'),
+        ('world', 'false', 'whether a simulated world has the robots: swarmc simulate --ros2'),
         ('log_level', 'info', 'the least level of messages that are logged'),
         ('trace_dir', '', 'folder for the trace of each node; none is written when empty'),
     ]
@@ -78,6 +79,11 @@ def has_bringup():
     except PackageNotFoundError:
         return False
     return True
+
+
+def is_on(context, argument):
+    """Return True if an argument is true."""
+    return LaunchConfiguration(argument).perform(context) == 'true'
 
 
 def launch_members(context):
@@ -109,13 +115,18 @@ def launch_members(context):
 def launch_node(context, role, number, count, executable, name, part):
     """Return a node of a member, with the parameters of its role and its own."""
     member = f'{role}[{number}]' + (f'.{part}' if part else '')
+    in_world = is_on(context, 'world')
     parameters = [
         {
             'member': member,
             'self.count': count,
-            'use_sim_time': LaunchConfiguration('use_sim_time').perform(context) == 'true',
+            'use_sim_time': is_on(context, 'use_sim_time') or in_world,
         }
     ]
+    if in_world:
+        # The world hears what a robot sends there, and says there what reaches it by radio.
+        namespace = LaunchConfiguration('namespace').perform(context).strip('/')
+        parameters[0]['swarm'] = f'/{namespace}/{role}_{number}/radio'
     trace_dir = LaunchConfiguration('trace_dir').perform(context)
     if trace_dir:
         parameters[0]['trace.file'] = os.path.join(trace_dir, f'{member}.jsonl')
@@ -135,8 +146,7 @@ def launch_node(context, role, number, count, executable, name, part):
 
 def launch_components(context, role, number):
     """Return the components of a member if enabled, with its own parameters."""
-    wanted = LaunchConfiguration('components').perform(context) == 'true'
-    if not wanted or role not in COMPONENTS:
+    if not is_on(context, 'components') or role not in COMPONENTS:
         return []
     own = os.path.join(CONFIG, f'{role}_{number}.yaml')
     path = os.path.join(get_package_share_directory(BRINGUP), 'launch', COMPONENTS[role])
