@@ -129,8 +129,8 @@ class Kind:
 
     `acts` are the bits of what machines do and hear, by act and name, `values` those of what
     robots have, and `conditional` those of all facts with a condition.
-    `places` are the facts that hold in known configurations, `from_outside` and `from_robots` those
-    about the events of a robot and about values.
+    `places` are the facts that hold in known configurations, `from_outside` and `from_robots`
+    those about the events of a robot and about values.
     """
 
     def __init__(self, facts: Iterable[tuple[int, Fact]], states: Sequence[str]) -> None:
