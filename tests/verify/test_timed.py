@@ -124,6 +124,36 @@ def test_a_function_that_never_answers_is_late(modelled: Modelled) -> None:
 
 
 @pytest.mark.parametrize(
+    ("delay", "wanted", "answers", "silent"),
+    [
+        ("2 s", "in S0 leads to not in S0 within 2 s", "holds", "holds"),
+        ("2 s", "in S0 leads to not in S0 within 1 s", "holds", "fails"),
+        ("2 s", "never in Late", "holds", "fails"),
+        ("500 ms", "never in S1", "holds", "holds"),
+    ],
+)
+def test_a_function_that_may_never_answer_does_not_answer_early(
+    delay: str, wanted: str, answers: str, silent: str, modelled: Modelled
+) -> None:
+    text = f"""endless statemachine M {{
+  initial S0
+  state S0 {{
+    do attempt
+    on succeeded, aborted -> S1
+    after {delay} -> Late
+  }}
+  state S1 {{ on Go -> S0 }}
+  state Late {{ on Go -> S0 }}
+}}
+{_ONE}property P of S : each a : {wanted}"""
+    scenario = Scenario(functions={(EVERY_FUNCTION, ""): {"never": 0.1}})
+
+    assert _outcome(modelled, text, exact=True) == answers
+    assert _outcome(modelled, text, exact=True, silent=("attempt",)) == silent
+    assert _outcome(modelled, text, exact=True, scenario=scenario) == silent
+
+
+@pytest.mark.parametrize(
     ("latency", "within", "exact"),
     [
         (Fixed(0), "1 ms", "holds"),

@@ -159,11 +159,16 @@ class Body:
 
         A function that may never answer is not among it.
         """
+        for task, each in self.all_tasks():
+            if not (isinstance(each, Run) and each.activity.name in self._silent):
+                yield task, each
+
+    def all_tasks(self) -> Iterator[tuple[Task, object]]:
+        """Yield what is running or waits, also a function that may never answer."""
         if not self.running:
             return
         for number, run in self.runs:
-            if run.activity.name not in self._silent:
-                yield ("end", number, run.state), run
+            yield ("end", number, run.state), run
         for delay in self.delays:
             yield ("time", delay.actor, delay.timer.id), delay
         for event in self.inside:

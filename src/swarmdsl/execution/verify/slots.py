@@ -22,7 +22,7 @@ def occupied(body: Body, shown: Callable[[Event], Any]) -> list[Occupied]:
     """Return the slots of a body; `shown` returns what decides of an event that waits."""
     found = []
     numbers: dict[tuple[int, int | str], int] = {}
-    for (kind, actor, key), task in body.tasks():
+    for (kind, actor, key), task in body.all_tasks():
         if isinstance(task, Run):
             found.append(Occupied(Slot(kind, actor, key, task.activity.name), (actor, key), task))
         elif isinstance(task, Delay):
