@@ -204,6 +204,19 @@ class Long(Paint):
     def step(self, who, dt):
         return np.zeros(len(who) + 1)
 
+class Text(Paint):
+    def step(self, who, dt):
+        return "done"
+
+class Leaving(Paint):
+    def step(self, who, dt):
+        raise SystemExit(0)
+
+class Endless(Paint):
+    def step(self, who, dt):
+        self.stage.wanted_x[who] = np.nan
+        return super().step(who, dt)
+
 NUMBER = 3
 """
 
@@ -218,6 +231,9 @@ def project(tmp_path: Path) -> Path:
 paint  = "functions/paint.py:Paint"
 broken = "functions/paint.py:Broken"
 long   = "functions/paint.py:Long"
+text   = "functions/paint.py:Text"
+leaving = "functions/paint.py:Leaving"
+endless = "functions/paint.py:Endless"
 number = "functions/paint.py:NUMBER"
 typo   = "functions/paint.py:Piant"
 bad    = "functions/bad.py:Paint"
@@ -253,6 +269,9 @@ def test_a_project_has_models_of_its_own(simulate: Simulate, project: Path) -> N
         ("entry", "no package has an entry point `no_such_entry` of group `swarmdsl.models`"),
         ("broken", "error[SW1015]: the model of `walk` fails at 100 ms: RuntimeError: no paint"),
         ("long", "the model of `walk` fails at 100 ms: `step` returns (3,)"),
+        ("text", "the model of `walk` fails at 100 ms: `step` returns str, not a status"),
+        ("leaving", "error[SW1015]: the model of `walk` fails at 100 ms: it ends the process"),
+        ("endless", "fails at 100 ms: `step` wants a velocity that is not finite"),
     ],
 )
 def test_errors_of_models_of_a_project_are_theirs(
@@ -366,3 +385,17 @@ def test_devices_whose_values_cannot_be_are_reported(simulate: Simulate) -> None
         code, out, err = simulate("--until", "1s", "--world", "flat", scenario=scenario, text=text)
         assert (code, out) == (1, ""), err
         assert f"error[SW1017]: {reason}" in err
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_battery_without_room_has_no_share_left(simulate: Simulate) -> None:
+    battery = "  param full : float64 = 2.0\n  battery { capacity = 1 Wh * full }\n"
+    text = TEXT.replace("  behavior Walking\n", f"  behavior Walking\n{battery}")
+    scenario = "[params.rover]\nfull = 0.0\n"
+    code, _, err = simulate("--until", "1s", "--world", "flat", scenario=scenario, text=text)
+    assert code == 0, err
+    (row,) = (
+        line.split() for line in err.splitlines() if line.startswith("rover[0]") and " Wh " in line
+    )
+    assert row[3:6] == ["0.00", "Wh", "-"]
+    assert "nan" not in err

@@ -295,9 +295,9 @@ class FlatSpace(Space):
             line = [robot.name or "", f"{stage.distance[row]:.1f} m"]
             if energy:
                 capacity = stage.layout.units[row - self._first].battery
-                left = stage.energy[row] / capacity.capacity if capacity else math.nan
+                full = capacity.capacity if capacity else 0.0
                 line += [f"{stage.used[row] / 3600:.2f} Wh"]
-                line += [f"{100 * left:.1f} %" if capacity else "-"]
+                line += [f"{100 * (stage.energy[row] / full):.1f} %" if full else "-"]
             if covers:
                 line += [f"{100 * stage.covering.first(row):.1f} %"]
             lines.append(tuple(line))

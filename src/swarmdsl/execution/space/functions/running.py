@@ -55,7 +55,12 @@ class Running:
         status = self._guarded(self._model.step, who, self._stage.dt)
         shape = getattr(status, "shape", None)
         if shape != who.shape:
-            raise ModelError(self.name, f"`step` returns {shape}, not a status for each robot")
+            what = type(status).__name__ if shape is None else shape
+            raise ModelError(self.name, f"`step` returns {what}, not a status for each robot")
+        stage = self._stage
+        for wanted in (stage.wanted_x, stage.wanted_y, stage.wanted_z):
+            if not np.isfinite(wanted[who]).all():
+                raise ModelError(self.name, "`step` wants a velocity that is not finite")
         ended = np.flatnonzero(status != RUNNING)
         return list(zip(who[ended].tolist(), status[ended].tolist(), strict=True))
 
@@ -75,5 +80,7 @@ class Running:
         """Call a model, which may be that of a project: its errors are not ours."""
         try:
             return call(*given)
+        except SystemExit as error:
+            raise ModelError(self.name, "it ends the process with `SystemExit`") from error
         except Exception as error:
             raise ModelError(self.name, error) from error
