@@ -35,6 +35,9 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import DURATION
 
+_MOST_TARGETS = 10_000
+"""Of one declaration; simulations have arrays and names of all of them."""
+
 
 def check_geometry(environment: Environment, context: Context) -> None:
     """Check the values, the shapes and the places in an environment."""
@@ -105,6 +108,9 @@ def _check_targets(item: Targets, context: Context) -> None:
         context.report.report(
             "impossible-setting", item.name.span, name=f"{item.name}[{item.count}]", least=1
         )
+    elif item.count and integer(item.count) > _MOST_TARGETS:
+        help_ = f"leave some out: there are {_MOST_TARGETS} at most"
+        _report(f"target `{item.name}`", "has too many of its kind", item.name.span, context, help_)
     elif item.count and item.places and integer(item.count) != len(item.places):
         count, places = integer(item.count), len(item.places)
         fault = f"has {count} of its kind, but {places} {'place' if places == 1 else 'places'}"
