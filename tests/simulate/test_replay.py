@@ -312,3 +312,27 @@ def test_numbers_that_json_does_not_have(
     trace.write_text("\n".join(older), encoding="utf-8")
     assert run([*simulate, "--replay", str(trace)]) == 0
     assert "4 lines of 1 member as in the model" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("member", "told"),
+    [
+        ("uav[1]", "or one with `uav` in `[count]`"),
+        ("uaw[0]", "did you mean `uav[0]`?"),
+    ],
+)
+def test_a_hint_for_a_robot_that_there_is_not(
+    member: str, told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model, scenario = tmp_path / "model.swarm", tmp_path / "two.toml"
+    swarm = "member Uav { behavior M }\nswarm S { uav : Uav[1..2] }\n"
+    model.write_text(MODEL + swarm, encoding="utf-8")
+    scenario.write_text("[count]\nuav = 2\n", encoding="utf-8")
+    trace = tmp_path / "trace.jsonl"
+    lines = [{**START, "member": "uav[0]"}, {**START, "member": member}]
+    trace.write_text("".join(f"{json.dumps(line)}\n" for line in lines), encoding="utf-8")
+    words = ["simulate", str(model), "--replay", str(trace)]
+
+    assert run(words) == 1
+    assert told in capsys.readouterr().err
+    assert run([*words, "--scenario", str(scenario)]) == int(member == "uaw[0]")

@@ -115,7 +115,15 @@ def _report_member(
     member: str | None, place: Span, actors: Mapping[str | None, Actor], report: Diagnostics
 ) -> None:
     known = [name for name in actors if name is not None]
-    help_ = suggest(member or "", known, "members") if known else None
+    role = (member or "").partition("[")[0]
+    if any(name.startswith(f"{role}[") for name in known):
+        # Verified runs have the numbers of their scenario, and of `--size`.
+        help_: str | None = (
+            "the trace may be of more robots: name its scenario with `--scenario`, "
+            f"or one with `{role}` in `[count]`"
+        )
+    else:
+        help_ = suggest(member or "", known, "members") if known else None
     report.report("unresolved-name", place, kind="member", name=member or "", help=help_)
 
 
