@@ -28,6 +28,7 @@ import ros1
 import ros2
 import simulation
 import verification
+import world
 from measure import Section
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "performance.md"
@@ -40,6 +41,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "engine": engine.section,
     "simulate": simulation.section,
     "verify": verification.section,
+    "world": world.section,
     "lsp": editing.section,
     "import": importing.section,
     "diagram": drawing.section,

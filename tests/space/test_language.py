@@ -126,12 +126,12 @@ def test_verify_says_that_it_leaves_places_out(swarmc: Run) -> None:
 def test_a_model_of_the_project_is_known_to_checks(swarmc: Run, tmp_path: Path) -> None:
     text = FIELD.replace(
         'model coverage(height = altitude, width = width, area = "meadow")',
-        "model spray(seconds = width / 1 m)",
+        "model treat(seconds = width / 1 m)",
     )
     code, out, _ = swarmc("check", text=text)
     assert code == 1
     assert "SW0622" in out
-    (tmp_path / "swarm.toml").write_text('[models]\nspray = "spray.py:Spray"\n', encoding="utf-8")
+    (tmp_path / "swarm.toml").write_text('[models]\ntreat = "spray.py:Spray"\n', encoding="utf-8")
     code, out, _ = swarmc("check", text=text)
     assert code == 0, out
     (tmp_path / "spray.py").write_text(
