@@ -156,6 +156,8 @@
     (,(concat (regexp-opt swarm--naming 'symbols) "[ \t]+\\([A-Za-z_][A-Za-z0-9_]*\\)")
      2 font-lock-type-face)
     ("\\_<\\(?:function\\|do\\)[ \t]+\\([A-Za-z_][A-Za-z0-9_.]*\\)" 1 font-lock-function-name-face)
+    ;; A wall has no name.
+    ("\\_<\\(wall\\)[ \t]*:[ \t]*(" 1 font-lock-keyword-face)
     ("\\(?:[ \t]\\|[({,]\\s-*\\)\\([A-Za-z_][A-Za-z0-9_]*\\)[ \t]*\\(?::\\|=>\\|=[^=]\\)"
      1 font-lock-variable-name-face)
     ("\\_<[A-Za-z_][A-Za-z0-9_]*/[A-Za-z_][A-Za-z0-9_]*\\_>" . font-lock-type-face)

@@ -134,6 +134,7 @@ def locked_to_all(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("writer", WRITERS)
 def test_what_is_written(writer: str, kind: str, project: Path, swarmc: Callable[..., Ran]) -> None:
     suffix = {"trace": ".jsonl", "timeline": ".svg", "page": ".html", "diagram": ".svg"}
+    suffix |= {"results": ".xml"}
     odd = odd_file(kind, project / f"odd{suffix.get(writer, '.swarm')}")
     before = os.lstat(odd).st_mode if os.path.lexists(odd) else None
 

@@ -149,7 +149,7 @@ def test_only_keywords_are_highlighted_as_keywords(language: Any, coloured: Colo
             or str(terminal) in ("and", "or", "not")
         }
         # A keyword in properties, a function in expressions: these editors cannot tell.
-        either = {found.start() for found in re.finditer(r"\bcount(?=\()", text)}
+        either = {found.start() for found in re.finditer(r"\b(?:count|distance)(?=\()", text)}
         # A keyword in measures, and the name of a type.
         typed = {found.start() for found in re.finditer(r"\btime(?=\(| until\b)", text)}
         words = {found.start(): found[1] for found in WORD.finditer(text) if found[1]}

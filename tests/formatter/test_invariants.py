@@ -18,6 +18,7 @@ from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 from swarmdsl.syntax.formatter import format_source
 from swarmdsl.syntax.formatter.tokens import Kind, content_of, tokenize
+from swarmdsl.syntax.units import UNITS
 
 from ..docs.pages import blocks
 
@@ -113,7 +114,6 @@ def test_the_meaning_stays(compile_text):
 
 
 GAPS = (" ", "  ", "\t", "\n", "\n\n", "\n\n\n \n", "\n        ")
-UNITS = ("us", "ms", "s", "min", "h", "mm", "cm", "m", "km")
 COMMENTS = (
     *("/* c */", " /* c */ ", "\n/* c */\n", "\n/* c */ ", " /* a\n   * b\n */ ", "/* a\n b */\n"),
     *(" // c\n", "\n// c\n", "\n// c\n\n// d\n", "\n/// doc\n", " /// no doc\n", "//c\n   //d\n"),

@@ -76,10 +76,11 @@ def carried(system: System) -> System:
 
 
 def _plain(function: Function) -> Function:
-    """Without documentation of calls and topics; inputs first, and a topic with one type."""
+    """Without documentation of calls and topics, and a model; inputs first, one type a topic."""
     types: dict[tuple[str, str], Type] = {}
     return replace(
         function,
+        model=None,
         communication=replace(function.communication, doc=""),
         ports=tuple(
             replace(port, doc="")

@@ -163,7 +163,9 @@ def carried(system: System) -> System:
         system.interfaces,
         tuple(event for event in system.events if event.name in heard),
         tuple(
-            replace(f, ports=(), params=(), communication=replace(f.communication, doc=""))
+            replace(
+                f, ports=(), params=(), model=None, communication=replace(f.communication, doc="")
+            )
             for f in system.functions
             if f.name in called
         ),

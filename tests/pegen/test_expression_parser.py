@@ -66,7 +66,7 @@ def test_sentences_and_mutants(seed: int) -> None:
             for text in expressions
         ]
         check_same(filled(dice.choice(PLACES), mutants))
-    assert 2 < right < 150
+    assert 1 < right < 150
 
 
 @given(

@@ -96,6 +96,8 @@ def test_everything_has_documentation(name: str) -> None:
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: str(folder.relative_to(ROOT)))
 def test_documentation_is_in_the_representation(folder: Path, tmp_path: Path) -> None:
     copytree(folder, tmp_path / "model")
+    # Another example imports it.
+    copytree(ROOT / "examples" / "search_and_rescue", tmp_path / "search_and_rescue")
     expected = []
     for path in sorted((tmp_path / "model").glob("*.swarm")):
         text = path.read_text(encoding="utf-8")

@@ -55,4 +55,5 @@ def test_verdicts_on_many_swarms_with_losses(
         found += compared(seed, path, 110)
         found += compare(seed, path, capsys, faults=seed % 3, silent=seed % 2 == 0)
 
-    assert min(found["holds"], found["fails"], found["loop"]) > 10
+    assert min(found["holds"], found["fails"]) > 50
+    assert found["loop"] > 3

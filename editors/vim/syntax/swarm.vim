@@ -8,7 +8,8 @@ syn match swarmFunction "\%(\<\%(function\|do\)\)\@<=\s\+\h[A-Za-z0-9_.]*"
 syn match swarmArrow "->\|=>"
 " Field names may be keywords: a word after a dot, or before a colon or an equals sign.
 syn match swarmField "\.\s*\%(done\>\)\@!\h\w*"
-syn match swarmField "\%(\s\|[({,]\_s*\)\h\w*\ze\s*\%(:\|=>\|=[^=]\)"
+" A wall has no name.
+syn match swarmField "\%(\s\|[({,]\_s*\)\%(wall\s*:\s*(\)\@!\h\w*\ze\s*\%(:\|=>\|=[^=]\)"
 " So may ports.
 syn match swarmField "\%(\<connect\)\@<=\s\+\h\w*\ze\s*->"
 syn match swarmField "\%(\<connect\>.*->\)\@<=\s\+\h\w*\ze\s*\%($\|[;}/]\)"

@@ -64,6 +64,7 @@ _OPERANDS = {
     "`event`",
     "`self`",
     "`in`",
+    "`neighbors`",
     "`(`",
 }
 # Left out of a message next to a phrase that covers them.
