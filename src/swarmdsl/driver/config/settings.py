@@ -14,7 +14,7 @@ FILE_NAME = "swarm.toml"
 
 @dataclass(frozen=True)
 class ModelSource:
-    """Where a function model of a project is: a class in a file, or an entry point (no `path`)."""
+    """Source of a function model of a project: a class in a file, or an entry point (no `path`)."""
 
     name: str
     attribute: str
