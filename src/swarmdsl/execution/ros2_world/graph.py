@@ -13,7 +13,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from swarmdsl.execution.ros2_world.messages import fill, plain
-from swarmdsl.execution.ros2_world.ports import MissingInterfaceError, Request
+from swarmdsl.execution.ros2_world.ports import MissingInterfaceError, Taker
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.ir import Communication, Delivery, Named
 
@@ -59,13 +59,7 @@ class RclpyGraph:
         self._node.destroy_node()
         self._rclpy.try_shutdown()
 
-    def serve(
-        self,
-        name: str,
-        call: Communication,
-        begin: Callable[[Request], None],
-        cancel: Callable[[Request], None],
-    ) -> None:
+    def serve(self, name: str, call: Communication, begin: Taker, cancel: Taker) -> None:
         """Serve an action or a service."""
         if call.paradigm == "action":
             self._serve_action(name, call.type, begin, cancel)
@@ -108,13 +102,7 @@ class RclpyGraph:
 
     # ---- internal
 
-    def _serve_action(
-        self,
-        name: str,
-        type_: Named,
-        begin: Callable[[Request], None],
-        cancel: Callable[[Request], None],
-    ) -> None:
+    def _serve_action(self, name: str, type_: Named, begin: Taker, cancel: Taker) -> None:
         made = interface(type_, "action")
         goals: dict[bytes, _Goal] = {}
 
@@ -139,7 +127,7 @@ class RclpyGraph:
             cancel_callback=cancelled,
         )
 
-    def _serve_service(self, name: str, type_: Named, begin: Callable[[Request], None]) -> None:
+    def _serve_service(self, name: str, type_: Named, begin: Taker) -> None:
         made = interface(type_, "srv")
         future_type = import_module("rclpy.task").Future
 

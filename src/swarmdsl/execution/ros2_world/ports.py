@@ -22,6 +22,10 @@ class Request(Protocol):
         """Answer: `succeeded`, `aborted` or `preempted`, with fields of the result."""
 
 
+Taker = Callable[[Request], None]
+"""Called with a request that has come, or is cancelled."""
+
+
 class Sender(Protocol):
     """A publisher on a topic."""
 
@@ -46,13 +50,7 @@ class Graph(Protocol):
     def clocks(self) -> int:
         """Number of nodes that follow the time of the world."""
 
-    def serve(
-        self,
-        name: str,
-        call: Communication,
-        begin: Callable[[Request], None],
-        cancel: Callable[[Request], None],
-    ) -> None:
+    def serve(self, name: str, call: Communication, begin: Taker, cancel: Taker) -> None:
         """Serve an action or a service."""
 
     def sender(self, topic: str, type_: Named, delivery: Delivery) -> Sender:

@@ -8,13 +8,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
 from swarmdsl.execution.space.arrays import Flags, Floats, Whole
 
 UNBOUNDED = math.inf
+Pair: TypeAlias = tuple[Floats, Floats]
+"""Coordinates x and y of places, or heights at both ends of lines."""
 _MOST_CELLS = 256
 """Maximum number of cells of the clearance map in each direction."""
 _LEAST_SIDE = 0.25
@@ -105,13 +107,7 @@ class Shapes:
             found |= (ox * ox + oy * oy < self._radius * self._radius).any(axis=1)
         return found
 
-    def touched(
-        self,
-        start: tuple[Floats, Floats],
-        end: tuple[Floats, Floats],
-        z: Floats,
-        radius: Floats,
-    ) -> Flags:
+    def touched(self, start: Pair, end: Pair, z: Floats, radius: Floats) -> Flags:
         """Return True where a body that goes from a place to another one touches a shape.
 
         One that is too near already may go away from it.
@@ -133,12 +129,7 @@ class Shapes:
         touched[near] = ((after < radius[near]) & (after < before)) | through
         return touched
 
-    def crossings(
-        self,
-        start: tuple[Floats, Floats],
-        end: tuple[Floats, Floats],
-        heights: tuple[Floats, Floats],
-    ) -> Whole:
+    def crossings(self, start: Pair, end: Pair, heights: Pair) -> Whole:
         """Return how many opaque shapes are in the way of each line."""
         count = len(start[0])
         if self.is_empty or not count:
@@ -151,12 +142,7 @@ class Shapes:
             found += self._meets_discs(start, end, heights).sum(axis=1)
         return found
 
-    def _meets_edges(
-        self,
-        start: tuple[Floats, Floats],
-        end: tuple[Floats, Floats],
-        heights: tuple[Floats, Floats],
-    ) -> Flags:
+    def _meets_edges(self, start: Pair, end: Pair, heights: Pair) -> Flags:
         """Return True where a line goes through a segment, at a height at which it is."""
         dx, dy = (end[0] - start[0])[:, None], (end[1] - start[1])[:, None]
         fx, fy = self._x1 - start[0][:, None], self._y1 - start[1][:, None]
@@ -169,12 +155,7 @@ class Shapes:
         met: Flags = ~parallel & (along >= 0) & (along <= 1) & (beside >= 0) & (beside <= 1)
         return met & (level >= self._low) & (level < self._high)
 
-    def _meets_discs(
-        self,
-        start: tuple[Floats, Floats],
-        end: tuple[Floats, Floats],
-        heights: tuple[Floats, Floats],
-    ) -> Flags:
+    def _meets_discs(self, start: Pair, end: Pair, heights: Pair) -> Flags:
         """Return True where a line goes through a disc, below its top."""
         dx, dy = (end[0] - start[0])[:, None], (end[1] - start[1])[:, None]
         square = dx * dx + dy * dy
