@@ -41,7 +41,7 @@ class Sender:
 
 
 class Graph:
-    """What a world serves, publishes and hears."""
+    """Graph of ROS that notes what a world serves, publishes and hears."""
 
     clocks = 2
 

@@ -1,4 +1,4 @@
-"""What holds in each space: energy is balanced, bodies have limits, walls are solid.
+"""Laws of each space: energy is balanced, bodies have limits, walls are solid.
 
 A turned or moved world does the same, and so does each run alone.
 """

@@ -12,7 +12,7 @@ Key = tuple[str, ...]
 
 
 class Holds:
-    """What is expected of nodes, by what it is.
+    """Expected acts of nodes, by kind.
 
     Without it the time of the world would go on while a message is under way, and on a busy machine
     the nodes would act late in this time.
@@ -20,7 +20,7 @@ class Holds:
 
     def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
         self.given_up = 0
-        """How often the clock went on although something was missing."""
+        """Number of times that the clock went on although something was missing."""
         self._now = now
         self._missing: Counter[Key] = Counter()
         self._since: float | None = None

@@ -38,7 +38,7 @@ class Covering:
         self._eyes = [(self._ranges(number), self._tangents(number)) for number in range(most)]
         """Range and view of the sensors with each number."""
         self._noted_x = np.full(stage.rows, math.inf)
-        """Where each robot was when it was noted last; likewise for y."""
+        """Place of each robot when it was noted last: x; likewise for y."""
         self._noted_y, self._noted_z = np.full((2, stage.rows), math.inf)
         self._side = 0.0
 

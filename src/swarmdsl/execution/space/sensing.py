@@ -69,7 +69,7 @@ class Eyes:
         self.visible: Flags = np.zeros((stage.rows, stage.targets.count), dtype=np.bool_)
         """Targets of the run that each robot has truly seen with its last look."""
         self.place_x: Floats = np.zeros(stage.rows)
-        """Where each robot takes the target for that it saw last; likewise for y."""
+        """Place that each robot takes for that of the target it saw last: x; likewise for y."""
         self.place_y: Floats = np.zeros(stage.rows)
         self.eyes = [
             (robot, number, eye)

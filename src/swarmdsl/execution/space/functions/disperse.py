@@ -20,7 +20,7 @@ from swarmdsl.execution.space.functions.vectors import (
 from swarmdsl.execution.space.stage import Stage
 
 EDGE = 1.25
-"""What a push would be at no distance; a quarter of it is left where it ends, so that it does."""
+"""Push at no distance; a quarter of it is left at the distance to have, which is thus reached."""
 
 
 def away(position: Floats, first: Rows, second: Rows, distance: Floats) -> tuple[Floats, Flags]:
