@@ -30,7 +30,9 @@ def drain(stage: Robots, part: Part) -> Rows:
     # The last step before a battery is empty gets what is left.
     used = np.minimum(power * stage.dt, stage.energy[part])
     stage.power[part] = used / stage.dt
-    stage.used[part] += used
+    # Sums round: a robot never uses more than its battery has had.
+    most = stage.capacity[part] + stage.charged[part]
+    stage.used[part] = np.minimum(stage.used[part] + used, most)
     left = stage.energy[part] - used
     stage.energy[part] = left
     empty = np.flatnonzero(alive & (left <= 0))
