@@ -217,6 +217,14 @@ class Endless(Paint):
         self.stage.wanted_x[who] = np.nan
         return super().step(who, dt)
 
+class Replacing(Paint):
+    def step(self, who, dt):
+        self.stage.wanted_x = np.zeros(1)
+        return super().step(who, dt)
+
+class Idle(Model):
+    pass
+
 NUMBER = 3
 """
 
@@ -234,6 +242,8 @@ long   = "functions/paint.py:Long"
 text   = "functions/paint.py:Text"
 leaving = "functions/paint.py:Leaving"
 endless = "functions/paint.py:Endless"
+replacing = "functions/paint.py:Replacing"
+idle = "functions/paint.py:Idle"
 number = "functions/paint.py:NUMBER"
 typo   = "functions/paint.py:Piant"
 bad    = "functions/bad.py:Paint"
@@ -272,6 +282,8 @@ def test_a_project_has_models_of_its_own(simulate: Simulate, project: Path) -> N
         ("text", "the model of `walk` fails at 100 ms: `step` returns str, not a status"),
         ("leaving", "error[SW1015]: the model of `walk` fails at 100 ms: it ends the process"),
         ("endless", "fails at 100 ms: `step` wants a velocity that is not finite"),
+        ("replacing", "fails at 100 ms: it replaces `stage.wanted_x` by something of another"),
+        ("idle", "error[SW1016]: cannot load model `idle`: `Idle` has no method `step`"),
     ],
 )
 def test_errors_of_models_of_a_project_are_theirs(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
@@ -31,7 +32,7 @@ class Finding(NamedTuple):
     distance: float | None = None
 
 
-class Model:
+class Model(ABC):
     """Model of a function: one object for all robots that call it, with arrays of its own.
 
     `who` are rows of the stage. Robots go where `stage.steer` or `stage.wanted_x` say. With
@@ -45,14 +46,14 @@ class Model:
     def __init__(self, stage: Stage) -> None:
         self.stage = stage
 
-    def start(self, who: Rows, arguments: Arguments) -> None:
+    def start(self, who: Rows, arguments: Arguments) -> None:  # noqa: B027: may stay as it is
         """Begin with some robots, which have the same arguments."""
 
+    @abstractmethod
     def step(self, who: Rows, dt: float) -> Small:
         """Decide what robots want in the next `dt` seconds; return the status of each."""
-        raise NotImplementedError
 
-    def stop(self, who: Rows) -> None:
+    def stop(self, who: Rows) -> None:  # noqa: B027: may stay as it is
         """End with some robots, whether they are done or not; the stage halts them."""
 
     def result(self, row: int) -> Finding | Mapping[str, Any]:

@@ -65,6 +65,8 @@ def _entry(source: ModelSource) -> type[Model]:
 def _checked(found: object, name: str) -> type[Model]:
     if not isinstance(found, type) or not issubclass(found, Model):
         raise _BadError(f"`{name}` is no class made from `{Model.__module__}.{Model.__name__}`")
+    if found.__abstractmethods__:
+        raise _BadError(f"`{name}` has no method `step`")
     return found
 
 

@@ -24,6 +24,12 @@ class Running:
         self.active: Flags = np.zeros(stage.rows, dtype=np.bool_)
         self._who: Rows | None = None
         """Rows in which it is active, until that changes."""
+        self._arrays = {
+            name: (array.shape, array.dtype)
+            for name, array in vars(stage).items()
+            if isinstance(array, np.ndarray) and name != "air_speed"
+        }
+        """Shape and type of each array of the stage that is the same in all steps."""
         self._model = self._guarded(make, stage)
         self._stepped: Rows = np.empty(0, dtype=np.int64)
 
@@ -79,8 +85,14 @@ class Running:
     def _guarded(self, call: Callable[..., Any], *given: Any) -> Any:
         """Call a model, which may be that of a project: its errors are not ours."""
         try:
-            return call(*given)
+            found = call(*given)
         except SystemExit as error:
             raise ModelError(self.name, "it ends the process with `SystemExit`") from error
         except Exception as error:
             raise ModelError(self.name, error) from error
+        for name, (shape, dtype) in self._arrays.items():
+            array = getattr(self._stage, name)
+            if getattr(array, "shape", None) != shape or array.dtype != dtype:
+                reason = f"it replaces `stage.{name}` by something of another shape or type"
+                raise ModelError(self.name, reason)
+        return found
