@@ -16,6 +16,7 @@ from swarmdsl.execution.simulate.run import run, run_by_steps
 from swarmdsl.execution.simulate.scenario import Fault, Scenario
 from swarmdsl.execution.simulate.trace import as_json
 from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.space.ensemble import Ensemble
 from swarmdsl.ir import (
     Box,
     Disc,
@@ -104,14 +105,14 @@ def test_no_robot_is_ever_in_an_obstacle(tmp_path: Path) -> None:
         model=ModelUse("random_walk", numbers(leg=50)),
     )
     played = Played(system, until=0)
-    stage = played.spaces.together([5]).stage
+    subject, setting = played.subject, played.spaces.setting
+    assert setting is not None
+    ensemble = Ensemble(setting, [5])
+    (space,), stage = ensemble.spaces, ensemble.stage
     assert stage.shapes.distances(stage.x, stage.y, stage.z).min() >= 0.3
-    space = played.spaces.alone(5)
-    subject = played.subject
     cast = actors(subject, subject.create_robots({}), Scenario(), Diagnostics())
     world = World(system, cast, Scenario(), 5, [], None, space)
     run(world, [], 120 * SECOND)
-    stage = space._ensemble.stage  # type: ignore[attr-defined]
     nearest = stage.shapes.distances(stage.x, stage.y, stage.z)
     assert nearest.min() >= 0.3 - 1e-9
     assert not stage.shapes.inside(stage.x, stage.y).any()

@@ -20,7 +20,7 @@ from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import as_json
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.execution.space.flat import Ensemble
+from swarmdsl.execution.space.ensemble import Ensemble
 from swarmdsl.execution.space.outside import OutsideError, OutsideMotion
 from swarmdsl.execution.space.prepare import prepare_setting
 from swarmdsl.execution.space.stage import Stage

@@ -12,7 +12,7 @@ from swarmdsl.execution.simulate.space import ABSTRACT, Space
 from swarmdsl.execution.simulate.subject import Subject
 
 if TYPE_CHECKING:
-    from swarmdsl.execution.space.flat import Ensemble
+    from swarmdsl.execution.space.ensemble import Ensemble
     from swarmdsl.execution.space.setting import Setting
 
 KINDS = ("abstract", "flat", "physics")
@@ -89,7 +89,7 @@ class Spaces:
         return self._ensemble(seeds, together=True, covers=covers)
 
     def _ensemble(self, seeds: Sequence[int], *, together: bool, covers: bool) -> Ensemble:
-        from swarmdsl.execution.space.flat import Ensemble
+        from swarmdsl.execution.space.ensemble import Ensemble
 
         assert self._setting is not None
         ensemble = Ensemble(self._setting, seeds, together=together)

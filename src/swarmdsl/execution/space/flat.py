@@ -1,10 +1,9 @@
-"""Flat spaces of some runs that move on together, step by step."""
+"""Flat space of one run: where robots are, and what its world learns of a step."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -13,123 +12,28 @@ from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.space import Ended, ModelError, Place, Space, Surroundings
 from swarmdsl.execution.space.arrays import Whole
 from swarmdsl.execution.space.functions.base import OUTCOMES, Finding
-from swarmdsl.execution.space.functions.running import Running
 from swarmdsl.execution.space.gauges import Gauges
-from swarmdsl.execution.space.messages import Facts, Messages
-from swarmdsl.execution.space.radio import Links
+from swarmdsl.execution.space.messages import Facts
 from swarmdsl.execution.space.sensing import Sighting
-from swarmdsl.execution.space.setting import Setting, Use
-from swarmdsl.execution.space.stage import Stage
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.space.ensemble import Ensemble
 
 EMPTY = "battery empty"
 """Reason of the loss of a robot."""
-_Key = tuple[str, str]
+Key = tuple[str, str]
 """Function and its model."""
 
 
-class Ensemble:
-    """Spaces of some runs with the same setting.
-
-    Alone, a space moves on when its time has come. Together, it is `due` then, and waits until
-    somebody calls `advance`: one step of NumPy for all that are due.
-    """
-
-    def __init__(self, setting: Setting, seeds: Sequence[int], *, together: bool = False) -> None:
-        self.setting = setting
-        self.stage = Stage(setting.layout, seeds, setting.motion)
-        self.links = Links(self.stage)
-        self.messages = Messages(setting.system)
-        self.functions: dict[_Key, Running] = {}
-        self.together = together
-        self._links: Whole | None = None
-        """Who reached whom after the step before."""
-        self.spaces = [FlatSpace(self, run) for run in range(len(seeds))]
-
-    def running(self, use: Use) -> Running:
-        """Return the function with this model in all robots."""
-        key = (use.function, use.kind.name)
-        if key not in self.functions:
-            self.functions[key] = Running(use.function, use.kind.make, self.stage)
-            # What happens does not depend on which function has been called first in some run.
-            self.functions = dict(sorted(self.functions.items()))
-        return self.functions[key]
-
-    def advance(self) -> None:
-        """Move on all spaces that are due, and let their worlds know what happens.
-
-        Go on while nothing else can happen in any of them.
-        """
-        due = [space for space in self.spaces if space.due]
-        while due:
-            self._step(due)
-            if not all(space.due for space in due):
-                return
-
-    def _step(self, due: Sequence[FlatSpace]) -> None:
-        """Do one step of some spaces, which stay due if they must do nothing but the next one."""
-        stage = self.stage
-        numbers = [space.number for space in due]
-        stage.ticks[numbers] = [space.step_number for space in due]
-        part = stage.rows_of(numbers)
-        ended: list[tuple[int, _Key, int]] = []
-        functions = list(self.functions.items())
-        for key, running in functions:
-            ended += [(row, key, status) for row, status in running.step(part)]
-        empty = stage.move(part)
-        self.links.moved()
-        for space in due:
-            for viewer in space.viewers:
-                viewer.moved(space.step_number * stage.step_length)
-        for key, running in functions:
-            ended += [(row, key, status) for row, status in running.contacts()]
-        seen = stage.eyes.look(part) if stage.eyes.is_needed else []
-        links = self._changed_links() if any(space.follows_links for space in due) else None
-        first: dict[tuple[int, _Key], int] = {}
-        for row, key, status in ended:
-            first.setdefault((row, key), status)
-        happened: dict[int, _Happened] = {}
-        for row in empty.tolist():
-            _in_run(happened, row // stage.robots).empty.append(row)
-        for sighting in seen:
-            _in_run(happened, sighting.row // stage.robots).seen.append(sighting)
-        for (row, key), status in sorted(first.items()):
-            _in_run(happened, row // stage.robots).ended.append((row, key, status))
-        for space in due:
-            if space.number not in happened and links is None and space.goes_on():
-                continue
-            space.due = False
-            try:
-                space.react(happened.get(space.number, _NOTHING), links)
-            except LoopError as error:
-                if not self.together:
-                    raise
-                space.failure = error
-
-    def _changed_links(self) -> Whole | None:
-        """Return who reaches whom, or None if that is as after the step before."""
-        links = self.links.within()
-        if self._links is not None and np.array_equal(links, self._links):
-            return None
-        self._links = links
-        return links
-
-
-class _Happened(NamedTuple):
-    """What happens in a run with a step."""
+class Happened(NamedTuple):
+    """Events of a run in one step."""
 
     empty: list[int]
     seen: list[Sighting]
-    ended: list[tuple[int, _Key, int]]
+    ended: list[tuple[int, Key, int]]
 
 
-_NOTHING = _Happened([], [], [])
-
-
-def _in_run(happened: dict[int, _Happened], run: int) -> _Happened:
-    found = happened.get(run)
-    if found is None:
-        found = happened[run] = _Happened([], [], [])
-    return found
+NOTHING = Happened([], [], [])
 
 
 class FlatSpace(Space):
@@ -149,9 +53,9 @@ class FlatSpace(Space):
             unit.robot.name: place for place, unit in enumerate(self._stage.layout.units)
         }
         self._first = number * self._stage.robots
-        self._runs: dict[tuple[int, _Key], list[Run]] = {}
+        self._runs: dict[tuple[int, Key], list[Run]] = {}
         """Runs of each function in each robot; the last one is going on."""
-        self._of: dict[Run, tuple[int, _Key]] = {}
+        self._of: dict[Run, tuple[int, Key]] = {}
         self._reached: Whole = np.empty(0, dtype=np.int64)
         self._ticking = False
         self._always = (
@@ -324,7 +228,7 @@ class FlatSpace(Space):
         clock.now, self.step_number = time, number
         return True
 
-    def react(self, happened: _Happened, links: Whole | None) -> None:
+    def react(self, happened: Happened, links: Whole | None) -> None:
         """Let the world know what has happened with a step."""
         self._ticking = False
         world, stage = self._world, self._stage
@@ -416,7 +320,7 @@ class FlatSpace(Space):
         facts = Facts(world.clock.now, place, id=name, distance=distance)
         world.publish(robot, eye.topic, self._ensemble.messages.message(eye.type, facts))
 
-    def _end(self, row: int, key: _Key, status: int, run: Run) -> None:
+    def _end(self, row: int, key: Key, status: int, run: Run) -> None:
         outcome = OUTCOMES.get(status)
         if outcome is None:
             raise ModelError(key[0], f"`step` returns status {status}, which is none")
