@@ -104,7 +104,23 @@ fitness Fast {
         ('[functions.walk]\nmodel = "coverage"\narguments = { widht = 3 }\n', "has no key `widht`"),
         (
             '[functions.walk]\nmodel = "coverage"\narguments = { width = -3 }\n',
-            "`width` takes a number from 0 on: a length in metres",
+            "`width` takes a length in metres, at least 0.01 m, not `-3`",
+        ),
+        (
+            '[functions.walk]\nmodel = "coverage"\narguments = { width = 1e-9 }\n',
+            "`width` takes a length in metres, at least 0.01 m, not `1e-09`",
+        ),
+        (
+            '[functions.walk]\nmodel = "take_off"\narguments = { height = -2 }\n',
+            "`height` takes a length in metres, at least 0 m, not `-2`",
+        ),
+        (
+            '[functions.walk]\nmodel = "go_to"\narguments = { speed = 0 }\n',
+            "`speed` takes a speed in m/s, at least 0.001 m/s, not `0`",
+        ),
+        (
+            '[functions.walk]\nmodel = "sense"\narguments = { target = "nobody" }\n',
+            "no target called `nobody`",
         ),
         (
             '[functions.walk]\nmodel = "coverage"\narguments = { area = "x" }\n',
@@ -147,6 +163,40 @@ def test_wrong_scenarios_are_reported(simulate: Simulate, scenario: str, said: s
     assert code == 1
     assert said in err
     assert "Traceback" not in err
+
+
+def test_a_scenario_names_targets_of_the_environment(simulate: Simulate) -> None:
+    text = TEXT.replace("x 30 m", "x 30 m; target person[2] at random; target person at (1 m, 1 m)")
+    for target, said in [
+        ("person", ""),
+        ("person[2]", ""),
+        ("person[3]", "no target called `person[3]`"),
+        ("persn", "did you mean `person`?"),
+    ]:
+        scenario = f'[functions.walk]\nmodel = "sense"\narguments = {{ target = "{target}" }}\n'
+        code, _, err = simulate("--until", "5s", scenario=scenario, text=text)
+        assert (code, "error" in err) == ((1, True) if said else (0, False)), err
+        assert said in err
+
+
+@pytest.mark.parametrize(
+    ("model", "said"),
+    [
+        ("take_off(height = altitude - 3 m)", "argument `height` is -3: it must be at least 0 m"),
+        ("take_off", "argument `height` is -5: it must be at least 0 m"),
+    ],
+)
+def test_a_call_with_an_impossible_argument_is_aborted(
+    simulate: Simulate, model: str, said: str
+) -> None:
+    text = TEXT.replace('"walk" : demo_msgs/Go', f'"walk" : demo_msgs/Go; model {model}')
+    text = text.replace("altitude : float64", "altitude : float64 in m")
+    text = text.replace("altitude = 0", f"altitude = {-5 if model == 'take_off' else 0} m")
+    code, out, err = simulate("--until", "5s", "--trace", "json", text=text)
+    assert code == 0, err
+    assert said in err
+    ends = [json.loads(line) for line in out.splitlines()]
+    assert [each["t"] for each in ends if each["event"] == "do.Walk.aborted"] == [0, 0]
 
 
 def test_without_numpy_positions_are_left_out(

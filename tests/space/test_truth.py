@@ -56,6 +56,7 @@ def test_used_energy_is_the_integral_of_power_and_what_batteries_lack():
     assert on.used == pytest.approx(spent, rel=1e-9)
     assert full - on.energy == pytest.approx(on.used, rel=1e-9)
     assert (on.energy >= 0).all()
+    assert (on.used <= full).all()
     assert (~on.alive).sum() == (on.energy == 0).sum() > 0
 
 

@@ -11,16 +11,34 @@ from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
 ArgumentKind = Literal[
-    "length", "speed", "angle", "time", "number", "share", "place", "path", "area", "text"
+    "length",
+    "speed",
+    "angle",
+    "time",
+    "number",
+    "share",
+    "place",
+    "path",
+    "area",
+    "target",
+    "text",
 ]
-"""A `place` is a message with a position in it, a `path` a list of them; an `area` and a `text`
-are strings."""
+"""A `place` is a message with a position in it, a `path` a list of them; an `area`, a `target` and
+a `text` are strings: the name of an area, a kind of target or the name of one, and anything."""
+
+NAMES: tuple[ArgumentKind, ...] = ("area", "target", "text")
+"""Kinds of arguments that are strings."""
+MOST = 1e9
+"""Greatest value of an argument that is a number, in its unit; a time has no greatest one."""
+_LEAST = {"length": 0.0, "speed": 0.001, "time": 0.0, "share": 0.0}
+_UNITS = {"length": " m", "speed": " m/s", "angle": " rad", "time": " s"}
 
 
 class Argument(NamedTuple):
     """Argument of a model; with `default` None, the model chooses a value by itself.
 
-    A text with `choices` is one of them.
+    A text with `choices` is one of them. A number has a `least` value, in metres, m/s or seconds:
+    if it is None, 0.001 for a speed, and 0 for a length, a time or a share.
     """
 
     name: str
@@ -28,6 +46,23 @@ class Argument(NamedTuple):
     default: float | str | None
     doc: str
     choices: tuple[str, ...] = ()
+    least: float | None = None
+
+    @property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest value of a number, in metres, m/s, radians or seconds."""
+        least = _LEAST.get(self.kind, -MOST) if self.least is None else self.least
+        return least, {"share": 1.0, "time": math.inf}.get(self.kind, MOST)
+
+    def limits(self, value: float) -> str | None:
+        """Return how a number must be, if a value is out of the range: "at least 0.1 m"."""
+        least, most = self.range
+        if least <= value <= most:
+            return None
+        if self.kind == "share":
+            return "from 0 to 1"
+        unit = _UNITS.get(self.kind, "")
+        return f"at least {least:g}{unit}" if not value >= least else f"at most {most:g}{unit}"
 
 
 class FunctionModel(NamedTuple):
@@ -48,8 +83,8 @@ _SPEED = Argument("speed", "speed", None, "speed; that of the body without it")
 _WHICH = Argument(
     "which", "text", "any", "targets that end it: any, or new for the robot", ("any", "new")
 )
-_TARGET = Argument("target", "text", None, "kind or name of the target; without it, any")
-_TOLERANCE = Argument("tolerance", "length", 0.1, "distance at which it has arrived")
+_TARGET = Argument("target", "target", None, "kind or name of the target; without it, any")
+_TOLERANCE = Argument("tolerance", "length", 0.1, "distance at which it has arrived", least=0.001)
 _SECOND = 1_000_000_000
 
 
@@ -58,7 +93,7 @@ def _time(seconds: float | None, doc: str) -> Argument:
 
 
 def _charger(doc: str) -> Argument:
-    return Argument("target", "text", "charger", doc)
+    return Argument("target", "target", "charger", doc)
 
 
 MODELS: Mapping[str, FunctionModel] = {
@@ -78,9 +113,9 @@ MODELS: Mapping[str, FunctionModel] = {
             "random_walk",
             "Go straight on, and in another direction after a distance or a contact.",
             (
-                Argument("leg", "length", 10.0, "mean distance between two turns"),
+                Argument("leg", "length", 10.0, "mean distance between two turns", least=0.01),
                 Argument("turn", "angle", math.tau, "width of the interval of a turn"),
-                Argument("target", "text", None, "target that ends it; without it, none"),
+                Argument("target", "target", None, "target that ends it; without it, none"),
                 _WHICH,
                 Argument("time", "time", None, "time after which it ends; without it, never"),
                 _HEIGHT,
@@ -91,11 +126,11 @@ MODELS: Mapping[str, FunctionModel] = {
             "coverage",
             "Sweep an area in parallel lanes, each robot its share; end where a target is seen.",
             (
-                Argument("width", "length", 5.0, "distance between two lanes"),
+                Argument("width", "length", 5.0, "distance between two lanes", least=0.01),
                 Argument("area", "area", None, "name of the area; without it, the environment"),
                 _HEIGHT,
                 _SPEED,
-                Argument("target", "text", None, "kind of target that ends it; without it, any"),
+                Argument("target", "target", None, "kind of target that ends it; without it, any"),
                 _WHICH,
             ),
         ),
@@ -137,7 +172,7 @@ MODELS: Mapping[str, FunctionModel] = {
             "avoid",
             "Move away from walls, obstacles, zones and robots that are too near.",
             (
-                Argument("distance", "length", 1.0, "distance to have to all of them"),
+                Argument("distance", "length", 1.0, "distance to have to all of them", least=0.01),
                 _time(30, "time after which it is aborted"),
                 _HEIGHT,
                 _SPEED,
@@ -148,8 +183,10 @@ MODELS: Mapping[str, FunctionModel] = {
             "Move with the robots in reach that do the same; aborted when it has lost them.",
             (
                 Argument("rule", "text", "reynolds", "rule of the flock", ("reynolds", "vicsek")),
-                Argument("range", "length", 10.0, "distance at which robots see each other"),
-                Argument("spacing", "length", 3.0, "distance below which robots part"),
+                Argument(
+                    "range", "length", 10.0, "distance at which robots see each other", least=0.01
+                ),
+                Argument("spacing", "length", 3.0, "distance below which robots part", least=0.01),
                 Argument("separation", "number", 1.5, "weight of parting"),
                 Argument("alignment", "number", 1.0, "weight of going the same way"),
                 Argument("cohesion", "number", 0.3, "weight of staying together"),
@@ -165,7 +202,7 @@ MODELS: Mapping[str, FunctionModel] = {
             "disperse",
             "Move away from robots that are too near.",
             (
-                Argument("distance", "length", 5.0, "distance to have to all others"),
+                Argument("distance", "length", 5.0, "distance to have to all others", least=0.01),
                 _time(None, "time after which it is aborted; without it, never"),
                 _HEIGHT,
                 _SPEED,
@@ -176,9 +213,11 @@ MODELS: Mapping[str, FunctionModel] = {
             "Walk about, and rest beside others that rest.",
             (
                 Argument("turn", "angle", math.tau, "width of the interval of a turn"),
-                Argument("range", "length", 1.0, "distance at which robots see each other"),
-                Argument("size", "number", None, "number of robots that are enough together"),
-                Argument("leg", "length", 5.0, "mean distance between two turns"),
+                Argument(
+                    "range", "length", 1.0, "distance at which robots see each other", least=0.01
+                ),
+                Argument("size", "number", None, "number of robots that are enough", least=1.0),
+                Argument("leg", "length", 5.0, "mean distance between two turns", least=0.01),
                 _time(None, "time after which it ends; without it, never"),
                 _HEIGHT,
                 _SPEED,
@@ -207,7 +246,7 @@ MODELS: Mapping[str, FunctionModel] = {
             "Charge at a charger, up to a level, or have the battery swapped.",
             (
                 _charger("kind or name of the charger"),
-                Argument("power", "number", 100.0, "power of the charger, in watts"),
+                Argument("power", "number", 100.0, "power of the charger, in watts", least=0.001),
                 Argument("level", "share", 1.0, "share of the capacity to charge up to"),
                 _time(None, "time after which the battery is swapped for a full one"),
             ),

@@ -6,6 +6,8 @@ start of the run. The origin of an environment is its lower left corner.
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
 from typing import Literal
 
 from swarmdsl.base.records import dataclass, field
@@ -99,6 +101,17 @@ class Targets:
     area: str | None = None
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+def target_names(targets: Iterable[Targets]) -> list[str]:
+    """Return the names of all targets in order, numbered within their kind: `person[0]`."""
+    numbers: Counter[str] = Counter()
+    names = []
+    for each in targets:
+        first = numbers[each.kind]
+        numbers[each.kind] += each.count
+        names += [f"{each.kind}[{number}]" for number in range(first, numbers[each.kind])]
+    return names
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
+from collections.abc import Collection
+
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.resolve.report_unresolved import report_missing
-from swarmdsl.analysis.resolve.space import areas_of, targets_of
+from swarmdsl.analysis.resolve.space import areas_of, target_counts
+from swarmdsl.analysis.space_shapes import number_of
 from swarmdsl.analysis.types.space_types import argument_type
 from swarmdsl.base.suggest import suggest
 from swarmdsl.ir.function_models import MODELS, Argument
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import Environment, Expression, Function, ModelUse, nodes_of
 from swarmdsl.syntax.types import Named
+
+_SECOND = 1_000_000_000
 
 
 def check_model(function: Function, context: Context) -> None:
@@ -49,6 +56,12 @@ def _check_value(value: Expression, argument: Argument, context: Context) -> Non
     expected = argument_type(argument.kind)
     if expected is not None:
         context.expect(value, expected, context.typing)
+        number = number_of(value, context.typing.folding)
+        scale = 1 / _SECOND if argument.kind == "time" else 1
+        limits = argument.limits(number * scale) if number is not None else None
+        if limits is not None:
+            name = argument.name
+            context.report.report("setting-range", value.span, name=name, expected=limits)
         return
     found = context.typing.infer(value.tree) if value.tree is not None else None
     if found is not None and not isinstance(found, Named):
@@ -71,19 +84,21 @@ def check_model_names(project: Project, context: Context) -> None:
         if isinstance(node, Environment)
         for name in areas_of(node)
     }
-    known = {"area": ("area", areas), "target": ("target", set(targets_of(project)))}
+    known: dict[str, Collection[str]] = {"area": areas, "target": target_counts(project)}
     for _, node in project.declarations():
         for use in nodes_of(node, ModelUse) if isinstance(node, Function) else ():
             model = MODELS.get(str(use.name))
             for given in use.arguments if model is not None else ():
                 argument = model.argument(str(given.name)) if model is not None else None
-                kind: str = argument.kind if argument is not None else ""
-                kind = "target" if given.name == "target" and kind == "text" else kind
-                if kind in known:
-                    _check_name(given.value, *known[kind], context)
+                if argument is not None and argument.kind in known:
+                    _check_name(given.value, argument.kind, known[argument.kind], context)
 
 
-def _check_name(value: Expression, kind: str, known: set[str], context: Context) -> None:
+def _check_name(value: Expression, kind: str, known: Collection[str], context: Context) -> None:
     name = context.typing.folding.value(value.tree) if value.tree is not None else None
-    if known and isinstance(name, str) and name and name not in known:
-        report_missing(kind, name, value.span, known, context.report)
+    if not known or not isinstance(name, str) or not name or name in known:
+        return
+    one = re.fullmatch(r"(\w+)\[([0-9]{1,9})\]", name)
+    if one is not None and isinstance(known, Counter) and int(one[2]) < known[one[1]]:
+        return  # one target of a kind: `person[0]`
+    report_missing(kind, name, value.span, known, context.report)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 
 from swarmdsl.analysis.resolve.inheritance import all_items
@@ -10,6 +11,7 @@ from swarmdsl.analysis.resolve.report_unresolved import report_missing_inside
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.values import ValueLinker
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.numerals import integer
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -51,6 +53,18 @@ def targets_of(project: Project) -> dict[str, Targets]:
         for item in owner.items if isinstance(owner, Environment) else ():
             if isinstance(item, Targets):
                 found.setdefault(str(item.name), item)
+    return found
+
+
+def target_counts(project: Project) -> Counter[str]:
+    """Return how many targets of each kind there are in the environment with most of them."""
+    found: Counter[str] = Counter()
+    for _, owner in project.declarations():
+        here: Counter[str] = Counter()
+        for item in owner.items if isinstance(owner, Environment) else ():
+            if isinstance(item, Targets):
+                here[str(item.name)] += integer(item.count or "0") or max(len(item.places), 1)
+        found |= here
     return found
 
 

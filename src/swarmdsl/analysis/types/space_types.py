@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swarmdsl.ir.function_models import NAMES
 from swarmdsl.syntax.types import DURATION, FLOAT, STRING, Type, with_unit
 from swarmdsl.syntax.units import UNITS
 
@@ -18,9 +19,7 @@ _OF_KINDS: dict[str, Type | None] = {
     "time": DURATION,
     "number": FLOAT,
     "share": FLOAT,
-    "area": STRING,
-    "text": STRING,
-    "target": STRING,
+    **dict.fromkeys(NAMES, STRING),
 }
 
 

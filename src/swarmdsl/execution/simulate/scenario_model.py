@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from swarmdsl.base.suggest import suggest
+from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.space import Place
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir import Communication
 from swarmdsl.ir.function_models import MODELS, Argument
+from swarmdsl.ir.space import target_names
 
 _ENDS = ("duration", "aborted", "preempted", "never")
 
@@ -50,26 +51,27 @@ def _value(table: Table, argument: Argument, subject: Subject) -> Any:
     key, value = argument.name, table.values[argument.name]
     match argument.kind:
         case "time":
-            return table.duration(key)
+            time = table.duration(key)
+            fits = time is not None and _is_in_range(table, argument, time / SECOND)
+            return time if fits else None
         case "place":
             return _place(table, key)
         case "path":
             return _path(table, key)
         case "area":
             return _area(table, key, subject)
+        case "target":
+            return "" if value == "" else _target(table, key, subject)
         case "text" if argument.choices:
             return table.name(key, argument.choices, argument.name)
         case "text":
             return value if value == "" else table.text(key, "a string")
         case "share":
             return table.share(key)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < 1e9:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
         table.wrong((key,), f"a number: {_UNITS[argument.kind]}", value)
         return None
-    if argument.kind in ("length", "speed") and value < 0:
-        table.wrong((key,), f"a number from 0 on: {_UNITS[argument.kind]}", value)
-        return None
-    return float(value)
+    return float(value) if _is_in_range(table, argument, value) else None
 
 
 _UNITS = {
@@ -77,7 +79,17 @@ _UNITS = {
     "speed": "a speed in m/s",
     "angle": "an angle in radians",
     "number": "it has no unit",
+    "time": "a time",
 }
+
+
+def _is_in_range(table: Table, argument: Argument, value: float) -> bool:
+    """Return True if a number may be the value of an argument; report one that may not."""
+    limits = argument.limits(value)
+    if limits is not None:
+        expected = f"{_UNITS[argument.kind]}, {limits}"
+        table.wrong((argument.name,), expected, table.values[argument.name])
+    return limits is None
 
 
 def _place(table: Table, *way: str | int) -> Place | None:
@@ -109,10 +121,26 @@ def _area(table: Table, key: str, subject: Subject) -> str | None:
     environment = subject.environment
     areas = [each.name for each in environment.areas] if environment is not None else []
     if not areas:
-        place = table.value_place((key,))
-        help_ = suggest(str(table.values[key]), areas, "areas") or "the environment has no areas"
-        table.report.report(
-            "unresolved-name", place, kind="area", name=table.values[key], help=help_
-        )
+        _report_none(table, key, "area")
         return None
     return table.name(key, areas, "area")
+
+
+def _target(table: Table, key: str, subject: Subject) -> str | None:
+    """Read a kind of targets, or the name of one."""
+    environment = subject.environment
+    targets = environment.targets if environment is not None else ()
+    kinds = list(dict.fromkeys(each.kind for each in targets))
+    if not kinds:
+        _report_none(table, key, "target")
+        return None
+    value = table.values[key]
+    return value if value in target_names(targets) else table.name(key, kinds, "target")
+
+
+def _report_none(table: Table, key: str, kind: str) -> None:
+    """Report a name of which there is nothing in the environment."""
+    name = table.text(key, f"the name of a {kind}")
+    if name is not None:
+        place, help_ = table.value_place((key,)), f"the environment has no {kind}s"
+        table.report.report("unresolved-name", place, kind=kind, name=name, help=help_)

@@ -18,7 +18,7 @@ from swarmdsl.execution.space.messages import path_in, place_in
 from swarmdsl.execution.space.motion import Motion
 from swarmdsl.execution.space.robots import Robots
 from swarmdsl.ir import Function, System
-from swarmdsl.ir.function_models import Argument
+from swarmdsl.ir.function_models import NAMES, Argument
 
 if TYPE_CHECKING:
     from swarmdsl.execution.space.stage import Stage
@@ -121,7 +121,7 @@ def _converted(argument: Argument, value: Any) -> Any:
         if path is None:
             raise ExecutionError(f"argument `{argument.name}` is no path")
         return path
-    if argument.kind in ("area", "text"):
+    if argument.kind in NAMES:
         if argument.choices and value not in argument.choices:
             choices = " or ".join(f"`{each}`" for each in argument.choices)
             raise ExecutionError(f"argument `{argument.name}` is {value!r}, not {choices}")
@@ -129,7 +129,11 @@ def _converted(argument: Argument, value: Any) -> Any:
     number = float(value)
     if not math.isfinite(number):
         raise ExecutionError(f"argument `{argument.name}` is not finite")
-    return number / SECOND if argument.kind == "time" else number
+    number = number / SECOND if argument.kind == "time" else number
+    limits = argument.limits(number)
+    if limits is not None:
+        raise ExecutionError(f"argument `{argument.name}` is {number:g}: it must be {limits}")
+    return number
 
 
 def _default(argument: Argument, goal: Mapping[str, Any]) -> Any:
@@ -140,14 +144,14 @@ def _default(argument: Argument, goal: Mapping[str, Any]) -> Any:
         return place_in(goal)
     if argument.kind == "path":
         return path_in(goal)
-    if argument.kind == "text":
+    if argument.kind in NAMES:
         said = goal.get(argument.name)
         return said if isinstance(said, str) and said else None
     names = {"height": _HEIGHTS, "speed": _SPEEDS}.get(argument.name, ())
-    found = next((goal[name] for name in names if _is_length(goal.get(name))), None)
-    return float(found) if found is not None else None
+    found = next((goal[name] for name in names if _is_given(goal.get(name))), None)
+    return _converted(argument, found) if found is not None else None
 
 
-def _is_length(value: Any) -> bool:
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    return number and math.isfinite(value) and value > 0
+def _is_given(value: Any) -> bool:
+    """Return True for a number other than 0, which fields have where nothing is said."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and value != 0

@@ -9,6 +9,7 @@ from swarmdsl.execution.space.hashing import key
 from swarmdsl.execution.space.layout import Layout
 from swarmdsl.execution.space.placing import places_in
 from swarmdsl.execution.space.shapes import Shapes
+from swarmdsl.ir.space import target_names
 
 NOBODY = -1
 
@@ -18,15 +19,9 @@ class TargetsOfRuns:
 
     def __init__(self, layout: Layout, shapes: Shapes, seeds: tuple[int, ...]) -> None:
         self.kinds = list(dict.fromkeys(each.kind for each in layout.targets))
-        names, kinds = [], []
-        numbers: dict[str, int] = {}
-        for each in layout.targets:
-            for _ in range(each.count):
-                number = numbers[each.kind] = numbers.get(each.kind, -1) + 1
-                names.append(f"{each.kind}[{number}]")
-                kinds.append(self.kinds.index(each.kind))
-        self.names = names
-        self.count = len(names)
+        kinds = [self.kinds.index(each.kind) for each in layout.targets for _ in range(each.count)]
+        self.names = target_names(layout.targets)
+        self.count = len(self.names)
         """Number of targets in a run."""
         total = self.count * len(seeds)
         self.run: Whole = np.repeat(np.arange(len(seeds)), self.count)

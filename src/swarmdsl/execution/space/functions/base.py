@@ -46,14 +46,14 @@ class Model(ABC):
     def __init__(self, stage: Stage) -> None:
         self.stage = stage
 
-    def start(self, who: Rows, arguments: Arguments) -> None:  # noqa: B027: may stay as it is
+    def start(self, who: Rows, arguments: Arguments) -> None:  # noqa: B027
         """Begin with some robots, which have the same arguments."""
 
     @abstractmethod
     def step(self, who: Rows, dt: float) -> Small:
         """Decide what robots want in the next `dt` seconds; return the status of each."""
 
-    def stop(self, who: Rows) -> None:  # noqa: B027: may stay as it is
+    def stop(self, who: Rows) -> None:  # noqa: B027
         """End with some robots, whether they are done or not; the stage halts them."""
 
     def result(self, row: int) -> Finding | Mapping[str, Any]:

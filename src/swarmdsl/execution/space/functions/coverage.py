@@ -97,7 +97,10 @@ class Coverage(Model):
         return self._choice.finding(row, int(self._found[row]))
 
     def _bounds(self, area: str | None) -> tuple[float, float, float, float]:
-        bounds = self.stage.layout.bounds(area)
+        layout = self.stage.layout
+        if area is not None and area not in layout.areas:
+            raise ValueError(f"the environment has no area `{area}`")
+        bounds = layout.bounds(area)
         if bounds is None:
             raise ValueError("the environment has no size: name an area")
         return bounds
