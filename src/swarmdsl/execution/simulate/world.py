@@ -20,20 +20,19 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.activities import Activities
 from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.broadcasts import Broadcasts
+from swarmdsl.execution.simulate.cast import Cast
 from swarmdsl.execution.simulate.clock import Alarm, Clock
+from swarmdsl.execution.simulate.devices import Devices
 from swarmdsl.execution.simulate.expressions import NEIGHBORS, PRESENT
 from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.members import Members, counting_neighbors, following
 from swarmdsl.execution.simulate.network import Network
 from swarmdsl.execution.simulate.random_source import RandomSource
-from swarmdsl.execution.simulate.scenario import (
-    Robot,
-    Scenario,
-)
+from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.simulate.scenario_schedule import schedule
 from swarmdsl.execution.simulate.space import ABSTRACT, Space
-from swarmdsl.execution.simulate.trace import Audience, Line, Trace
-from swarmdsl.ir import Event as Declared
+from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.ir import Heartbeat, System
 
 _OF_ACTIVITIES = "do."
@@ -81,29 +80,24 @@ class World:
             scenario,
             self._chance,
             system,
-            lambda run: self._actors[run.instance].robot,
+            lambda run: self._cast.actors[run.instance].robot,
             space,
         )
-        self._listeners: dict[tuple[str, str | None], list[Actor]] = {}
-        self._audiences: dict[str, list[Audience]] = {}
-        """Robots that listen to an event, with the instances that do."""
-        self._on_topic: dict[str, tuple[list[Declared], list[str]]] = {}
         self._returning = 0
         """Number of lost robots that will come back."""
-        self._instances: dict[Actor, Instance] = {}
-        self._actors: dict[InstanceLike, Actor] = {}
-        self._one: Instance | None = None
-        """An instance that was running when somebody asked."""
-        self._machines: dict[str | None, list[Actor]] = {}
-        servers: dict[Robot, Servers] = {}
-        for actor in actors:
-            self._machines.setdefault(actor.robot.name, []).append(actor)
-            shared = servers.setdefault(actor.robot, Servers())
-            instance = Instance(actor.machine, self, data=actor.data, servers=shared)
-            self.trace.watch(instance, actor)
-            self._instances[actor] = instance
-            self._actors[instance] = actor
-        self.robots = list(servers)
+        self._cast = Cast(actors, self._first_instance)
+        self.robots = self._cast.robots
+        self._devices = Devices(
+            system,
+            self._cast,
+            self.clock,
+            self.network,
+            self.trace.statistics,
+            self._deliver,
+        )
+        self._broadcasts = Broadcasts(
+            self._cast, self.clock, self.network, self.trace, self._receive
+        )
         self._following = following(system)
         self.members = Members(
             self.clock,
@@ -114,15 +108,20 @@ class World:
             self._tell_member,
         )
         near = counting_neighbors(system)
-        for actor in self._instances:
+        for actor in self._cast.instances:
             if actor.robot in self.members.rosters:
                 actor.data[PRESENT] = self._presence(actor.robot)
             if actor.machine.name in near:
                 actor.data[NEIGHBORS] = self._nearness(actor.robot)
         comes_back = any(each.lasts is not None and each.is_loss for each in scenario.faults)
         self._first_data = {
-            actor: deepcopy(actor.data) for actor in (self._instances if comes_back else ())
+            actor: deepcopy(actor.data) for actor in (self._cast.instances if comes_back else ())
         }
+
+    def _first_instance(self, actor: Actor, servers: Servers) -> Instance:
+        instance = Instance(actor.machine, self, data=actor.data, servers=servers)
+        self.trace.watch(instance, actor)
+        return instance
 
     # ---- called by a run
 
@@ -132,7 +131,7 @@ class World:
         self.space.begin(self, self.activities.end_as)
         if self._scenario.loss >= 1:
             self.members.follow()
-        for instance in self._instances.values():
+        for instance in self._cast.instances.values():
             self.trace.begin(instance, None)
             instance.start()
             self.trace.flush()
@@ -141,10 +140,7 @@ class World:
     @property
     def over(self) -> bool:
         """True if no machine is running, and no robot comes back."""
-        if self._one is None or not self._one.running:
-            running = (instance for instance in self._instances.values() if instance.running)
-            self._one = next(running, None)
-        return self._one is None and not self._returning
+        return not self._cast.is_running and not self._returning
 
     def step(self) -> None:
         """Execute the next scheduled action, if any."""
@@ -168,7 +164,7 @@ class World:
 
     def _deliver(self, event: Event, to: Iterable[Actor]) -> None:
         for actor in to:
-            instance = self._instances[actor]
+            instance = self._cast.instances[actor]
             going_on = self.runs(actor) if event.name.startswith(_OF_ACTIVITIES) else ()
             run = next((r for r in going_on if event.name in r.activity.events.values()), None)
             if run is not None:
@@ -185,19 +181,15 @@ class World:
 
     def runs(self, actor: Actor) -> list[Run]:
         """Return the running activities of a machine."""
-        return self.activities.of(self._instances[actor])
+        return self.activities.of(self._cast.instances[actor])
 
     def data(self, actor: Actor) -> Any:
         """Return the variables of a machine."""
-        return self._instances[actor].data
+        return self._cast.instances[actor].data
 
     def listeners(self, event: str, robot: Robot) -> list[Actor]:
         """Return the machines of a robot that react to an event."""
-        found = self._listeners.get((event, robot.name))
-        if found is None:
-            found = [actor for actor in self._machines[robot.name] if actor.listens(event)]
-            self._listeners[event, robot.name] = found
-        return found
+        return self._cast.listeners(event, robot)
 
     # ---- called by the engine
 
@@ -226,18 +218,20 @@ class World:
         """Deliver an event to the robot, and a swarm event to the other robots."""
         if self._system is None:
             return
-        robot, to = self._actors[instance].robot, event.envelope.to
+        robot, to = self._cast.actors[instance].robot, event.envelope.to
         sent = self._system.event(event.name)
         data = signed(sent, event.data, self._system, robot.name or "", self.clock.now)
         here = [each.name for each in self._system.events if each.incoming_topic == sent.topic]
         for name in here if to is None else ():
-            self._later(0, Event(name, data), robot)
+            own = self.listeners(name, robot)
+            if own:
+                self.clock.schedule(0, partial(self._deliver, Event(name, data), own))
         if not sent.swarm:
             return
         envelope = Envelope(robot.name or "", self.clock.now, to)
         arriving = Event(event.name, data, envelope=envelope)
         if to is None and sent.delivery is None and self.network.latency is not None:
-            self._send_to_all(robot, arriving, self.network.latency)
+            self._broadcasts.send(robot, arriving, self.network.latency)
             return
         others = [other for other in self.robots if other is not robot and other.is_meant_by(to)]
         if not others and to is not None and robot.name is not None:
@@ -245,52 +239,11 @@ class World:
             self.trace.reaches_nobody()
         self.network.send(arriving, sent, robot, others)
 
-    def _send_to_all(self, robot: Robot, event: Event, latency: int) -> None:
-        """Send an event to all other robots, which get it at the same time."""
-        audience = self._audience(event.name)
-        others = len(audience) - any(other is robot for other, _ in audience)
-        self.network.delivered[event.name] += others
-        heard = self.trace.is_heard
-        spread = None if heard else self.trace.spread
-
-        def arrive() -> None:
-            if spread is not None:
-                spread(event, robot, audience)
-                return
-            for other, lives in audience:
-                for life in lives if other is not robot else ():
-                    instance = life.instance
-                    if heard:
-                        self._receive(instance, event)
-                    elif instance.running:
-                        # As there, without a call for each of what may be millions.
-                        life.arrives()
-                        instance.receive(event)
-
-        if others:
-            self.clock.schedule(latency, arrive)
-
-    def _audience(self, event: str) -> list[Audience]:
-        found = self._audiences.get(event)
-        if found is None:
-            lives = self.trace.lives
-            pairs = (
-                (robot, [lives[self._instances[actor]] for actor in self.listeners(event, robot)])
-                for robot in self.robots
-            )
-            found = self._audiences[event] = [pair for pair in pairs if pair[1]]
-        return found
-
     def failed(self, instance: InstanceLike, error: Exception) -> None:
         """Count the failure."""
         self.failures[instance.machine.name, str(error)] += 1
 
-    # ---- internal
-
-    def _later(self, delay: int, event: Event, robot: Robot) -> None:
-        to = self.listeners(event.name, robot)
-        if to:
-            self.clock.schedule(delay, lambda: self._deliver(event, to))
+    # ---- called by a space
 
     def lose(self, robot: Robot, lasts: int | None = None, reason: str = "") -> None:
         """Remove a robot, without executing exit effects; it may come back after a time.
@@ -301,8 +254,9 @@ class World:
         self.space.lose(robot)
         self.members.forget(robot)
         self.members.follow([robot])
-        for actor, instance in self._instances.items():
-            if actor.robot is robot and instance.running:
+        for actor in self._cast.of(robot):
+            instance = self._cast.instances[actor]
+            if instance.running:
                 self.trace.begin(instance, LOST, {"reason": reason} if reason else None)
                 self.trace.lives[instance].lose()
                 instance.running = False
@@ -322,16 +276,13 @@ class World:
         for actor, data in self._first_data.items():
             if actor.robot is robot:
                 instance = Instance(actor.machine, self, data=deepcopy(data), servers=servers)
-                self.trace.replace(self._instances[actor], instance)
-                self._instances[actor] = instance
-                self._actors[instance] = actor
+                self.trace.replace(self._cast.instances[actor], instance)
+                self._cast.replace(actor, instance)
                 self.trace.begin(instance, None)
                 instance.start()
                 self.trace.flush()
         self.network.join(robot, self.robots)
         self.members.follow([robot])
-
-    # ---- called by a space
 
     def flush(self) -> None:
         """End the line of the trace."""
@@ -339,33 +290,11 @@ class World:
 
     def awaits(self, robot: Robot, topic: str) -> bool:
         """Return True if somebody would handle a message of a robot on a topic now."""
-        said, heard = self._events_on(topic)
-        return any(self._waits(actor, name) for name in heard for actor in self._own(robot)) or any(
-            self.listeners(each.name, other)
-            for each in said
-            for other in self.robots
-            if other is not robot
-        )
+        return self._devices.awaits(robot, topic)
 
     def publish(self, robot: Robot, topic: str, data: Any) -> None:
-        """Deliver a message that a device of a robot has published on a topic.
-
-        The robot's own machines hear it if they wait for it now. If it is that of a swarm event,
-        it goes out by radio.
-        """
-        assert self._system is not None
-        said, heard = self._events_on(topic)
-        for name in heard:
-            to = [actor for actor in self._own(robot) if self._waits(actor, name)]
-            if to:
-                event = Event(name, data)
-                self.clock.schedule(0, partial(self._deliver, event, to))
-        for each in said:
-            self.trace.statistics.sent[each.name] += 1
-            signed_data = signed(each, data, self._system, robot.name or "", self.clock.now)
-            envelope = Envelope(robot.name or "", self.clock.now, None)
-            others = [other for other in self.robots if other is not robot]
-            self.network.send(Event(each.name, signed_data, envelope=envelope), each, robot, others)
+        """Deliver a message that a device of a robot has published on a topic."""
+        self._devices.publish(robot, topic, data)
 
     @property
     def minds_links(self) -> bool:
@@ -381,32 +310,6 @@ class World:
                 self.network.meet(one, other)
             self.members.follow_pair(other, one)
 
-    def _events_on(self, topic: str) -> tuple[list[Declared], list[str]]:
-        """Return the swarm events that are sent on a topic, and the names of those heard on it."""
-        found = self._on_topic.get(topic)
-        if found is None:
-            events = self._system.events if self._system is not None else ()
-            said = [each for each in events if each.swarm and each.topic == topic]
-            heard = [each.name for each in events if each.incoming_topic == topic]
-            found = self._on_topic[topic] = (said, heard)
-        return found
-
-    def _own(self, robot: Robot) -> list[Actor]:
-        return self._machines.get(robot.name, [])
-
-    def _waits(self, actor: Actor, event: str) -> bool:
-        """Return True if an active state of a machine reacts to an event, or keeps it."""
-        instance, machine = self._instances[actor], actor.machine
-        if not instance.running or not actor.listens(event):
-            return False
-        numbers = [machine.numbers[state] for state in instance.configuration.innermost]
-        around = {each for number in numbers for each in (number, *machine.ancestors(number))}
-        return any(
-            any(edge.matches(event) for edge in machine.edges[number])
-            or event in machine.states[number].deferred
-            for number in around
-        )
-
     # ---- members
 
     def _hears(self, one: Robot, other: Robot) -> bool:
@@ -416,7 +319,7 @@ class World:
 
     def _observers(self, robot: Robot) -> list[Actor]:
         """Return the machines of a robot that follow who is there."""
-        found = self._machines[robot.name]
+        found = self._cast.of(robot)
         return [actor for actor in found if actor.machine.name in self._following]
 
     def _nearness(self, robot: Robot) -> Callable[[float], int | None]:
@@ -437,8 +340,8 @@ class World:
     def _miss(self, event: str, robot: Robot) -> None:
         """Trace a missed deadline, once for all machines of the robot that wait for the event."""
         for actor in self.listeners(event, robot)[:1]:
-            if self._instances[actor].running:
-                self.trace.begin(self._instances[actor], f"{LATE}{event}")
+            if self._cast.instances[actor].running:
+                self.trace.begin(self._cast.instances[actor], f"{LATE}{event}")
                 self.trace.flush()
 
 

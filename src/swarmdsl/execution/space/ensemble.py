@@ -8,15 +8,12 @@ import numpy as np
 
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.space.arrays import Whole
-from swarmdsl.execution.space.flat import NOTHING, FlatSpace, Happened, Key
-from swarmdsl.execution.space.functions.running import Running
-from swarmdsl.execution.space.messages import Messages
-from swarmdsl.execution.space.radio import Links
-from swarmdsl.execution.space.setting import Setting, Use
-from swarmdsl.execution.space.stage import Stage
+from swarmdsl.execution.space.common import Common, Key
+from swarmdsl.execution.space.flat import NOTHING, FlatSpace, Happened
+from swarmdsl.execution.space.setting import Setting
 
 
-class Ensemble:
+class Ensemble(Common):
     """Spaces of some runs with the same setting.
 
     Alone, a space moves on when its time has come. Together, it is `due` then, and waits until
@@ -24,24 +21,12 @@ class Ensemble:
     """
 
     def __init__(self, setting: Setting, seeds: Sequence[int], *, together: bool = False) -> None:
-        self.setting = setting
-        self.stage = Stage(setting.layout, seeds, setting.motion)
-        self.links = Links(self.stage)
-        self.messages = Messages(setting.system)
-        self.functions: dict[Key, Running] = {}
+        super().__init__(setting, seeds)
         self.together = together
         self._links: Whole | None = None
         """Radio links after the step before."""
-        self.spaces = [FlatSpace(self, run) for run in range(len(seeds))]
-
-    def running(self, use: Use) -> Running:
-        """Return the function with this model in all robots."""
-        key = (use.function, use.kind.name)
-        if key not in self.functions:
-            self.functions[key] = Running(use.function, use.kind.make, self.stage)
-            # What happens does not depend on which function has been called first in some run.
-            self.functions = dict(sorted(self.functions.items()))
-        return self.functions[key]
+        advance = None if together else self.advance
+        self.spaces = [FlatSpace(self, run, advance) for run in range(len(seeds))]
 
     def advance(self) -> None:
         """Move on all spaces that are due, and let their worlds know what happens.
