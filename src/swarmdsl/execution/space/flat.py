@@ -40,7 +40,7 @@ class FlatSpace(Space):
         self._advance = advance
         """Called when it is due; None if somebody waits for all that are."""
         self.number = number
-        """Number of the run in its common."""
+        """Number of the run in its ensemble."""
         self.follows_links = False
         self.step_number = 0
         self.failure: LoopError | None = None
