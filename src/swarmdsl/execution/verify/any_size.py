@@ -10,6 +10,7 @@ from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.verify.cover import Cover, cover
 from swarmdsl.execution.verify.doubt import Doubt
+from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.network import Group
@@ -158,7 +159,7 @@ def _one(
     seen = set(about(property_, model, every))
     if mine is not None:
         seen.add(mine)
-    groups = model.cone(every, seen) or every
+    groups = cone(model, every, seen) or every
     try:
         asked = question(property_, model, bounds, groups, me)
     except NotCoveredError as error:

@@ -10,6 +10,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.verify.explore import Graph, explore
+from swarmdsl.execution.verify.influence import apart
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.livelock import livelock
 from swarmdsl.execution.verify.model import Model
@@ -62,7 +63,7 @@ def survey(model: Model, budget: Budget) -> Survey:
     findings: list[Finding] = []
     full: set[str] = set()
     reached: dict[str, _Reached] = {}
-    for groups in model.apart(model.groups(thorough=True)):
+    for groups in apart(model, model.groups(thorough=True)):
         network = model.network(groups)
         graph = explore(network, budget)
         states += len(graph.seen)

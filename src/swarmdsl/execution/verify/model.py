@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import islice
 from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
-from swarmdsl.codegen.shared.identity import member_uses, neighbor_uses
 from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.members import JOINED, following
+from swarmdsl.execution.simulate.members import DEPARTED, JOINED, following
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify.alphabet import Alphabet
@@ -26,6 +24,7 @@ from swarmdsl.execution.verify.network import Group, Network
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.terms import facts_of, mask_of, meaning, roles_of
 from swarmdsl.execution.verify.timing import Bounds
+from swarmdsl.execution.verify.uncovered import uncovered, uncovered_lifespans
 
 MOST_STATES, MOST_MOVES = 500, 5_000
 """Maximum number of states, and of moves, of one robot that are looked at."""
@@ -196,66 +195,16 @@ class Model:
             found.update(dict.fromkeys(self._doubts[number]))
         return list(found)
 
-    def influences(self, groups: Sequence[Group]) -> list[set[int]]:
-        """Return for each group those that can send it a message.
+    def may_send(self, group: Group) -> set[str]:
+        """Return the events that a group may send other robots, beyond those that it was seen to.
 
-        What a group with too many states sends is not known: it may be anything.
+        What a robot does is not all known if it has too many states, or there is a doubt.
         """
-        return [
-            {
-                other
-                for other, source in enumerate(groups)
-                if source.automaton.whole in self._unfinished
-                or any(group.hears(m, source) for m in self._sent(source))
-            }
-            for group in groups
-        ]
-
-    def cone(self, groups: Sequence[Group], about: Iterable[int]) -> list[Group]:
-        """Return the groups that can influence some of them."""
-        influences = self.influences(groups)
-        found = set(about)
-        todo = list(found)
-        while todo:
-            for each in influences[todo.pop()] - found:
-                found.add(each)
-                todo.append(each)
-        return [group for number, group in enumerate(groups) if number in found]
-
-    def apart(self, groups: Sequence[Group]) -> Iterator[list[Group]]:
-        """Yield groups that exchange messages together, independent ones apart.
-
-        A robot that no other one influences stands for all of its group.
-        """
-        influences = self.influences(groups)
-        left = set(range(len(groups)))
-        while left:
-            part = {min(left)}
-            grown = True
-            while grown:
-                more = {
-                    n
-                    for n in left - part
-                    if influences[n] & part or any(n in influences[m] for m in part)
-                }
-                grown = bool(more)
-                part |= more
-            left -= part
-            if len(part) == 1 and not influences[next(iter(part))]:
-                (only,) = part
-                yield [Group(groups[only].automaton, groups[only].robots[:1])]
-            else:
-                yield [groups[number] for number in sorted(part)]
-
-    def _sent(self, group: Group) -> set[int]:
         automaton = group.automaton.whole
-        found = set(automaton.first.sends)
-        for loss in automaton.losses:
-            found.update(loss.sends if loss is not None else ())
-        for steps, heard in zip(automaton.steps, automaton.heard, strict=True):
-            for move in (*(steps or ()), *heard.values()):
-                found.update(move.sends)
-        return found
+        if automaton in self._unfinished or self._doubts[self.kinds.index(automaton)]:
+            names = [actor.machine.name for actor in automaton.kind.cast]
+            return {each.event for each in self.sends(names)} | {DEPARTED}
+        return set()
 
     def _quotient(self, number: int, mask: int, *, thorough: bool, tasks: bool) -> Quotient:
         key = (number, mask, thorough, tasks)
@@ -319,7 +268,7 @@ class Model:
                 continue
             keys[key] = len(self.kinds)
             self._robots.append([robot])
-            doubts = self._doubts[len(self.kinds)] = list(self._lacks(cast))
+            doubts = self._doubts[len(self.kinds)] = list(self._doubtful(cast))
             kind = self._kind(cast, facts[cast[0].robot.role], doubts)
             automaton = Automaton(kind, self.alphabet)
             self.kinds.append(automaton)
@@ -385,35 +334,12 @@ class Model:
     def _follows(self, cast: Iterable[Actor]) -> bool:
         return any(map(self._crew.observes, cast))
 
-    def _lacks(self, cast: Sequence[Actor]) -> Iterator[Doubt]:
-        """Yield what a machine uses that proofs do not cover."""
+    def _doubtful(self, cast: Sequence[Actor]) -> Iterator[Doubt]:
+        """Yield what proofs do not cover of a robot."""
+        robot, has_heartbeat = cast[0].robot, self._crew.has_heartbeat
         for actor in cast:
             machine = self.machines[actor.machine.name]
-            if not self._crew.has_heartbeat:
-                for _, place in member_uses(machine):
-                    yield Doubt("without a swarm, it is open which robots are there", place)
-            for _, place in islice(neighbor_uses(machine), 1):
-                yield Doubt("only runs in which nobody is near are covered", place)
-            for state in machine.walk():
-                activity = state.activity
-                if activity is not None and activity.result_callback is not None:
-                    yield Doubt(
-                        f"callback `{activity.result_callback}` is not covered", activity.origin
-                    )
-                if (
-                    activity is not None
-                    and self.options.exact
-                    and self.options.timing.stops_late(activity.function, actor.robot)
-                ):
-                    reason = f"the time in which `{activity.function}` stops is not covered"
-                    yield Doubt(reason, activity.origin)
-        for event in self.system.events:
-            delivery = event.delivery
-            if (
-                delivery is not None
-                and delivery.lifespan is not None
-                and any(actor.listens(event.name) for actor in cast)
-            ):
-                yield Doubt(f"the `lifespan` of `{event.name}` is not covered", event.origin)
+            yield from uncovered(machine, robot, self.options, has_heartbeat=has_heartbeat)
+        yield from uncovered_lifespans(self.system, cast)
         yield from self.demands.timed()
-        yield from self.environment.doubts(cast[0].robot, follows=self._follows(cast))
+        yield from self.environment.doubts(robot, follows=self._follows(cast))

@@ -8,6 +8,7 @@ from itertools import islice
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.verify.explore import Graph, observe
+from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.laps import endless
 from swarmdsl.execution.verify.lassos import Lassos
 from swarmdsl.execution.verify.late_runs import late
@@ -80,7 +81,7 @@ def _without_clocks(
     seen = set(about(property_, model, every))
     if mine is not None:
         seen.add(mine)
-    groups = model.cone(every, seen) or every
+    groups = cone(model, every, seen) or every
     is_sure = model.complete and not model.doubts(groups)
     if mine is not None and is_sure and _is_alone(property_):
         states = _alone(property_, every[mine].automaton)
@@ -119,7 +120,7 @@ def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Bu
         every = model.groups([property_], me=me, tasks=True, single=single)
         seen = set(about(property_, model, every))
         seen |= {number for number, group in enumerate(every) if group.robots == (me,)}
-        groups = model.cone(every, seen) or every
+        groups = cone(model, every, seen) or every
         observer = observer_of(property_, model, groups, me, others=len(groups) < len(every))
         if observer.others:
             # What holds for a moment ends when any robot does something.

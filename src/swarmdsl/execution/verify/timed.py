@@ -14,6 +14,7 @@ from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.verify.clock_table import ClockTable
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.explore import Graph, observe
+from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.network import Group
@@ -53,7 +54,7 @@ class _Proof:
         mine = place_of(me, self._every)
         if mine is not None:
             self._about.add(mine)
-        self.cone = model.cone(self._every, self._about) or self._every
+        self.cone = cone(model, self._every, self._about) or self._every
 
     def verdict(self) -> Verdict:
         """Return the verdict."""
