@@ -125,6 +125,35 @@ def test_a_loss_is_noticed_as_late_as_in_simulations(modelled: Callable[..., Mod
     assert verdict.run.lines[-1].time - time == 5_000_000_000
 
 
+def test_a_loss_before_a_time_that_is_too_long_is_noticed_as_in_simulations(
+    modelled: Callable[..., Model],
+) -> None:
+    sentence = "each drone : in Far leads to in Down within 2500 ms"
+    text = field(sentence, circling="after 700 ms -> Wait", waiting="on member_lost -> Far")
+    unasked = text.replace("on Seen / send Found -> Wait", "").replace("1..9", "1")
+    slow = unasked.replace("final Down", "state Far { after 9 s -> Down }\n  final Down")
+    (verdict,) = verdicts_of(modelled(slow, faults=1)).values()
+
+    assert verdict.run is not None
+    ((_, _, time),) = verdict.run.gone
+    (told,) = (each.time for each in verdict.run.lines if each.event == "member_lost")
+    assert time % 1_000_000_000 == 0
+    assert told - time == 5_000_000_000
+
+
+def test_what_is_on_its_way_to_a_robot_has_not_taken_too_long_when_it_is_lost(
+    modelled: Callable[..., Model],
+) -> None:
+    text = field(
+        "each drone : in Wait leads to in Land within 6 s", waiting="on member_lost -> Land"
+    )
+    asked = text.replace("on Seen /", "on Seen [present(tower) > 0] /").replace("1..9", "1")
+
+    # The tower answers at once, or the drone is told five seconds after its loss.
+    (verdict,) = verdicts_of(modelled(asked, faults=1)).values()
+    assert (verdict.outcome, "cannot be" in verdict.reason) == ("unknown", True)
+
+
 def test_times_of_heartbeats_rule_runs_out(modelled: Callable[..., Model]) -> None:
     seen = "on Seen / send Found -> Wait"
     text = field("never some drone in Land", circling="after 3 s -> Down\n on member_lost -> Land")

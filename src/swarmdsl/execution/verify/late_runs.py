@@ -17,7 +17,7 @@ from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.verify.network import Network, Step
 from swarmdsl.execution.verify.runs import ELSEWHERE, Play, Run, exceeding
 from swarmdsl.execution.verify.timed_observer import LATE
-from swarmdsl.execution.verify.times import Constraint, fitting
+from swarmdsl.execution.verify.times import Constraint, fitting, in_step
 from swarmdsl.ir import Property
 
 _MOST_LAST = 30
@@ -83,17 +83,23 @@ def _timed(
     flaw = timeless.misfit
     constraints, slow = timeless.constraints(), timeless.constraints(slow=True)
     for late_ in _lateness(before, within):
-        times = fitting(len(steps), [*constraints, *late_])
+        times = _times(timeless, [*constraints, *late_])
         if times is not None:
             run = _at(network, steps, property_, times, ended=ended)
             if not run.flaw:
                 return run
             continue
-        times = fitting(len(steps), [*slow, *late_])
+        times = _times(timeless, [*slow, *late_])
         if times is not None and not _at(network, steps, property_, times, ended=ended).flaw:
             flaw = _too_slow(network)
             break
     return Run((), flaw=flaw)
+
+
+def _times(timeless: Play, constraints: Sequence[Constraint]) -> list[int] | None:
+    """Return times of the steps that fit, with losses of robots at heartbeats."""
+    steps = timeless.now
+    return in_step(lambda more: fitting(steps, [*constraints, *more]), timeless.beats())
 
 
 def _too_slow(network: Network) -> str:
@@ -131,4 +137,4 @@ def _at(
     (result,) = watch.results(times[-1], ended=ended)
     if result.verdict != FALSE:
         return Run((), flaw="the monitor does not see a violation in it")
-    return Run(tuple(timed.lines), tuple(timed.lost), causes=timed.causes)
+    return Run(tuple(timed.lines), tuple(timed.lost), tuple(timed.gone), causes=timed.causes)

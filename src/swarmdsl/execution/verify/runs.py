@@ -155,6 +155,8 @@ class Play:
         self.causes: dict[int, int] = {}
         self._arrivals: list[tuple[int, Copy]] = []
         """Messages that arrived, with the numbers of the steps."""
+        self._missed: list[tuple[int, Copy]] = []
+        """Messages on their way to robots when these stopped, with the numbers of the steps."""
         self.overtakes = ""
         """Topic on which a message overtakes an earlier one."""
         self.exceeds = ""
@@ -232,6 +234,8 @@ class Play:
                 found += limits(bounds, at[wait.began], ended, is_over=wait.fired)
             for copy in (*robot.bag, *robot.late):
                 found += limits(self._bounds(copy), copy.sent, last, is_over=False)
+        for step, copy in self._missed:
+            found += limits(self._bounds(copy), copy.sent, step, is_over=False)
         for step, copy in self._arrivals:
             found += limits(self._bounds(copy), copy.sent, step, is_over=True)
         return found
@@ -345,6 +349,7 @@ class Play:
         self.departs |= shown != real
         robot.state = found.target
         if not robot.body.running:
+            self._missed += [(self.now, copy) for copy in (*robot.bag, *robot.late)]
             robot.bag.clear()
             robot.late.clear()
         self._send(robot, list(robot.body.sent))
