@@ -36,7 +36,8 @@ def test_the_exit_code_tells_violations(capsys: pytest.CaptureFixture[str]) -> N
         (["--size", "worker=2", "--size", "worker=2"], 2, "size of `worker` is given twice"),
         (["--size", "wroker=2"], 1, "did you mean `worker`?"),
         (["--property", "OneWait"], 1, "did you mean `OneWaits`?"),
-        (["--channel", "0"], 2, "--channel"),
+        (["--channel", "0"], 2, "--channel': `0` is not an integer from 1 to 100"),
+        (["--faults", "two"], 2, "--faults': `two` is not an integer from 0 to 1000"),
         (["--swarm", "Pairs"], 1, "did you mean `Pair`?"),
         (["--swarm", "Pair", "--machine", "Work"], 2, "conflict"),
     ],
@@ -113,8 +114,9 @@ def test_ctrl_c_tells_what_was_found(
 
     assert run(["verify", str(examples / "emergency_exit")]) == 130
     out = capsys.readouterr().out
-    assert "there are more" in out
-    assert "the search was interrupted" in out
+    assert "there are more, as the search was interrupted" in out
+    assert "unknown  the search was interrupted" in out
+    assert "limit" not in out
 
 
 def test_a_limit_of_time_ends_the_search_for_the_states_of_a_robot(

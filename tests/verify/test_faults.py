@@ -152,6 +152,9 @@ def test_what_is_on_its_way_to_a_robot_has_not_taken_too_long_when_it_is_lost(
     # The tower answers at once, or the drone is told five seconds after its loss.
     (verdict,) = verdicts_of(modelled(asked, faults=1)).values()
     assert (verdict.outcome, "cannot be" in verdict.reason) == ("unknown", True)
+    assert verdict.reason.endswith("; without losses, try `--time exact --faults 0`")
+    (verdict,) = verdicts_of(modelled(asked, faults=1, exact=True)).values()
+    assert verdict.reason.endswith("clocks are for robots that are not lost: try `--faults 0`")
 
 
 def test_times_of_heartbeats_rule_runs_out(modelled: Callable[..., Model]) -> None:

@@ -201,6 +201,20 @@ def test_a_param_without_a_value_gets_it_from_the_scenario(
     assert run(["verify", str(model), "--machine", "Fly", "--scenario", str(scenario)]) == 1
 
 
+def test_numbers_of_members_are_for_swarms(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    verified(tmp_path, capsys, "[count]\ndrone = 2\n", "never drone[0] in Bad")
+    alone = ["verify", str(tmp_path / "field.swarm"), "--machine", "Fly"]
+
+    assert run([*alone, "--scenario", str(tmp_path / "field.toml")]) == 1
+    told = capsys.readouterr().out
+    assert "SW0012]: a scenario of a machine alone has no key `count`" in told
+    assert "help: counts are for swarms" in told
+    assert run([*alone, "--size", "drone=2"]) == 1
+    assert "help: sizes are for swarms" in capsys.readouterr().out
+
+
 def test_mistakes_in_options_are_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _, told = verified(tmp_path, capsys, "[count]\ndrones = 2\n", "never drone[0] in Bad")
     assert "no role called `drones`" in told

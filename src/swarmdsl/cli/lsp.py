@@ -17,7 +17,7 @@ _LOOPBACK = "127.0.0.1"
 @click.option(
     "--tcp",
     "port",
-    type=click.IntRange(1, 65535),
+    type=options.Integer(1, 65535),
     metavar="PORT",
     help="Accept one editor on this port of the loopback interface.",
 )

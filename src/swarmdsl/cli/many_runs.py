@@ -35,13 +35,13 @@ def _share(flag: str, limit: float, default: float, help_: str) -> Callable[...,
 _OPTIONS = (
     click.option(
         "--runs",
-        type=click.IntRange(1, 1_000_000),
+        type=options.Integer(1, 1_000_000),
         metavar="N",
         help="Run so many times, with the seeds from `--seed` on, and print estimates.",
     ),
     click.option(
         "--jobs",
-        type=click.IntRange(1, 256),
+        type=options.Integer(1, 256),
         metavar="J",
         help="Number of processes for `--runs`.  [default: one for each processor]",
     ),

@@ -43,6 +43,19 @@ class Number(click.FloatRange):
         return number
 
 
+class Integer(click.IntRange):
+    """Integer in a range, with a message that tells both ends."""
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, context: click.Context | None
+    ) -> Any:
+        """Return the integer as Click does."""
+        try:
+            return super().convert(value, param, context)
+        except click.BadParameter:
+            self.fail(f"`{value}` is not an integer from {self.min} to {self.max}", param, context)
+
+
 _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 
 

@@ -33,7 +33,7 @@ def _editor(_context: click.Context, _param: click.Parameter, text: str | None) 
 @options.files
 @click.option(
     "--port",
-    type=click.IntRange(0, 65535),
+    type=options.Integer(0, 65535),
     default=0,
     metavar="PORT",
     help="Port of the loopback interface; 0 takes a free one.  [default: 0]",

@@ -99,7 +99,7 @@ def _new_test(_context: click.Context, _param: click.Parameter, path: Path | Non
 )
 @click.option(
     "--channel",
-    type=click.IntRange(1, _MOST_CAPACITY),
+    type=options.Integer(1, _MOST_CAPACITY),
     metavar="N",
     default=2,
     show_default=True,
@@ -115,7 +115,7 @@ def _new_test(_context: click.Context, _param: click.Parameter, path: Path | Non
 )
 @click.option(
     "--faults",
-    type=click.IntRange(0, _MOST_FAULTS),
+    type=options.Integer(0, _MOST_FAULTS),
     metavar="N",
     help="At most N robots may be lost, at any time and for ever.  [default: those that the "
     "scenario loses, else 0]",

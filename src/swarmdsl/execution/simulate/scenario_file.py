@@ -87,6 +87,12 @@ class _Reader:
 
     def counts(self) -> dict[str, int]:
         """Read the number of members by role, within its multiplicity."""
+        if self.subject.swarm is None and "count" in self.top:
+            help_ = "counts are for swarms: choose one with `--swarm`, or leave them out"
+            place = self.top.key_place("count")
+            owner = "a scenario of a machine alone"
+            self.report.report("unknown-key", place, name="count", owner=owner, help=help_)
+            return {}
         table = self.top.inside("count")
         roles = {r.name: r for r in self.subject.swarm.roles} if self.subject.swarm else {}
         found: dict[str, int] = {}

@@ -18,7 +18,7 @@ from swarmdsl.execution.verify.questions import Bounds, question
 from swarmdsl.execution.verify.sentence import is_about_ends, not_covered
 from swarmdsl.execution.verify.subjects import about
 from swarmdsl.execution.verify.terms import facts_of
-from swarmdsl.execution.verify.verdict import ESTIMATE, Outcome, Verdict, unfinished
+from swarmdsl.execution.verify.verdict import ESTIMATE, INTERRUPTED, Outcome, Verdict, unfinished
 from swarmdsl.execution.verify.wanted import NotCoveredError
 
 _SPARE = 3
@@ -142,6 +142,8 @@ def _smallest(
         role, (least, most) = next(iter(bounds.items()))
         most = least + 2 if most is None else min(least + 2, most)
         reason += f"; it holds for {size}: try more, as `--size {role}={least}..{most}`"
+    elif verdict.reason:
+        reason += f"; for {size}, {verdict.reason}"
     return Verdict(property_, "unknown", verdict.states, reason, doubt.place, full=verdict.full)
 
 
@@ -168,7 +170,7 @@ def _one(
     if asked is not None:
         found = cover(asked.swarm, asked.wanted, budget, asked.at_start)
     if budget.interrupted:
-        return Verdict(property_, "unknown", found.looked, "the search was interrupted", robot=me)
+        return Verdict(property_, "unknown", found.looked, INTERRUPTED, robot=me)
     if found.numbers is not None:
         return _violated(property_, model, bounds, groups, found, prove_at, me)
     doubts = model.doubts(groups)

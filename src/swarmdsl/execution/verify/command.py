@@ -43,7 +43,7 @@ from swarmdsl.execution.verify.saved_test import (
 )
 from swarmdsl.execution.verify.sentence import is_about_ends
 from swarmdsl.execution.verify.sizes import Size, bounds, shown, sizes, whole
-from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.execution.verify.verdict import INTERRUPTED, Verdict
 from swarmdsl.project.read_source import read_source
 
 _PAUSE = 0.2
@@ -136,6 +136,7 @@ class _Session:
             self._budget.interrupted = True
         self._progress.clear()
         if model is None:
+            self._say(f"{subject.name}: {INTERRUPTED} before there was anything to tell")
             return None
         for verdict in verdicts.values():
             full.update(verdict.full)
@@ -184,7 +185,7 @@ class _Session:
             if known is not None and known.outcome == "fails":
                 continue
             if self._budget.interrupted:
-                verdict = Verdict(property_, "unknown", reason="the search was interrupted")
+                verdict = Verdict(property_, "unknown", reason=INTERRUPTED)
             else:
                 verdict = prove_it(property_)
             if known is None or _WORST.index(verdict.outcome) <= _WORST.index(known.outcome):
@@ -300,7 +301,8 @@ class _Session:
             self._say(f"  {states}, {steps}: {rest}")
         if left:
             sizes_left = diagnostics.counted_in_thousands(left, "larger size")
-            self._say(f"  {sizes_left} not looked at: the search came to its limit")
+            why = INTERRUPTED if self._budget.interrupted else "the search came to its limit"
+            self._say(f"  {sizes_left} not looked at: {why}")
         lines = list(diagnostics.rows(results.verdicts, results.faults))
         if lines:
             self._say("")

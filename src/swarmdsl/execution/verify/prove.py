@@ -61,13 +61,16 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     verdict = _without_clocks(property_, model, me, budget)
     if verdict.outcome != "unknown" or verdict.place is not None:
         return verdict
-    if model.options.exact and model.environment.faults:
-        return replace(verdict, reason=f"{verdict.reason}; lost robots are covered for any time")
-    if model.options.exact:
+    if model.options.exact and not model.environment.faults:
         return prove_exactly(property_, model, me, budget, verdict)
-    if property_.within is not None:
-        return replace(verdict, reason=f"{verdict.reason}; try `--time exact`")
-    return verdict
+    way_out = ""
+    if model.options.exact:
+        way_out = "; clocks are for robots that are not lost: try `--faults 0`"
+    elif property_.within is not None and model.environment.faults:
+        way_out = "; without losses, try `--time exact --faults 0`"
+    elif property_.within is not None:
+        way_out = "; try `--time exact`"
+    return replace(verdict, reason=verdict.reason + way_out)
 
 
 def _without_clocks(

@@ -51,6 +51,8 @@ def sizes(
             text = f"--size {name}"
             place = Span(Source(COMMAND_LINE, text), len(text) - len(name), len(text))
             help_ = suggest(name, by_name, "roles")
+            if subject.swarm is None:
+                help_ = "sizes are for swarms: choose one with `--swarm`, or leave `--size` out"
             report.report("unresolved-name", place, kind="role", name=name, help=help_)
             continue
         multiplicity = by_name[name].multiplicity

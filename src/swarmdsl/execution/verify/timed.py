@@ -135,7 +135,11 @@ class _Proof:
         found = prove_possible(self._property, self._model, network, mine, self._me, self._budget)
         if found.outcome == "holds" and not self._has_whole_ticks():
             # What is possible at a tick need not be so between two of them.
-            reason = "whether it is possible may depend on times between the ticks of clocks"
+            reason = (
+                "whether it is possible may depend on when events come from outside and how long "
+                "things take: try `--scenario` with durations that do not vary, and nothing from "
+                "outside"
+            )
             return replace(found, outcome="unknown", reason=reason)
         return found
 

@@ -17,6 +17,8 @@ from swarmdsl.execution.verify.runs import Run
 ESTIMATE = "estimate it with `swarmc simulate --runs 1000`"
 """Advice for probabilities."""
 
+INTERRUPTED = "the search was interrupted"
+
 Outcome = Literal["holds", "fails", "up to", "unknown"]
 
 
@@ -57,6 +59,8 @@ def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> 
 
 def unfinished(model: Model, budget: Budget) -> str:
     """Return the reason why a search ended too early, with what makes the states so many."""
+    if budget.interrupted:
+        return INTERRUPTED
     large = next((each for each in model.kinds if each.is_too_large), None)
     if large is None:
         other = "another one with `--limit`, or fewer robots with `--size`"
