@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 _TINY = 1e-300
@@ -35,7 +36,8 @@ def clopper_pearson(successes: int, runs: int, level: float) -> Interval:
     return Interval(lower, upper)
 
 
-def student_quantile(probability: float, freedom: int) -> float:
+@lru_cache(1024)
+def student_quantile(probability: float, freedom: float) -> float:
     """Return the quantile of Student's distribution; the probability is above 0.5."""
     tail = 2 * (1 - probability)
     share = _beta_quantile(tail, freedom / 2, 0.5)

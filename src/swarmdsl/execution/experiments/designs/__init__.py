@@ -1,0 +1,1 @@
+"""Designs of experiments: which points of the settings to run."""
