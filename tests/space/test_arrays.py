@@ -101,9 +101,9 @@ def test_a_body_that_touches_a_wall_stops() -> None:
         (floats(5, 5, 5, 5), floats(4, 4.6, 4, 4.8)),
         (floats(5, 5, 5, 5), floats(4.6, 4.2, 6, 4.7)),
     )
-    touched = shapes.touched(start, end, np.zeros(4), np.full(4, 0.5))
-    assert touched.tolist() == [True, False, True, False]
-    assert not shapes.touched(start, end, np.full(4, 3.0), np.full(4, 0.5)).any()
+    radius, reach = np.full(4, 0.5), np.full(4, 2.5)
+    assert shapes.touched(start, end, np.zeros(4), radius, reach).tolist() == [0, 2]
+    assert not len(shapes.touched(start, end, np.full(4, 3.0), radius, reach))
 
 
 def test_the_map_of_clearance_hides_no_contact() -> None:
@@ -117,10 +117,14 @@ def test_the_map_of_clearance_hides_no_contact() -> None:
     radius = np.full(count, 0.4)
     end = x + 0.3, y - 0.2
     low = np.zeros(count)
-    touched = shapes.touched((x, y), end, low, radius)
+    touched = np.zeros(count, dtype=bool)
+    touched[shapes.touched((x, y), end, low, radius, radius + 0.37)] = True
     before, after = shapes.distances(x, y, low), shapes.distances(*end, low)
     near = (after < radius) & (after < before)
     through = shapes.crossings((x, y), end, (low, low)) > 0
     assert (touched & near == near).all()
     assert near.any()
+    walls = Shapes(edges, []).crossings((x, y), end, (low, low)) > 0
+    assert walls.any()
+    assert touched[walls].all()
     assert not (touched & ~near & ~through).any()

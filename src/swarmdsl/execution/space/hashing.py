@@ -13,11 +13,13 @@ import numpy as np
 from swarmdsl.execution.space.arrays import Floats, Whole, Words
 
 # The finalizer of SplitMix64 (Steele, Lea and Flood, 2014).
-_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
-_FIRST = np.uint64(0xBF58476D1CE4E5B9)
-_SECOND = np.uint64(0x94D049BB133111EB)
-_BITS_OF_FLOAT = np.uint64(11)
-_TO_SHARE = 2.0**-53
+# Arrays of no dimension: NumPy takes them in half the time of numbers.
+_GOLDEN = np.array(0x9E3779B97F4A7C15, dtype=np.uint64)
+_FIRST = np.array(0xBF58476D1CE4E5B9, dtype=np.uint64)
+_SECOND = np.array(0x94D049BB133111EB, dtype=np.uint64)
+_SHIFTS = tuple(np.array(bits, dtype=np.uint64) for bits in (30, 27, 31))
+_BITS_OF_FLOAT = np.array(11, dtype=np.uint64)
+_TO_SHARE = np.array(2.0**-53)
 
 
 def key(*words: str | int | None) -> int:
@@ -28,13 +30,21 @@ def key(*words: str | int | None) -> int:
 def mixed(numbers: Words) -> Words:
     """Return numbers in which each bit depends on all bits of the given ones."""
     numbers = numbers + _GOLDEN
-    numbers = (numbers ^ (numbers >> np.uint64(30))) * _FIRST
-    numbers = (numbers ^ (numbers >> np.uint64(27))) * _SECOND
-    return numbers ^ (numbers >> np.uint64(31))
+    numbers ^= numbers >> _SHIFTS[0]
+    numbers *= _FIRST
+    numbers ^= numbers >> _SHIFTS[1]
+    numbers *= _SECOND
+    numbers ^= numbers >> _SHIFTS[2]
+    return numbers
 
 
 def shares(keys: Words, question: int, counts: Words | Whole | int) -> Floats:
     """Return a random number from 0 to less than 1 for each key and count."""
-    asked = mixed(keys ^ np.uint64(question))
+    return numbered(mixed(keys ^ np.uint64(question)), counts)
+
+
+def numbered(asked: Words, counts: Words | Whole | int) -> Floats:
+    """Return a random number from 0 to less than 1 for each mixed question and count."""
     drawn = mixed(asked + np.asarray(counts).astype(np.uint64))
-    return (drawn >> _BITS_OF_FLOAT).astype(np.float64) * _TO_SHARE
+    found: Floats = (drawn >> _BITS_OF_FLOAT).astype(np.float64) * _TO_SHARE
+    return found

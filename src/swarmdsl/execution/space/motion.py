@@ -63,7 +63,7 @@ def move(stage: Robots, part: Part) -> None:
     length = np.sqrt(air_x * air_x + air_y * air_y)
     speed = stage.speed[part]
     moving = length > _LEAST_SPEED
-    safe = np.where(moving, length, 1.0)
+    safe = np.maximum(length, _LEAST_SPEED)
     share = np.minimum(speed / safe, 1.0)
     vx, vy = air_x * share, air_y * share
     stage.air_speed = np.minimum(length, speed)
@@ -72,27 +72,36 @@ def move(stage: Robots, part: Part) -> None:
         vx, vy = vx + wind_x, vy + wind_y
     x, y = stage.x[part], stage.y[part]
     next_x, next_y = x + vx * dt, y + vy * dt
-    touched = np.zeros(len(x), dtype=np.bool_)
-    radius = stage.radius[part]
-    if stage.bounds is not None:
-        low_x, low_y, high_x, high_y = stage.bounds
-        inside_x = np.minimum(np.maximum(next_x, low_x + radius), high_x - radius)
-        inside_y = np.minimum(np.maximum(next_y, low_y + radius), high_y - radius)
-        touched |= (inside_x != next_x) | (inside_y != next_y)
+    if stage.inner is not None:
+        low_x, low_y, high_x, high_y = stage.inner
+        inside_x = np.minimum(np.maximum(next_x, low_x[part]), high_x[part])
+        inside_y = np.minimum(np.maximum(next_y, low_y[part]), high_y[part])
+        touched = (inside_x != next_x) | (inside_y != next_y)
         next_x, next_y = inside_x, inside_y
-    climb = stage.climb[part]
-    vz = np.minimum(np.maximum(stage.wanted_z[part] * alive, -climb), climb)
-    next_z = np.minimum(np.maximum(z + vz * dt, 0.0), stage.ceiling)
+    else:
+        touched = np.zeros(len(x), dtype=np.bool_)
+    next_z = z
+    if stage.any_flies:
+        climb = stage.climb[part]
+        vz = np.minimum(np.maximum(stage.wanted_z[part] * alive, -climb), climb)
+        next_z = np.minimum(np.maximum(z + vz * dt, 0.0), stage.ceiling)
     if not stage.shapes.is_empty:
-        stopped = stage.shapes.touched((x, y), (next_x, next_y), next_z, radius)
-        if stopped.any():
-            touched |= stopped
-            next_x, next_y = np.where(stopped, x, next_x), np.where(stopped, y, next_y)
-            next_z = np.where(stopped, z, next_z)
-    dx, dy, dz = next_x - x, next_y - y, next_z - z
-    stage.vx[part], stage.vy[part], stage.vz[part] = dx / dt, dy / dt, dz / dt
-    stage.x[part], stage.y[part], stage.z[part] = next_x, next_y, next_z
-    stage.distance[part] += np.sqrt(dx * dx + dy * dy + dz * dz)
+        places = (x, y), (next_x, next_y)
+        stopped = stage.shapes.touched(*places, next_z, stage.radius[part], stage.reach[part])
+        if len(stopped):
+            touched[stopped] = True
+            next_x[stopped], next_y[stopped] = x[stopped], y[stopped]
+            if stage.any_flies:
+                next_z[stopped] = z[stopped]
+    dx, dy = next_x - x, next_y - y
+    square = dx * dx + dy * dy
+    if stage.any_flies:
+        dz = next_z - z
+        square += dz * dz
+        stage.z[part], stage.vz[part] = next_z, dz / dt
+    stage.vx[part], stage.vy[part] = dx / dt, dy / dt
+    stage.x[part], stage.y[part] = next_x, next_y
+    stage.distance[part] += np.sqrt(square)
     stage.touched[part] = touched
 
 
@@ -100,14 +109,15 @@ def _turn(stage: Robots, part: Part, x: Floats, y: Floats, moving: Flags) -> Non
     """Turn robots that move towards where they go, as far as they can in a step."""
     old_x, old_y = stage.heading_x[part], stage.heading_y[part]
     most_x = stage.turn_x[part]
-    ahead, aside = old_x * x + old_y * y, old_x * y - old_y * x
-    short = moving & (ahead < most_x)
-    if short.any():
-        most_y = stage.turn_y[part]
-        sine = np.where(aside >= 0, most_y, -most_y)
-        turned_x, turned_y = old_x * most_x - old_y * sine, old_y * most_x + old_x * sine
+    short = (moving & (old_x * x + old_y * y < most_x)).nonzero()[0]
+    if len(short):
+        from_x, from_y = old_x[short], old_y[short]
+        cosine, most_y = most_x[short], stage.turn_y[part][short]
+        sine = np.where(from_x * y[short] - from_y * x[short] >= 0, most_y, -most_y)
+        turned_x, turned_y = from_x * cosine - from_y * sine, from_y * cosine + from_x * sine
         # Many small turns must not make the direction longer or shorter.
         length = np.sqrt(turned_x * turned_x + turned_y * turned_y)
-        x, y = np.where(short, turned_x / length, x), np.where(short, turned_y / length, y)
-    stage.heading_x[part] = np.where(moving, x, old_x)
-    stage.heading_y[part] = np.where(moving, y, old_y)
+        x[short], y[short] = turned_x / length, turned_y / length
+    if np.count_nonzero(moving) < len(moving):
+        x, y = np.where(moving, x, old_x), np.where(moving, y, old_y)
+    stage.heading_x[part], stage.heading_y[part] = x, y

@@ -22,6 +22,9 @@ from swarmdsl.execution.space.targets import TargetsOfRuns
 from swarmdsl.execution.space.turning import direction
 from swarmdsl.execution.space.weather import Weather
 
+_ROUNDING = 1e-6
+"""More than the length of a step can be wrong by, in metres."""
+
 
 class Robots:
     """Robots of some runs, which have the same layout and different seeds, and what is around."""
@@ -64,6 +67,7 @@ class Robots:
         self.roles = roles
         self.alive: Flags = np.ones(self.rows, dtype=np.bool_)
         self.flies: Flags = self.climb > 0
+        self.any_flies = bool(self.flies.any())
         self.x, self.y = self._starts()
         self.z: Floats = np.zeros(self.rows)
         self.vx: Floats = np.zeros(self.rows)
@@ -98,8 +102,12 @@ class Robots:
         """Share of what each robot can spray that it still has."""
         self.consumption = Consumption(layout, len(self.seeds))
         self.bounds = layout.bounds()
-        self.ceiling = layout.size[2] if layout.size and len(layout.size) > 2 else math.inf
         self.weather = Weather(layout)
+        self.reach = self.radius + (self.speed + self.weather.strongest) * self.dt + _ROUNDING
+        """Distance from its middle that each robot can touch in a step."""
+        self.inner = self._inner()
+        """Least x and y and greatest x and y of the middle of each robot; None without bounds."""
+        self.ceiling = layout.size[2] if layout.size and len(layout.size) > 2 else math.inf
         self.targets = TargetsOfRuns(layout, self.shapes, self.seeds)
 
     def chance(self, who: Rows, question: int, counts: Whole | int) -> Floats:
@@ -110,6 +118,13 @@ class Robots:
 
     def _each(self, units: Sequence[Unit], values: Sequence[float]) -> Floats:
         return np.tile(np.array(values, dtype=np.float64), len(self.seeds))
+
+    def _inner(self) -> tuple[Floats, Floats, Floats, Floats] | None:
+        if self.bounds is None:
+            return None
+        low_x, low_y, high_x, high_y = self.bounds
+        radius = self.radius
+        return low_x + radius, low_y + radius, high_x - radius, high_y - radius
 
     def _starts(self) -> tuple[Floats, Floats]:
         """Return the first places: points, or random ones in areas or anywhere."""

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from swarmdsl.execution.space.arrays import Flags, Floats, Whole
+from swarmdsl.execution.space.arrays import Flags, Floats, Rows, Whole
 
 UNBOUNDED = math.inf
 Pair: TypeAlias = tuple[Floats, Floats]
@@ -21,6 +21,8 @@ _MOST_CELLS = 256
 """Maximum number of cells of the clearance map in each direction."""
 _LEAST_SIDE = 0.25
 """Minimum length of a cell of that map, in metres."""
+_FEW = 500
+"""Number of distances that take no longer than to look at the map."""
 
 
 class Edge(NamedTuple):
@@ -68,6 +70,11 @@ class Shapes:
         """Index of the first segment of each shape; those of a shape are side by side."""
         discs = np.array([each[:4] for each in rounds], dtype=np.float64).reshape(-1, 4).T
         self._cx, self._cy, self._radius, self._top = discs
+        highs = np.concatenate((self._high, self._top))
+        self._endless = bool(np.all(self._low <= 0) and np.all(highs == UNBOUNDED))
+        """True if all shapes are at all heights."""
+        self.count = len(edges) + len(rounds)
+        """Number of segments and discs."""
         self._map: _Clearance | None = None
 
     @property
@@ -79,10 +86,11 @@ class Shapes:
 
     def distances(self, x: Floats, y: Floats, z: Floats | None) -> Floats:
         """Return the distance of each place from the nearest shape at its height, or at any."""
-        found = np.full(len(x), UNBOUNDED)
+        found: Floats | None = None
         if len(self._x1):
             px, py = x[:, None] - self._x1, y[:, None] - self._y1
-            along = np.clip((px * self._dx + py * self._dy) / self._square, 0.0, 1.0)
+            along = (px * self._dx + py * self._dy) / self._square
+            along = np.minimum(np.maximum(along, 0.0), 1.0)
             ox, oy = px - along * self._dx, py - along * self._dy
             distance = np.sqrt(ox * ox + oy * oy)
             if z is not None:
@@ -94,8 +102,9 @@ class Shapes:
             distance = np.sqrt(ox * ox + oy * oy) - self._radius
             if z is not None:
                 distance = np.where(z[:, None] >= self._top, UNBOUNDED, distance)
-            found = np.minimum(found, distance.min(axis=1))
-        return found
+            nearest = distance.min(axis=1)
+            found = nearest if found is None else np.minimum(found, nearest)
+        return np.full(len(x), UNBOUNDED) if found is None else found
 
     def inside(self, x: Floats, y: Floats) -> Flags:
         """Return True for places in a box or a disc."""
@@ -107,26 +116,27 @@ class Shapes:
             found |= (ox * ox + oy * oy < self._radius * self._radius).any(axis=1)
         return found
 
-    def touched(self, start: Pair, end: Pair, z: Floats, radius: Floats) -> Flags:
-        """Return True where a body that goes from a place to another one touches a shape.
+    def touched(self, start: Pair, end: Pair, z: Floats, radius: Floats, reach: Floats) -> Rows:
+        """Return the indices of bodies that touch a shape when they go from a place to another one.
 
-        One that is too near already may go away from it.
+        One that is too near already may go away from it. `reach` is at least the radius of a body
+        and the length of its way.
         """
-        touched = np.zeros(len(z), dtype=np.bool_)
-        if self.is_empty:
-            return touched
-        dx, dy = end[0] - start[0], end[1] - start[1]
-        length = np.sqrt(dx * dx + dy * dy)
-        near = np.flatnonzero(self._near(end[0], end[1], radius + length))
+        near = self._near(end[0], end[1], reach)
         if not len(near):
-            return touched
-        first = (start[0][near], start[1][near])
-        last = (end[0][near], end[1][near])
-        height = z[near]
-        before = self.distances(*first, height)
-        after = self.distances(*last, height)
-        through = self._meets_edges(first, last, (height, height)).any(axis=1)
-        touched[near] = ((after < radius[near]) & (after < before)) | through
+            return near
+        count, height = len(near), z[near]
+        x = np.concatenate((start[0][near], end[0][near]))
+        y = np.concatenate((start[1][near], end[1][near]))
+        level = None if self._endless else np.concatenate((height, height))
+        gaps = self.distances(x, y, level)
+        before, after = gaps[:count], gaps[count:]
+        found = (after < radius[near]) & (after < before)
+        # A way that goes through a shape is at least as long as both of its ends are away from it.
+        if np.count_nonzero(before + after <= reach[near] - radius[near]):
+            first, last = (x[:count], y[:count]), (x[count:], y[count:])
+            found |= self._meets_edges(first, last, (height, height)).any(axis=1)
+        touched: Rows = near[found]
         return touched
 
     def crossings(self, start: Pair, end: Pair, heights: Pair) -> Whole:
@@ -166,8 +176,8 @@ class Shapes:
         met: Flags = (ox * ox + oy * oy < self._radius * self._radius) & (level < self._top)
         return met
 
-    def _near(self, x: Floats, y: Floats, reach: Floats) -> Flags:
-        """Return False where certainly no shape is within reach."""
+    def _near(self, x: Floats, y: Floats, reach: Floats) -> Rows:
+        """Return the indices of all places with a shape within reach, and of some others."""
         if self._map is None:
             self._map = _Clearance(self)
         return self._map.below(x, y, reach)
@@ -178,7 +188,8 @@ class _Clearance:
 
     def __init__(self, shapes: Shapes) -> None:
         low_x, low_y, high_x, high_y = shapes.bounds
-        self._x, self._y = low_x, low_y
+        self._bounds = low_x, low_y, high_x, high_y
+        self._shapes = shapes.count
         side = max(high_x - low_x, high_y - low_y) / _MOST_CELLS
         self._side = max(side, _LEAST_SIDE)
         self._columns = int((high_x - low_x) / self._side) + 1
@@ -191,11 +202,18 @@ class _Clearance:
             y = np.full(self._columns, low_y + (line + 0.5) * self._side)
             self._least[line] = shapes.distances(centres, y, None) - half
 
-    def below(self, x: Floats, y: Floats, reach: Floats) -> Flags:
-        """Return True where a shape may be nearer than a distance."""
-        column = ((x - self._x) / self._side).astype(np.int64)
-        line = ((y - self._y) / self._side).astype(np.int64)
-        inside = (x >= self._x) & (y >= self._y) & (column < self._columns) & (line < self._lines)
-        least = self._least[np.where(inside, line, 0), np.where(inside, column, 0)]
-        near: Flags = ~inside | (least < reach)
-        return near
+    def below(self, x: Floats, y: Floats, reach: Floats) -> Rows:
+        """Return the indices of places from which a shape may be nearer than a distance."""
+        low_x, low_y, high_x, high_y = self._bounds
+        away_x, away_y = np.maximum(low_x - x, x - high_x), np.maximum(low_y - y, y - high_y)
+        near: Rows = (np.maximum(away_x, away_y) <= reach).nonzero()[0]
+        if len(near) * self._shapes <= _FEW:
+            return near
+        x, y, reach = x[near], y[near], reach[near]
+        inner_x = np.minimum(np.maximum(x, low_x), high_x)
+        inner_y = np.minimum(np.maximum(y, low_y), high_y)
+        column = ((inner_x - low_x) / self._side).astype(np.int64)
+        line = ((inner_y - low_y) / self._side).astype(np.int64)
+        # The way to the map is at most this much longer than the distance.
+        reach = reach + np.abs(x - inner_x) + np.abs(y - inner_y)
+        return near[self._least[line, column] <= reach]

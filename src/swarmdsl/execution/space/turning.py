@@ -13,9 +13,14 @@ import numpy as np
 from swarmdsl.execution.space.arrays import Floats
 
 _QUARTER = math.pi / 2
-# Taylor series up to the 17th power: less than 1e-16 away between -pi/4 and pi/4.
-_SINE = [(-1) ** n / math.factorial(2 * n + 1) for n in range(9)]
-_COSINE = [(-1) ** n / math.factorial(2 * n) for n in range(9)]
+# Taylor series up to the 17th power: less than 1e-16 away between -pi/4 and pi/4. Cosine and sine
+# side by side: half as many calls of NumPy, which take longer than what they compute.
+_SERIES = [
+    np.array([[(-1) ** n / math.factorial(2 * n)], [(-1) ** n / math.factorial(2 * n + 1)]])
+    for n in range(9)
+]
+_COSINES, _SINES = np.array([1.0, 0.0, -1.0, 0.0]), np.array([0.0, 1.0, 0.0, -1.0])
+"""Those of the four right angles."""
 
 
 def direction(angles: Floats) -> tuple[Floats, Floats]:
@@ -23,18 +28,15 @@ def direction(angles: Floats) -> tuple[Floats, Floats]:
     quarters = np.rint(angles / _QUARTER)
     rest = angles - quarters * _QUARTER
     square = rest * rest
-    sine = np.full_like(rest, _SINE[-1])
-    cosine = np.full_like(rest, _COSINE[-1])
-    for above, beside in zip(_SINE[-2::-1], _COSINE[-2::-1], strict=True):
-        sine = sine * square + above
-        cosine = cosine * square + beside
-    sine = sine * rest
+    both = _SERIES[-1] * square
+    for factor in _SERIES[-2:0:-1]:
+        both += factor
+        both *= square
+    both += _SERIES[0]
+    cosine, sine = both[0], both[1] * rest
     turn = quarters.astype(np.int64) & 3
-    swapped = (turn & 1) == 1
-    first, second = np.where(swapped, sine, cosine), np.where(swapped, cosine, sine)
-    first = np.where((turn == 1) | (turn == 2), -first, first)
-    second = np.where(turn >= 2, -second, second)
-    return first, second
+    across, along = _COSINES[turn], _SINES[turn]
+    return across * cosine - along * sine, across * sine + along * cosine
 
 
 def direction_of(angle: float) -> tuple[float, float]:

@@ -24,6 +24,8 @@ class Weather:
         self._rains = [(each.start, each.end) for each in layout.rains]
         self.blows = bool(self._winds)
         """True if there is ever any wind."""
+        self.strongest = sum(each.speed for each in layout.winds)
+        """Speed that the wind never exceeds."""
         self.rains = bool(self._rains)
         """True if there is ever any rain."""
 

@@ -77,7 +77,7 @@ class Model(ABC):
 
 def statuses(done: Flags, failed: Flags | None = None) -> Small:
     """Return the status of robots that are done, have failed, or go on."""
-    found = np.where(done, SUCCEEDED, RUNNING).astype(np.int8)
+    found: Small = done.astype(np.int8)  # SUCCEEDED is 1, RUNNING is 0
     if failed is not None:
         found[failed] = ABORTED
     return found

@@ -10,13 +10,10 @@ import numpy as np
 from swarmdsl.execution.space.arrays import Rows, Small
 from swarmdsl.execution.space.functions.base import Arguments, Finding, Model, statuses
 from swarmdsl.execution.space.functions.choice import Choice
-from swarmdsl.execution.space.hashing import key
-from swarmdsl.execution.space.turning import direction
+from swarmdsl.execution.space.functions.turns import Turns
 
 if TYPE_CHECKING:
     from swarmdsl.execution.space.stage import Stage
-
-_DIRECTION, _LENGTH = key("random_walk", "direction"), key("random_walk", "length")
 
 
 class RandomWalk(Model):
@@ -33,11 +30,11 @@ class RandomWalk(Model):
     def __init__(self, stage: Stage) -> None:
         super().__init__(stage)
         rows = stage.rows
-        self._legs = np.zeros(rows, dtype=np.int64)
+        self._turns = Turns("random_walk", stage)
         self._goes = np.zeros(rows, dtype=np.bool_)
         self._left, self._leg, self._time = np.zeros(rows), np.zeros(rows), np.zeros(rows)
         self._x, self._y, self._speed = np.zeros(rows), np.zeros(rows), np.zeros(rows)
-        self._height, self._turn = np.zeros(rows), np.zeros(rows)
+        self._height = np.zeros(rows)
         self._choice = Choice(stage)
         self._found = np.full(rows, -1)
         self._looks = np.zeros(rows, dtype=np.bool_)
@@ -51,7 +48,7 @@ class RandomWalk(Model):
         self.stage.eyes.latest[looking] = -1
         self.stage.eyes.visible[looking] = False
         self._leg[who] = arguments["leg"]
-        self._turn[who] = arguments["turn"]
+        self._turns.begin(who, arguments["turn"])
         self._x[who], self._y[who] = self.stage.heading_x[who], self.stage.heading_y[who]
         self._goes[who] = False
         self._time[who] = math.inf if arguments["time"] is None else arguments["time"]
@@ -61,27 +58,25 @@ class RandomWalk(Model):
     def step(self, who: Rows, dt: float) -> Small:
         """Go on, or turn, until its time is over or it sees a target."""
         stage = self.stage
-        turns = (self._left[who] <= 0) | stage.touched[who]
-        if turns.any():
-            turning = who[turns]
-            self._legs[turning] += 1
-            count = self._legs[turning]
+        here = stage.part_of(who)
+        turning = who[(self._left[here] <= 0) | stage.touched[here]]
+        if len(turning):
             # The first direction is any, and that after a contact.
-            goes_on = self._goes[turning] & ~stage.touched[turning]
-            width = np.where(goes_on, self._turn[turning], 2 * math.pi)
-            cosine, sine = direction(width * (stage.chance(turning, _DIRECTION, count) - 0.5))
+            freely = ~self._goes[turning] | stage.touched[turning]
+            cosine, sine, length = self._turns.take(turning, freely)
             x, y = self._x[turning], self._y[turning]
             self._x[turning], self._y[turning] = cosine * x - sine * y, sine * x + cosine * y
             self._goes[turning] = True
-            self._left[turning] = self._leg[turning] * (0.5 + stage.chance(turning, _LENGTH, count))
-        speed = self._speed[who]
-        self._left[who] -= speed * dt
-        self._time[who] -= dt
-        stage.wanted_x[who] = self._x[who] * speed
-        stage.wanted_y[who] = self._y[who] * speed
-        stage.keep_height(who, self._height[who], dt)
-        over, looks = self._time[who] < dt / 2, self._looks[who]
-        if not looks.any():
+            self._left[turning] = self._leg[turning] * (0.5 + length)
+        speed = self._speed[here]
+        self._left[here] -= speed * dt
+        time = self._time[here] - dt
+        self._time[here] = time
+        stage.wanted_x[here] = self._x[here] * speed
+        stage.wanted_y[here] = self._y[here] * speed
+        stage.keep_height(who, self._height[here], dt)
+        over, looks = time < dt / 2, self._looks[here]
+        if not np.count_nonzero(looks):
             return statuses(over)
         target = np.where(looks, self._choice.seen(who), -1)
         seen = target >= 0

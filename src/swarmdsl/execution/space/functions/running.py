@@ -25,12 +25,13 @@ class Running:
         self._who: Rows | None = None
         """Rows in which it is active, until that changes."""
         self._arrays = {
-            name: (array.shape, array.dtype)
+            name: array
             for name, array in vars(stage).items()
             if isinstance(array, np.ndarray) and name != "air_speed"
         }
-        """Shape and type of each array of the stage that is the same in all steps."""
+        """Arrays of the stage, of which each has one shape and type in all steps."""
         self._model = self._guarded(make, stage)
+        self._zeros = np.zeros(stage.rows)
         self._stepped: Rows = np.empty(0, dtype=np.int64)
 
     def start(self, row: int, arguments: Mapping[str, Any]) -> None:
@@ -65,9 +66,10 @@ class Running:
             raise ModelError(self.name, f"`step` returns {what}, not a status for each robot")
         stage = self._stage
         for wanted in (stage.wanted_x, stage.wanted_y, stage.wanted_z):
-            if not np.isfinite(wanted[who]).all():
+            # Zero, unless something is infinite or no number.
+            if wanted.dot(self._zeros) != 0.0:
                 raise ModelError(self.name, "`step` wants a velocity that is not finite")
-        ended = np.flatnonzero(status != RUNNING)
+        ended = (status != RUNNING).nonzero()[0]
         return list(zip(who[ended].tolist(), status[ended].tolist(), strict=True))
 
     def contacts(self) -> list[tuple[int, int]]:
@@ -90,9 +92,14 @@ class Running:
             raise ModelError(self.name, "it ends the process with `SystemExit`") from error
         except Exception as error:
             raise ModelError(self.name, error) from error
-        for name, (shape, dtype) in self._arrays.items():
-            array = getattr(self._stage, name)
-            if getattr(array, "shape", None) != shape or array.dtype != dtype:
-                reason = f"it replaces `stage.{name}` by something of another shape or type"
-                raise ModelError(self.name, reason)
+        now = vars(self._stage)
+        for name, array in self._arrays.items():
+            if now.get(name) is not array:
+                self._check_replaced(name, now.get(name), array)
         return found
+
+    def _check_replaced(self, name: str, new: Any, old: Any) -> None:
+        if not isinstance(new, np.ndarray) or (new.shape, new.dtype) != (old.shape, old.dtype):
+            reason = f"it replaces `stage.{name}` by something of another shape or type"
+            raise ModelError(self.name, reason)
+        self._arrays[name] = new
