@@ -12,6 +12,7 @@ Each code has a page in `explain/` (printed by `swarmc explain CODE`) and a case
     12xx  import                 13xx  diagrams
     14xx  comparison             15xx  new projects, changes of models
     16xx  properties                 17xx  verification
+    18xx  experiments
 """
 
 # The annotations here are values: typing would compile texts one by one.
@@ -404,4 +405,10 @@ CODES: dict[str, Code] = {
     "failed-computation": Code("SW1708", "warning", "evaluation fails in `{name}`: {reason}"),
     "size-not-allowed": Code("SW1709", "error", "this swarm cannot have {count} `{role}`"),
     "endless-answers": Code("SW1710", "warning", "robots can answer `{name}` without end"),
+    # ---- experiments
+    "runs-there": Code("SW1801", "error", "`{path}` has runs already"),
+    "no-store": Code("SW1802", "error", "cannot keep runs in `{path}`: {reason}"),
+    "no-engine": Code("SW1803", "error", "cannot run on `{address}`: {reason}"),
+    "worker-refuses": Code("SW1804", "error", "a worker refuses the runs: {reason}"),
+    "lost-workers": Code("SW1805", "error", "workers were lost {times} times: {reason}"),
 }

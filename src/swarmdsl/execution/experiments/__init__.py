@@ -1,0 +1,1 @@
+"""Searches and experiments: many candidates, many seeds, many workers."""

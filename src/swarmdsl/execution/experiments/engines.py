@@ -1,0 +1,133 @@
+"""Engines: what runs tasks, as executors of `concurrent.futures`.
+
+Packages add engines as entry points of the group `swarmdsl.executors`: a function from the address
+behind `NAME://` to an executor.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from importlib.metadata import entry_points
+from importlib.util import find_spec
+from multiprocessing import get_context, parent_process
+from threading import Thread
+from typing import Any
+
+from swarmdsl.base.errors import describe_exception
+from swarmdsl.base.suggest import suggest
+from swarmdsl.execution.experiments.failures import StoppedError
+
+GROUP = "swarmdsl.executors"
+_DASK = ("tcp", "tls", "ucx")
+_WAIT = 10
+"""Seconds to look for a scheduler and for a worker."""
+
+
+class Engine:
+    """An executor that is started when it is needed, and again after its processes were lost."""
+
+    def __init__(self, name: str, start: Callable[[], Executor], workers: int) -> None:
+        self.name = name
+        self._start = start
+        self._workers = workers
+        self._executor: Executor | None = None
+
+    def __enter__(self) -> Engine:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        self.stop(is_hurried=kind is not None)
+
+    @property
+    def workers(self) -> int:
+        """Number of tasks that run at a time."""
+        return max(int(getattr(self.executor, "workers", self._workers)), 1)
+
+    @property
+    def executor(self) -> Executor:
+        """The executor."""
+        if self._executor is None:
+            self._executor = self._start()
+        return self._executor
+
+    def stop(self, *, is_hurried: bool = False) -> None:
+        """End the workers; without waiting for their tasks if `is_hurried`."""
+        executor, self._executor = self._executor, None
+        if executor is None:
+            return
+        processes = list((getattr(executor, "_processes", None) or {}).values())
+        if is_hurried:
+            for process in processes:
+                process.terminate()
+        executor.shutdown(wait=True, cancel_futures=True)
+
+
+def local(jobs: int) -> Engine:
+    """Return the engine with processes of this computer; one job is this process."""
+    if jobs == 1:
+        return Engine("this process", Inline, 1)
+    # Processes that are not copies of this one are the same on each platform.
+    return Engine(
+        f"{jobs} processes",
+        lambda: ProcessPoolExecutor(jobs, get_context("spawn"), _begin_worker),
+        jobs,
+    )
+
+
+def cluster(address: str) -> Engine:
+    """Return the engine of a cluster at an address."""
+    kind, _, rest = address.partition("://")
+    points = {point.name: point for point in entry_points(group=GROUP)}
+    if kind in points:
+        return Engine(address, lambda: _foreign(points[kind].load(), address, rest), 8)
+    if not rest or kind not in _DASK:
+        help_ = suggest(kind, (*_DASK, *points), "kinds")
+        reason = "it begins with no kind of engine"
+        raise StoppedError("no-engine", help_, address=address, reason=reason)
+    if find_spec("distributed") is None:
+        help_ = "`pip install 'swarmdsl[cluster]'` installs it"
+        raise StoppedError("no-engine", help_, address=address, reason="there is no Dask here")
+    from swarmdsl.execution.experiments.dask_engine import DaskExecutor
+
+    return Engine(address, lambda: DaskExecutor(address, _WAIT), 1)
+
+
+class Inline(Executor):
+    """Executor that runs each task at once, in this process."""
+
+    workers = 1
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **named: Any) -> Future[Any]:
+        """Run a task; return its result."""
+        future: Future[Any] = Future()
+        try:
+            future.set_result(fn(*args, **named))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+def _foreign(make: Callable[[str], Executor], address: str, rest: str) -> Executor:
+    try:
+        return make(rest)
+    # The code of a third-party package.
+    except Exception as error:
+        reason = describe_exception(f"starting the engine {address}", error)
+        raise StoppedError("no-engine", None, address=address, reason=reason) from error
+
+
+def _begin_worker() -> None:
+    """Leave interrupts to the main process, and end with it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    assert parent is not None
+    parent.join()
+    # Killed: there is nobody to give the results to.
+    os._exit(1)

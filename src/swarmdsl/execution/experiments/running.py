@@ -1,0 +1,187 @@
+"""Run tasks on an engine: rows in the order of the tasks, whoever does them."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Future,
+    wait,
+)
+from typing import Any, NamedTuple
+
+from swarmdsl.base.errors import describe_exception
+from swarmdsl.base.records import replace
+from swarmdsl.execution.experiments.blocks import Pace, cut
+from swarmdsl.execution.experiments.engines import Engine
+from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.shipment import Shipment
+from swarmdsl.execution.experiments.store import Key, Store
+from swarmdsl.execution.experiments.task import Row, Task, row_of
+from swarmdsl.execution.experiments.worker import work
+
+_MOST_LOSSES = 3
+"""How often workers may be lost, one time after the other, without a result between."""
+_AHEAD = 2
+"""Tasks that wait for each worker, so that none of them waits for this process."""
+
+
+class Progress:
+    """What a user sees of the runs; this one shows nothing."""
+
+    def begin(self, runs: int, known: int) -> None:
+        """Begin so many runs, of which some are known."""
+
+    def add(self, rows: Sequence[Row]) -> None:
+        """Note new rows, in the order in which they come."""
+
+
+class _Block(NamedTuple):
+    """A part of a task, by the number of this."""
+
+    number: int
+    seeds: list[int]
+
+
+class Runs:
+    """Runs of some models, by digest, on an engine; what the store has is not run again."""
+
+    def __init__(
+        self,
+        shipments: Mapping[str, Shipment],
+        engine: Engine,
+        store: Store,
+        progress: Progress | None = None,
+        limit: float | None = None,
+    ) -> None:
+        self._shipments = {digest: each.as_data() for digest, each in shipments.items()}
+        self._texts = {
+            (digest, name): each.scenario_digest(name)
+            for digest, each in shipments.items()
+            for name in (*each.scenarios, "")
+        }
+        self._engine = engine
+        self._store = store
+        self._progress = progress or Progress()
+        self._limit = limit
+        self._pace = Pace()
+        self.ran = 0
+        """Number of runs that were not in the store."""
+
+    def run(self, tasks: Sequence[Task]) -> list[list[Row]]:
+        """Return the rows of each task, in the order of its seeds. Raises StoppedError."""
+        wanted: dict[Task, dict[int, None]] = {}
+        for task in tasks:
+            wanted.setdefault(replace(task, seeds=()), {}).update(dict.fromkeys(task.seeds))
+        whole = [replace(task, seeds=tuple(seeds)) for task, seeds in wanted.items()]
+        found = {
+            runs: self._store.rows(task, self._key(task))
+            for runs, task in zip(wanted, whole, strict=True)
+        }
+        known = sum(map(len, found.values()))
+        total = sum(map(len, wanted.values()))
+        self._progress.begin(total, known)
+        missing = [
+            replace(task, seeds=tuple(seed for seed in task.seeds if seed not in rows))
+            for task, rows in zip(whole, found.values(), strict=True)
+        ]
+        for task, rows in self._work(missing, total - known):
+            found[replace(task, seeds=())].update((row.seed, row) for row in rows)
+        return [[found[replace(task, seeds=())][seed] for seed in task.seeds] for task in tasks]
+
+    def _work(self, tasks: Sequence[Task], total: int) -> Iterator[tuple[Task, list[Row]]]:
+        """Yield rows as workers bring them."""
+        waiting = deque(
+            _Block(number, list(task.seeds)) for number, task in enumerate(tasks) if task.seeds
+        )
+        if not waiting:
+            return
+        again: deque[_Block] = deque()
+        running: dict[Future[Any], _Block] = {}
+        workers = self._engine.workers
+        left, losses = total, 0
+        while waiting or again or running:
+            while (waiting or again) and len(running) < workers * (1 + _AHEAD):
+                block = again.popleft() if again else self._next(tasks, waiting, left, workers)
+                left -= len(block.seeds)
+                try:
+                    running[self._submit(tasks[block.number], block.seeds)] = block
+                except BrokenExecutor:
+                    again.appendleft(block)
+                    break
+            done, _ = wait(running, return_when=FIRST_COMPLETED)
+            is_lost = not running
+            for future in sorted(done, key=lambda each: running[each]):
+                block = running.pop(future)
+                task = tasks[block.number]
+                try:
+                    answer = future.result()
+                except (BrokenExecutor, CancelledError):
+                    again.append(block)
+                    is_lost = True
+                    continue
+                # Of the executor: a task that was given to lost workers too often, for instance.
+                except Exception as error:
+                    again.append(block)
+                    losses = self._lose(losses, describe_exception("a task", error))
+                    continue
+                losses = 0
+                yield task, self._rows(task, answer)
+            if is_lost:
+                again.extend(running.values())
+                running.clear()
+                losses = self._lose(losses, "a process ended by itself")
+                self._engine.stop(is_hurried=True)
+
+    def _next(
+        self, tasks: Sequence[Task], waiting: deque[_Block], left: int, workers: int
+    ) -> _Block:
+        """Cut the next block; at the end, each worker gets a share."""
+        number, seeds = waiting.popleft()
+        share = max(left // (workers * 2), 1)
+        task = tasks[number]
+        size = self._pace.size(f"{task.digest} {task.scenario}")
+        first, rest = cut(seeds, min(size, share) if len(waiting) == 0 else size)
+        if rest:
+            waiting.appendleft(_Block(number, rest))
+        return _Block(number, first)
+
+    def _submit(self, task: Task, seeds: Sequence[int]) -> Future[Any]:
+        data: dict[str, Any] = {
+            "scenario": task.scenario,
+            "candidate": task.candidate.values,
+            "seeds": list(seeds),
+        }
+        if self._limit is not None:
+            data["limit"] = self._limit
+        return self._engine.executor.submit(work, self._shipments[task.digest], data)
+
+    def _rows(self, task: Task, answer: Mapping[str, Any]) -> list[Row]:
+        """Keep the rows of an answer, and return them."""
+        if "refused" in answer:
+            help_ = "install the same version of swarmdsl on all computers"
+            raise StoppedError("worker-refuses", help_, reason=answer["refused"])
+        data, seconds = answer["rows"], answer["seconds"]
+        rows = [row_of(task, each, seconds / len(data)) for each in data]
+        self._pace.note(f"{task.digest} {task.scenario}", len(rows), seconds, answer["batch"])
+        self._store.add(self._key(task), rows, str(answer["worker"]))
+        self.ran += len(rows)
+        self._progress.add(rows)
+        return rows
+
+    def _key(self, task: Task) -> Key:
+        text = self._texts[task.digest, task.scenario]
+        return Key(task.digest, task.scenario, text, task.candidate)
+
+    def _lose(self, losses: int, reason: str) -> int:
+        """Return the new number of losses; raise StoppedError if there are too many."""
+        if losses >= _MOST_LOSSES:
+            help_ = (
+                "the runs that are done are kept: try fewer `--jobs`, so that each has more "
+                "memory, and `--resume`"
+            )
+            raise StoppedError("lost-workers", help_, reason=reason, times=losses + 1)
+        return losses + 1

@@ -1,0 +1,59 @@
+"""Apply a candidate to a scenario: its settings replace what the file says."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import COMMAND_LINE, Source, Span
+from swarmdsl.driver.config.toml import Document, Keys, Place
+from swarmdsl.execution.experiments.task import COUNT, SCENARIO, Candidate
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.scenario_file import read_scenario
+from swarmdsl.execution.simulate.subject import Subject
+
+EMPTY = Document(Source(COMMAND_LINE, ""), {})
+"""Document of runs without a scenario."""
+
+
+class _Places(dict[Keys, Place]):
+    """Places of a document; settings of a candidate are at the candidate itself."""
+
+    def __init__(self, known: dict[Keys, Place], candidate: Candidate) -> None:
+        super().__init__(known)
+        text = candidate.text
+        span = Span(Source(COMMAND_LINE, text), 0, len(text))
+        self._place = Place(span, span)
+
+    def __missing__(self, _keys: Keys) -> Place:
+        return self._place
+
+
+def keys_of(setting: str) -> tuple[str, ...]:
+    """Return the keys of a setting in a scenario."""
+    if setting.startswith(COUNT):
+        return "count", setting.removeprefix(COUNT)
+    if setting.startswith(SCENARIO):
+        return tuple(setting.removeprefix(SCENARIO).split("."))
+    word, _, param = setting.rpartition(".")
+    return "params", word, param
+
+
+def apply_candidate(
+    candidate: Candidate, document: Document, subject: Subject, report: Diagnostics
+) -> Scenario | None:
+    """Return the scenario with the settings of a candidate; None if it has mistakes."""
+    values = copy.deepcopy(document.values)
+    places = _Places(document.places, candidate)
+    for name, value in candidate.settings:
+        *above, last = keys = keys_of(name)
+        table: dict[str, Any] = values
+        for key in above:
+            inner = table.get(key)
+            table[key] = table = inner if isinstance(inner, dict) else {}
+        table[last] = value
+        for known in [each for each in places if each[: len(keys)] == keys]:
+            del places[known]
+    found = read_scenario(Document(document.source, values, places), subject, report)
+    return found if not report.has_errors else None
