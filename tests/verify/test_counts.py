@@ -9,8 +9,9 @@ import pytest
 
 from swarmdsl.execution.verify.explore import explore
 from swarmdsl.execution.verify.findings import survey
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.network import Group, Network
+from swarmdsl.execution.verify.network import Network
 
 from .conftest import model_of
 

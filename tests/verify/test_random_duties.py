@@ -10,9 +10,9 @@ import pytest
 
 from swarmdsl.cli import run
 from swarmdsl.execution.verify.environment import Options
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.network import Group
-from swarmdsl.execution.verify.runs import written
+from swarmdsl.execution.verify.run import written
 
 from .conftest import model_of, system_of, verdicts_of
 from .random_duties import random_duties

@@ -10,10 +10,10 @@ from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.verify.cover import Cover, cover
 from swarmdsl.execution.verify.doubt import Doubt
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.questions import Bounds, question
 from swarmdsl.execution.verify.sentence import is_about_ends, not_covered
 from swarmdsl.execution.verify.subjects import about

@@ -2,27 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import reduce
 from operator import or_
 from typing import Any
 
-from swarmdsl.execution import monitor
-from swarmdsl.execution.engine import NO_ENVELOPE, Envelope, Event
+from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.expressions import SELF
 from swarmdsl.execution.simulate.members import DEPARTED
-from swarmdsl.execution.simulate.properties import claim_of, conditions
 from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.verify.alphabet import Alphabet, frozen
-from swarmdsl.execution.verify.body import Body, Input, Task
+from swarmdsl.execution.verify.alphabet import Alphabet
+from swarmdsl.execution.verify.body import Body
+from swarmdsl.execution.verify.holding import Holding
 from swarmdsl.execution.verify.kind import Kind
-from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.moves import Look, Moment, Move, Slot
 from swarmdsl.execution.verify.slots import Occupied, carried, occupied
-from swarmdsl.ir import Count, Fact
+from swarmdsl.execution.verify.state_key import StateKey
+from swarmdsl.execution.verify.tasks import Input, Task
 
 
 class Automaton:
@@ -46,6 +43,7 @@ class Automaton:
         """For each state, the loss of the robot; None where it is lost, or cannot be."""
         self.is_lost: list[bool] = []
         self.first: Move
+        self._key = StateKey(alphabet)
         self._keys: dict[Any, int] = {}
         self._origins: list[tuple[int, Input] | None] = []
         self.looks: list[Look] = []
@@ -58,16 +56,8 @@ class Automaton:
         """Names of the deferred events of each state."""
         self.values: list[tuple[tuple[str, Any], ...]] = []
         """For each state, the values of the variables that decide on anything."""
-        self._has = conditions(self._data)
-        self._facts = monitor.Facts()
-        self._bits = [self._facts.bit(_plain(fact), None) for fact in kind.facts]
-        self._momentary = sum(
-            1 << number for number, bit in enumerate(self._bits) if bit & self._facts.momentary
-        )
-        self.gone = 1 << len(self._bits)
-        """Fact of lost robots, behind the others."""
-        self._kinds = {actor: self._facts.kind_of(actor) for actor in kind.cast}
-        self._body: Body | None = None
+        self._holding = Holding(kind)
+        self.gone = self._holding.gone
         self._listening: dict[str, bool] = {}
         self._begin()
 
@@ -272,14 +262,14 @@ class Automaton:
 
         def see(line: Line) -> None:
             actor = numbers[line.actor.name]
-            held[actor], momentary = self._holding(line)
+            held[actor], momentary = self._holding.at(line, body)
             if line.event == LOST:
                 # No fact holds for a lost robot.
                 held[:] = [self.gone] + [0] * (len(held) - 1)
             shown.append((actor, reduce(or_, held, momentary)))
 
-        self._body, body.seen = body, see
-        before, running = list(body.tasks()), occupied(body, self._shown)
+        body.seen = see
+        before, running = list(body.tasks()), occupied(body, self._key.waiting)
         act()
         left = {id(each) for _, each in body.tasks()}
         ended = frozenset(task for task, each in before if id(each) not in left)
@@ -300,7 +290,7 @@ class Automaton:
         )
         sends = tuple(map(self.alphabet.number, body.sent))
         origin = None if source is None else (source, given)
-        after = occupied(body, self._shown)
+        after = occupied(body, self._key.waiting)
         target = self._add(body, tuple(held), origin, after)
         taken = carried(running, after, self._labels[target])
         return Move(given, moments, sends, target, ended, taken)
@@ -312,7 +302,7 @@ class Automaton:
         origin: tuple[int, Input] | None,
         running: Sequence[Occupied],
     ) -> int:
-        key = (self._key(body), held)
+        key = (self._key.of(body), held)
         if key not in self._keys:
             self._keys[key] = len(self.steps)
             self.steps.append(None)
@@ -339,97 +329,5 @@ class Automaton:
             self.tasks.append(frozenset(task for task, _ in body.tasks()))
             self.slots.append([each.slot for each in running])
             self._labels.append([each.label for each in running])
-            self.values.append(self._kept(body))
+            self.values.append(self._key.kept(body))
         return self._keys[key]
-
-    def _data(self, actor: Actor) -> Mapping[str, Any]:
-        assert self._body is not None
-        found: Mapping[str, Any] = self._body.instances[list(self._body.cast).index(actor)].data
-        return found
-
-    def _kept(self, body: Body) -> tuple[tuple[str, Any], ...]:
-        """Return the variables that decide on anything."""
-        demands = self.alphabet.demands
-        return tuple(
-            (f"{instance.machine.name}.{name}", frozen(value))
-            for instance in body.instances
-            for name, value in instance.data.items()
-            if name != SELF and demands.keeps(instance.machine.name, name)
-        )
-
-    def _key(self, body: Body) -> Any:
-        """Return what decides on everything that a body does from now on."""
-        if body.is_lost:
-            return LOST
-        machines = tuple(
-            (
-                instance.running,
-                instance.final,
-                instance.configuration.active,
-                instance.configuration.histories,
-                tuple(map(self._shown, instance._deferred or ())),
-            )
-            for instance in body.instances
-        )
-        runs = tuple(sorted((number, run.state) for number, run in body.runs))
-        delays = tuple(
-            sorted(
-                (d.actor, d.timer.id, repr(d.timer.message and self._shown(d.timer.message)))
-                for d in body.delays
-            )
-        )
-        inside = tuple(map(self._shown, body.inside))
-        missing = sorted(body.roster.missing) if body.roster is not None and body.running else ()
-        kept = self._kept(body) if body.running else ()
-        used = tuple(sorted(body.used)) if body.running else ()
-        return machines, runs, delays, inside, kept, tuple(missing), used
-
-    def _shown(self, event: Event) -> Any:
-        """Return what decides of an event that waits."""
-        envelope = event.envelope or NO_ENVELOPE
-        sender = envelope.sender if self.alphabet.demands.identity else ""
-        return (event.name, self.alphabet.shown(event), envelope.to or "", sender)
-
-    def _holding(self, line: Line) -> tuple[int, int]:
-        """Return the facts that hold for the machine of a line: lasting and momentary ones."""
-        holding = self._kinds[line.actor].holding(line, self._has)
-        found = sum(1 << number for number, bit in enumerate(self._bits) if holding & bit)
-        return found & ~self._momentary, found & self._momentary
-
-
-def close(
-    automata: Sequence[Automaton], alphabet: Alphabet, states: int, moves: int, budget: Budget
-) -> bool:
-    """Find all states of some automata; return False if there are more.
-
-    Each robot hears each message at any time: this includes whatever happens in a swarm. The
-    search in an automaton ends at a number of states or moves, or with the time or memory.
-    """
-    changed = True
-    complete = True
-    while changed:
-        changed = False
-        for automaton in automata:
-            number = 0
-            while number < len(automaton.steps):
-                is_known = automaton.steps[number] is not None
-                automaton.is_too_large |= number >= states or automaton.replays >= moves
-                if automaton.is_too_large or not (is_known or budget.allows(0)):
-                    complete = False
-                    break
-                if not is_known:
-                    automaton.expand(number)
-                    changed = True
-                for message in range(len(alphabet.messages)):
-                    known = message in automaton.heard[number] or message in automaton.late[number]
-                    if not known and automaton.listens(message):
-                        automaton.hear(number, message)
-                        changed = True
-                number += 1
-    return complete
-
-
-def _plain(fact: Fact | Count) -> monitor.Fact | monitor.Count:
-    claim = claim_of(fact)
-    assert not isinstance(claim, monitor.Junction)
-    return claim

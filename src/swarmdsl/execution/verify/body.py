@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import deepcopy
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.codegen.shared.default_values import default_result
@@ -27,52 +27,7 @@ from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.members import DEPARTED, JOINED, Roster
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.verify.crew import Crew
-
-
-class Input(NamedTuple):
-    """Input of a robot; `actor` is the number of its machine, -1 for all of them.
-
-    `kind` is `end` of an activity, `time` of a delay, `inside` for an event of the robot itself,
-    `outside` for one from outside of the swarm, `hear` for one of another robot, and `lose` for the
-    loss of the robot.
-    """
-
-    kind: str
-    actor: int
-    name: str
-    choice: Any = None
-
-
-Task = tuple[str, int, str | int]
-"""Running activity or delay, or inner events that wait: kind of input, machine, state or timer."""
-
-
-class Delay:
-    """A running delay: its timer, its length in nanoseconds, and when it began."""
-
-    def __init__(self, actor: int, action: Callable[[], None], length: int, began: int) -> None:
-        self.actor = actor
-        self.timer: Any = getattr(action, "__self__", None)
-        self.length = length
-        self.began = began
-        self.ended: int | None = None
-        """Number of the step at which it ended or was cancelled."""
-        self.fired = False
-
-
-class Wait:
-    """A call of a function, or an event of a robot for itself, and when it began.
-
-    `function` is None for an event.
-    """
-
-    def __init__(self, task: object, function: str | None, began: int) -> None:
-        self.task = task
-        self.function = function
-        self.began = began
-        self.ended: int | None = None
-        """Number of the step at which it ended or was cancelled."""
-        self.fired = False
+from swarmdsl.execution.verify.tasks import Delay, Input, Task, Wait
 
 
 class Body:

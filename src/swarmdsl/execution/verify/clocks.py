@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from swarmdsl.execution.verify.automaton import Automaton
-from swarmdsl.execution.verify.body import Task
 from swarmdsl.execution.verify.moves import Look, Move
 from swarmdsl.execution.verify.slots import slot_of
+from swarmdsl.execution.verify.tasks import Task
 from swarmdsl.execution.verify.timing import Bounds
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TextIO
@@ -31,9 +30,10 @@ from swarmdsl.execution.verify.environment import Options
 from swarmdsl.execution.verify.findings import Survey, survey
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.progress import Progress
 from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.results import Results, as_document, junit
-from swarmdsl.execution.verify.runs import Run, written
+from swarmdsl.execution.verify.run import Run, written
 from swarmdsl.execution.verify.saved_test import (
     Setting,
     Shown,
@@ -43,11 +43,10 @@ from swarmdsl.execution.verify.saved_test import (
 )
 from swarmdsl.execution.verify.sentence import is_about_ends
 from swarmdsl.execution.verify.sizes import Size, bounds, shown, sizes, whole
+from swarmdsl.execution.verify.summary import Search, summary
 from swarmdsl.execution.verify.verdict import INTERRUPTED, Verdict
 from swarmdsl.project.read_source import read_source
 
-_PAUSE = 0.2
-"""Seconds between two reports of the progress."""
 _WORST = ("fails", "unknown", "up to", "holds")
 
 
@@ -94,7 +93,7 @@ class _Session:
         self._request = request
         self._report = report
         self._results = stdout if request.format == "text" else stderr
-        self._progress = _Progress(stderr)
+        self._progress = Progress(stderr)
         self._budget = Budget(request.limits, self._progress.tell)
         self._models: list[Path] = []
         self._written: dict[str, Path] = {}
@@ -157,7 +156,14 @@ class _Session:
             tuple(bounds(subject, self._request.sizes)),
             model.environment.faults,
         )
-        self._print(subject, self._found, left, surveys)
+        search = Search(
+            tuple(surveys),
+            left,
+            has_places=has_geometry(subject, self._scenario or Scenario()),
+            interrupted=self._budget.interrupted,
+        )
+        for line in summary(subject, self._found, search):
+            self._say(line)
         self._save_test(subject)
         return None if self._budget.interrupted else True
 
@@ -281,43 +287,6 @@ class _Session:
 
     # ---- after
 
-    def _print(
-        self,
-        subject: Subject,
-        results: Results,
-        left: int,
-        surveys: Sequence[Survey],
-    ) -> None:
-        self._say(f"{subject.name}: {shown(subject, results.sizes, results.free)}")
-        if has_geometry(subject, self._scenario or Scenario()):
-            self._say("  places are left out: any robot may reach any other one, functions may end")
-            self._say("  in any way, and nobody sees anything or runs out of energy")
-        if results.free and surveys:
-            self._say(f"  of {shown(subject, results.sizes)}:")
-        for found in surveys:
-            states = diagnostics.counted_in_thousands(found.states, "state")
-            steps = diagnostics.counted_in_thousands(found.transitions, "step")
-            rest = f"there are more, as {found.missing}" if found.missing else "all there are"
-            self._say(f"  {states}, {steps}: {rest}")
-        if left:
-            sizes_left = diagnostics.counted_in_thousands(left, "larger size")
-            why = INTERRUPTED if self._budget.interrupted else "the search came to its limit"
-            self._say(f"  {sizes_left} not looked at: {why}")
-        lines = list(diagnostics.rows(results.verdicts, results.faults))
-        if lines:
-            self._say("")
-        widths = [max(len(line[n]) for line in lines) for n in range(2)] if lines else []
-        for name, outcome, reason in lines:
-            text = f"  {name:<{widths[0]}}  {outcome:<{widths[1]}}  {reason}"
-            self._say(printable(text.rstrip()))
-        self._say("")
-        self._say("under these conditions:")
-        for condition in results.conditions:
-            self._say(printable(f"  - {condition}"))
-        self._say("")
-        for path in self._written.values():
-            self._say(f"written: {printable(path.as_posix())}")
-
     def _say(self, text: str) -> None:
         self._results.write(f"{text}\n")
 
@@ -376,25 +345,3 @@ class _Session:
 
 def _key(counts: Mapping[str, int]) -> tuple[tuple[str, int], ...]:
     return tuple(sorted(counts.items()))
-
-
-class _Progress:
-    """Number of states so far, on a terminal."""
-
-    def __init__(self, stream: TextIO) -> None:
-        self._stream = stream if stream.isatty() else None
-        self._last = time.monotonic()
-
-    def tell(self, states: int) -> None:
-        """Show the number of states, not too often."""
-        now = time.monotonic()
-        if self._stream is not None and now - self._last > _PAUSE:
-            self._last = now
-            self._stream.write(f"\r{states:,} states")
-            self._stream.flush()
-
-    def clear(self) -> None:
-        """Remove what was shown."""
-        if self._stream is not None:
-            self._stream.write("\r\033[K")
-            self._stream.flush()

@@ -13,14 +13,14 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify.composition import Composition, Letter, Local, Team, Turn
 from swarmdsl.execution.verify.diagnostics import conditions
 from swarmdsl.execution.verify.environment import Options as Network
-from swarmdsl.execution.verify.findings import transitions_of
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.network import Network as States
 from swarmdsl.execution.verify.observer import Observer, is_silent
 from swarmdsl.execution.verify.prove import observer_of
+from swarmdsl.execution.verify.reached import transitions_of
 from swarmdsl.execution.verify.sentence import not_covered
 from swarmdsl.execution.verify.sizes import shown
 from swarmdsl.execution.verify.verdict import unfinished

@@ -12,10 +12,11 @@ from swarmdsl.base.source import Span
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.trace import Line, as_text
-from swarmdsl.execution.verify.findings import Fault, Finding, transitions_of
+from swarmdsl.execution.verify.finding import Fault, Finding
 from swarmdsl.execution.verify.hints import hint
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.runs import Run
+from swarmdsl.execution.verify.reached import transitions_of
+from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.timing import Bounds
 from swarmdsl.execution.verify.verdict import Verdict
 

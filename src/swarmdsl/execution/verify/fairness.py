@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from swarmdsl.execution.verify.network import Network, Step
+from swarmdsl.execution.verify.groups import Step
+from swarmdsl.execution.verify.network import Network
 
 
 class Fairness:

@@ -2,44 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
-from typing import Any, Literal
+from collections.abc import Iterator
+from typing import Any
 
-from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.verify.explore import Graph, explore
+from swarmdsl.execution.verify.finding import Finding
+from swarmdsl.execution.verify.groups import Group, Local, Step
 from swarmdsl.execution.verify.influence import apart
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.livelock import livelock
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Group, Local, Step
-from swarmdsl.execution.verify.runs import Run, play, steps_between
+from swarmdsl.execution.verify.play import play
+from swarmdsl.execution.verify.reached import Reached, transitions_of
+from swarmdsl.execution.verify.run import Run, steps_between
 from swarmdsl.execution.verify.verdict import unfinished
-
-Fault = Literal["loops", "fails", "stuck", "waits", "unreachable", "untaken", "lost", "answers"]
-
-
-@dataclass(frozen=True)
-class Finding:
-    """Something that is wrong with a swarm, its place in the model, and a run that leads there.
-
-    `name` is that of a state, an event or a role, `role` that of the robots, `detail` a reason.
-    """
-
-    fault: Fault
-    name: str
-    role: str
-    place: Span | None
-    detail: str = ""
-    run: Run | None = None
-
-    @property
-    def title(self) -> str:
-        """Name of its run."""
-        return f"{self.fault}-{self.name}"
 
 
 @dataclass(frozen=True)
@@ -62,7 +42,7 @@ def survey(model: Model, budget: Budget) -> Survey:
     complete = True
     findings: list[Finding] = []
     full: set[str] = set()
-    reached: dict[str, _Reached] = {}
+    reached: dict[str, Reached] = {}
     for groups in apart(model, model.groups(thorough=True)):
         network = model.network(groups)
         graph = explore(network, budget)
@@ -111,14 +91,14 @@ class _Part:
             yield from self._stuck({place for place, _ in trapped})
             yield from self._lost()
 
-    def reach(self, reached: dict[str, _Reached], *, sure: bool) -> None:
+    def reach(self, reached: dict[str, Reached], *, sure: bool) -> None:
         """Note the states and transitions of each machine that occur."""
         for group in self._network.groups:
             for actor in group.automaton.whole.kind.cast:
                 name = actor.machine.name
                 if name not in reached:
                     machine = self._model.machines[name]
-                    reached[name] = _Reached(machine, actor.machine)
+                    reached[name] = Reached(machine, actor.machine)
                 reached[name].roles[group.role] = None
                 reached[name].sure &= sure
         for number in range(len(self._network.places)):
@@ -324,74 +304,3 @@ def _edges(machine: Machine, state: str) -> Iterator[Any]:
 def _keeps(automaton: Local, move: Move, state: int) -> bool:
     """Return True if a move changes nothing that can be seen."""
     return move.idle and move.target == state
-
-
-def transitions_of(machine: Machine) -> dict[str, ir.Transition]:
-    """Return the transitions of the model by their names in traces."""
-    found = {}
-    for state in machine.states:
-        for each in state.transitions:
-            if isinstance(each.origin, ir.Transition) and (each.origin.triggers or each.guard):
-                found[machine.called(each)] = each.origin
-    return found
-
-
-class _Reached:
-    """States and transitions of a machine that occur in a swarm."""
-
-    def __init__(self, machine: ir.StateMachine, table: Machine) -> None:
-        self._machine = machine
-        self._table = table
-        self.roles: dict[str, None] = {}
-        self.states: set[str] = set()
-        self.taken: set[str] = set()
-        self.sure = True
-
-    def missing(self, ignored: Collection[str]) -> Iterator[Finding]:
-        """Yield what never happens: states first, then transitions between states that occur.
-
-        Transitions on `ignored` events have been reported with these.
-        """
-        if not self.sure:
-            return
-        role = " or ".join(self.roles)
-        every = transitions_of(self._table)
-        entered = self._entered(every)
-        absent: set[str] = set()
-        for state in self._machine.walk():
-            is_place = state.kind not in (ir.StateKind.HISTORY, ir.StateKind.REGION)
-            around = state.id.rpartition(".")[0]
-            if state.id not in entered and is_place:
-                absent.add(state.id)
-                if not any(around == a or around.startswith(f"{a}.") for a in absent):
-                    yield Finding("unreachable", state.id, role, state.origin)
-        for name, transition in every.items():
-            source = name.rpartition("->")[0]
-            if name in self.taken or source not in entered or transition.target in absent:
-                continue
-            triggers = transition.triggers
-            if triggers and all(_is_told(each, ignored) for each in triggers):
-                continue
-            yield Finding("untaken", transition.target or source, role, transition.origin)
-
-    def _entered(self, every: dict[str, ir.Transition]) -> set[str]:
-        """Return the states that occur, with the states around them."""
-        found = set(self.states)
-        for name in self.taken:
-            found.add(name.rpartition("->")[0])
-            if name in every and every[name].target is not None:
-                found.add(str(every[name].target))
-        for state in list(found):
-            names = state.split(".")
-            found.update(".".join(names[:end]) for end in range(1, len(names)))
-        return found
-
-
-def _is_told(trigger: ir.Trigger, ignored: Collection[str]) -> bool:
-    """Return True for events that are told elsewhere, and for what only servers can cause."""
-    match trigger:
-        case ir.EventTrigger(event=event):
-            return event in ignored
-        case ir.OutcomeTrigger(outcome=outcome):
-            return outcome == "preempted"
-    return False

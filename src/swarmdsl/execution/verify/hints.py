@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from swarmdsl import ir
 from swarmdsl.execution.engine import Kind, Machine, State
 from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.verify.runs import Run
+from swarmdsl.execution.verify.run import Run
 
 
 def hint(run: Run) -> str | None:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.network import Group
 
 
 def influences(model: Model, groups: Sequence[Group]) -> list[set[int]]:

@@ -15,10 +15,12 @@ from swarmdsl.execution.monitor import FALSE, Watch
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.verify.copies import Robot
 from swarmdsl.execution.verify.lap_times import lap_times
 from swarmdsl.execution.verify.lassos import Lasso
 from swarmdsl.execution.verify.network import Network
-from swarmdsl.execution.verify.runs import ELSEWHERE, Play, Robot, Run, exceeding, play
+from swarmdsl.execution.verify.play import ELSEWHERE, Play, exceeding, play
+from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.times import in_step
 from swarmdsl.ir import Property
 

@@ -13,10 +13,10 @@ from collections.abc import Iterator, Sequence
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.verify.explore import Graph
 from swarmdsl.execution.verify.fairness import Fairness
+from swarmdsl.execution.verify.groups import Step
 from swarmdsl.execution.verify.limits import Budget
-from swarmdsl.execution.verify.network import Step
 from swarmdsl.execution.verify.observer import Observer
-from swarmdsl.execution.verify.runs import steps_between
+from swarmdsl.execution.verify.run import steps_between
 
 _OFTEN = 1024
 """Number of states between two looks at the limits."""

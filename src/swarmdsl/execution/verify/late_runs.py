@@ -14,8 +14,10 @@ from swarmdsl.execution.monitor import FALSE
 from swarmdsl.execution.simulate.durations import MILLISECOND
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
-from swarmdsl.execution.verify.network import Network, Step
-from swarmdsl.execution.verify.runs import ELSEWHERE, Play, Run, exceeding
+from swarmdsl.execution.verify.groups import Step
+from swarmdsl.execution.verify.network import Network
+from swarmdsl.execution.verify.play import ELSEWHERE, Play, exceeding
+from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.timed_observer import LATE
 from swarmdsl.execution.verify.times import Constraint, fitting, in_step
 from swarmdsl.ir import Property

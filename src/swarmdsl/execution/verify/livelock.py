@@ -8,11 +8,12 @@ from collections.abc import Iterator
 
 from swarmdsl.base.records import replace
 from swarmdsl.execution.verify.explore import Graph
+from swarmdsl.execution.verify.groups import Step
 from swarmdsl.execution.verify.laps import repeated
 from swarmdsl.execution.verify.lassos import Lasso, components
 from swarmdsl.execution.verify.limits import Budget
-from swarmdsl.execution.verify.network import Step
-from swarmdsl.execution.verify.runs import Run, play, steps_between
+from swarmdsl.execution.verify.play import play
+from swarmdsl.execution.verify.run import Run, steps_between
 
 _OFTEN = 1024
 """Number of states between two looks at the limits."""

@@ -13,16 +13,19 @@ from swarmdsl.execution.simulate.members import DEPARTED, JOINED, following
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify.alphabet import Alphabet
-from swarmdsl.execution.verify.automaton import Automaton, close
+from swarmdsl.execution.verify.automaton import Automaton
+from swarmdsl.execution.verify.casts import FactsByRole, addressed, conditions, facts_by_role, sends
+from swarmdsl.execution.verify.close import close
 from swarmdsl.execution.verify.crew import Crew
 from swarmdsl.execution.verify.demands import Demands
 from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.environment import Environment, Options
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.kind import Kind
 from swarmdsl.execution.verify.limits import Budget
-from swarmdsl.execution.verify.network import Group, Network
+from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.quotient import Quotient
-from swarmdsl.execution.verify.terms import facts_of, mask_of, meaning, roles_of
+from swarmdsl.execution.verify.terms import facts_of, mask_of
 from swarmdsl.execution.verify.timing import Bounds
 from swarmdsl.execution.verify.uncovered import uncovered, uncovered_lifespans
 
@@ -61,11 +64,11 @@ class Model:
             for actors_ in self._by_robot.values()
             for machine in (self.system.machines_by_name[a.machine.name] for a in actors_)
         }
-        facts = self._facts(properties)
+        facts = facts_by_role(self.cast, properties)
         data: dict[str, list[Any]] = {}
         for actor in self.cast:
             data.setdefault(actor.machine.name, []).append({**actor.params, **actor.data})
-        extra = self._conditions(facts)
+        extra = conditions(self.cast, facts)
         self.demands = Demands(self.system, data, extra, lengths=options.exact)
         self.alphabet = Alphabet(self.system, self.demands)
         robots = list(dict.fromkeys(actor.robot for actor in self.cast))
@@ -80,7 +83,7 @@ class Model:
             tuple(robots), following(self.system), has_heartbeat=subject.heartbeat is not None
         )
         self._doubts: dict[int, list[Doubt]] = {}
-        self._addressees = set(self._addressed())
+        self._addressees = set(addressed(self.machines.values()))
         self._robots: list[list[str | None]] = []
         self._gather(facts)
         self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
@@ -216,48 +219,11 @@ class Model:
 
     # ---- what is known before
 
-    def _facts(self, properties: Sequence[ir.Property]) -> dict[str, list[ir.Fact | ir.Count]]:
-        """Return the facts of properties, by the role that they are about."""
-        roles = list(dict.fromkeys(actor.robot.role for actor in self.cast))
-        found: dict[str, list[ir.Fact | ir.Count]] = {role: [] for role in roles}
-        for property_ in properties:
-            for fact in facts_of(property_):
-                for role in roles_of(fact, property_) or roles:
-                    known = found.setdefault(role, [])
-                    if all(meaning(each) != meaning(fact) for each in known):
-                        known.append(fact)
-        return found
-
-    def _conditions(
-        self, facts: Mapping[str, Sequence[ir.Fact | ir.Count]]
-    ) -> Iterator[tuple[str, ir.Expression, tuple[str, ...]]]:
-        """Yield the conditions of facts, with machines that can make them true and their events."""
-        for role, about in facts.items():
-            for fact in about:
-                if isinstance(fact, ir.Fact) and fact.guard is not None:
-                    events = (fact.name,) if fact.name else ()
-                    of_robot = not events or ir.reads_values(fact.guard)
-                    for actor in self.cast:
-                        is_part = actor.name != actor.robot.name
-                        if actor.robot.role == role and not (of_robot and is_part):
-                            yield actor.machine.name, fact.guard, events
-
     def sends(self, names: Iterable[str]) -> Iterator[ir.Send]:
         """Yield the sends of some machines."""
-        for machine in (self.machines[name] for name in names):
-            for state in machine.walk():
-                effects = [*state.entry, *state.exit]
-                for transition in state.transitions:
-                    effects += transition.effects
-                yield from (each for each in effects if isinstance(each, ir.Send))
+        return sends(self.machines[name] for name in names)
 
-    def _addressed(self) -> Iterator[str]:
-        for send in self.sends(self.machines):
-            to = send.to
-            if to is not None and to.role and isinstance(to.index, ir.Literal):
-                yield f"{to.role}[{to.index.value}]"
-
-    def _gather(self, facts: Mapping[str, Sequence[ir.Fact | ir.Count]]) -> None:
+    def _gather(self, facts: FactsByRole) -> None:
         """Make an automaton for each kind of robot."""
         keys: dict[Any, int] = {}
         for robot, cast in self._by_robot.items():

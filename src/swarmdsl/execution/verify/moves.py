@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from swarmdsl.execution.verify.body import Input, Task
+from swarmdsl.execution.verify.tasks import Input, Task
 
 
 class Moment(NamedTuple):

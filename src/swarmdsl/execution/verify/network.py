@@ -8,62 +8,11 @@ any order. Of more than `capacity` messages of one event, the rest is lost.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
-from swarmdsl.base.records import dataclass
-from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.verify.alphabet import Alphabet
-from swarmdsl.execution.verify.clocks import ClockedAutomaton
-from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.quotient import Quotient
+from swarmdsl.execution.verify.groups import Group, Place, Step, without
 from swarmdsl.execution.verify.timing import Timing
 from swarmdsl.ir import Heartbeat
-
-Local = Quotient | ClockedAutomaton
-"""Automaton of the robots of a group."""
-
-
-@dataclass(frozen=True)
-class Group:
-    """Robots that nothing tells apart."""
-
-    automaton: Local
-    robots: tuple[str | None, ...]
-
-    @property
-    def role(self) -> str:
-        """Role of the robots."""
-        return self.automaton.whole.kind.role
-
-    def cast(self, robot: str | None) -> Sequence[Actor]:
-        """Return the machines of a robot of the group."""
-        return self.automaton.whole.kind.robots[robot]
-
-    def hears(self, message: int, sender: Group) -> bool:
-        """Return True if a robot of the group can get a message of another one."""
-        if self is sender and len(self.robots) == 1:
-            return False
-        if not self.automaton.whole.listens(message):
-            return False
-        to = self.automaton.whole.alphabet.messages[message].event.envelope.to
-        return to is None or to == self.role or to in self.robots
-
-
-class Place(NamedTuple):
-    """State of a robot in its group, with the messages on their way to it."""
-
-    group: int
-    state: int
-    bag: tuple[int, ...]
-
-
-class Step(NamedTuple):
-    """A step of one robot at a place; without a move, a message is lost."""
-
-    place: int
-    move: Move | None
-    target: int
-    lost: int | None = None
 
 
 class Network:
@@ -310,17 +259,31 @@ class Network:
             return
         for move in moves:
             yield Step(number, move, self._target(group, move.target, bag))
-        for message in dict.fromkeys(bag):
-            rest = without(bag, message)
+        for each in dict.fromkeys(bag):
+            message = self._message(each)
+            rest = without(bag, each)
             heard = automaton.move_on(state, message)
             if heard is None and automaton.is_late(state, message):
                 continue
             if heard is None:
                 self.cut = True
                 continue
-            yield Step(number, heard, self._target(group, heard.target, rest))
+            if self._arrives(group, each):
+                yield Step(number, heard, self._target(group, heard.target, rest), self._copy(each))
             if self.lossy and not self.alphabet.messages[message].reliable:
-                yield Step(number, None, self.number(group, state, rest), message)
+                yield Step(number, None, self.number(group, state, rest), each)
+
+    def _message(self, each: int) -> int:
+        """Return the message of an entry of a bag."""
+        return each
+
+    def _arrives(self, group: int, each: int) -> bool:
+        """Return True if an entry of a bag can arrive at a robot of a group now."""
+        return True
+
+    def _copy(self, each: int) -> int | None:
+        """Return the entry of a bag that arrives, where its message does not tell."""
+        return None
 
     def _target(self, group: int, state: int, bag: tuple[int, ...]) -> int:
         ended = self.groups[group].automaton.ended(state)
@@ -347,13 +310,5 @@ class Network:
         return tuple(sorted((*bag, message)))
 
 
-TICK = Step(-1, None, -1)
-"""Step of all robots with clocks: time passes."""
 _FEW = 40
 """Number of places up to which looking at all of them is the fastest."""
-
-
-def without(bag: tuple[int, ...], message: int) -> tuple[int, ...]:
-    """Return a bag without one of its messages."""
-    at = bag.index(message)
-    return (*bag[:at], *bag[at + 1 :])

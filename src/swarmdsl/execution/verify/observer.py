@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 from swarmdsl import ir
 from swarmdsl.execution.verify.clock_table import Table
+from swarmdsl.execution.verify.groups import Local, Step
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Local, Network, Step
+from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.terms import Terms, is_act
 from swarmdsl.ir import Count, Fact
 

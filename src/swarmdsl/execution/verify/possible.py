@@ -8,10 +8,12 @@ from itertools import combinations
 
 from swarmdsl import ir
 from swarmdsl.execution.verify.explore import explore, follow
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.network import Group, Network
-from swarmdsl.execution.verify.runs import play, steps_between
+from swarmdsl.execution.verify.network import Network
+from swarmdsl.execution.verify.play import play
+from swarmdsl.execution.verify.run import steps_between
 from swarmdsl.execution.verify.terms import Terms
 from swarmdsl.execution.verify.timed_network import TimedNetwork
 from swarmdsl.execution.verify.timed_runs import play_timed

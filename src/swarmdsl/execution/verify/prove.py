@@ -8,6 +8,7 @@ from itertools import islice
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.verify.explore import Graph, observe
+from swarmdsl.execution.verify.groups import Group, Local
 from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.laps import endless
 from swarmdsl.execution.verify.lassos import Lassos
@@ -15,10 +16,11 @@ from swarmdsl.execution.verify.late_runs import late
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Group, Local, Network
+from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.observer import Observer
+from swarmdsl.execution.verify.play import play
 from swarmdsl.execution.verify.possible import prove_possible
-from swarmdsl.execution.verify.runs import Run, play, steps_between
+from swarmdsl.execution.verify.run import Run, steps_between
 from swarmdsl.execution.verify.sentence import (
     is_about_ends,
     length_of,

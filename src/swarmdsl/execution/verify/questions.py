@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 from swarmdsl import ir
 from swarmdsl.execution.verify.cover import Population, Rule, Token, Tokens
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Group, Network
+from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.sentence import table_of
 from swarmdsl.execution.verify.terms import Terms, arriving, facts_of, is_act
 from swarmdsl.execution.verify.wanted import Need, NotCoveredError, Wanted

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from swarmdsl.execution.verify.automaton import Automaton
-from swarmdsl.execution.verify.body import Task
 from swarmdsl.execution.verify.moves import Look, Move
+from swarmdsl.execution.verify.tasks import Task
 
 
 class Quotient:

@@ -11,7 +11,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Severit
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.junit import Case, Remark, Suite, document
 from swarmdsl.execution.verify.diagnostics import code_of, rows
-from swarmdsl.execution.verify.findings import Finding
+from swarmdsl.execution.verify.finding import Finding
 from swarmdsl.execution.verify.verdict import Verdict
 
 _REFUTED = "refuted-property"

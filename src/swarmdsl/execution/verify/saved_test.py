@@ -6,9 +6,7 @@ of each event between robots. Delays end by themselves while time passes.
 
 from __future__ import annotations
 
-import json
 import os
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,15 +16,16 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.shared.default_values import default_result, default_value
-from swarmdsl.execution.simulate.durations import MICROSECOND, MILLISECOND, SECOND
+from swarmdsl.execution.simulate.durations import MICROSECOND, SECOND
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.testing.case import InvalidTest
 from swarmdsl.execution.testing.models import Models
 from swarmdsl.execution.testing.reading import read_tests
 from swarmdsl.execution.testing.verdict import judge
-from swarmdsl.execution.verify.findings import Finding
-from swarmdsl.execution.verify.runs import Run
+from swarmdsl.execution.verify.finding import Finding
+from swarmdsl.execution.verify.run import Run
+from swarmdsl.execution.verify.toml_text import step_text, time_text, toml_text
 from swarmdsl.execution.verify.verdict import Verdict
 
 _PATIENCE = '"10 min"'
@@ -36,7 +35,6 @@ _HEAD = """\
 # Written by `swarmc verify --save-test`. Each test fails until the model is mended, and then says
 # that it stays so.
 """
-_BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 @dataclass(frozen=True)
@@ -74,14 +72,14 @@ def shown_by_verdict(verdict: Verdict, counts: Mapping[str, int]) -> Shown | Non
         return Shown(name, verdict.run, counts, property=property_.name)
     match property_.claims[-1]:
         case ir.Fact(act="in", name=state, robots=None):
-            who = f"who = {_toml(robot)}, " if robot is not None else ""
+            who = f"who = {toml_text(robot)}, " if robot is not None else ""
         case ir.Count(role=role, state=state, comparison=">" | ">=" | "==" as sign, number=number):
             least = number + 1 if sign == ">" else number
             count = f"{least}" if sign == "==" else f'"{least}..*"'
-            who = f"count = {count}, of = {_toml(role)}, "
+            who = f"count = {count}, of = {toml_text(role)}, "
         case _:
             return Shown(name, verdict.run, counts, property=property_.name)
-    claim = f"{{ {who}in = {_toml(state)}, within = {_PATIENCE} }}"
+    claim = f"{{ {who}in = {toml_text(state)}, within = {_PATIENCE} }}"
     return Shown(name, verdict.run, counts, claim=claim)
 
 
@@ -104,8 +102,8 @@ def shown_by_finding(finding: Finding, counts: Mapping[str, int]) -> Shown | Non
     if not robots:
         return None
     robot = robots[0]
-    who = f"no = {_toml(robot.name)}, " if robot.name is not None else "count = 0, "
-    claim = f"{{ {who}in = {_toml(finding.name)}, within = {_PATIENCE} }}"
+    who = f"no = {toml_text(robot.name)}, " if robot.name is not None else "count = 0, "
+    claim = f"{{ {who}in = {toml_text(finding.name)}, within = {_PATIENCE} }}"
     name = f"{robot.name or 'it'} goes on from {finding.name}"
     return Shown(name, run, counts, claim=claim)
 
@@ -143,8 +141,8 @@ def _file(subject: Subject, models: Sequence[Path], path: Path, tests: Sequence[
     kind = "swarm" if subject.swarm is not None else "machine"
     head = [
         _HEAD,
-        f"model = {_toml(named[0] if len(named) == 1 else named)}\n",
-        f"{kind} = {_toml(subject.name)}\n",
+        f"model = {toml_text(named[0] if len(named) == 1 else named)}\n",
+        f"{kind} = {toml_text(subject.name)}\n",
         'impossible = "skip"  # a mended model may run otherwise\n',
     ]
     return "".join([*head, *(f"\n{test}" for test in tests)])
@@ -186,19 +184,19 @@ class _Test:
     def lines(self) -> Iterator[str]:
         """Yield the lines of the test."""
         shown = self._shown
-        steps = list(self._steps()) or [_step(**{"pass": "1 s"})]
+        steps = list(self._steps()) or [step_text(**{"pass": "1 s"})]
         yield "[[test]]"
-        yield f"name = {_toml(shown.name)}"
+        yield f"name = {toml_text(shown.name)}"
         if shown.property is not None:
-            yield f"properties = {_toml([shown.property])}"
-        yield f"scenario = {_toml(self._scenario())}"
+            yield f"properties = {toml_text([shown.property])}"
+        yield f"scenario = {toml_text(self._scenario())}"
         yield "steps = ["
         yield from (f"  {step}," for step in steps)
         yield "]"
 
     def _scenario(self) -> dict[str, Any]:
         """Return a scenario in which no function ends by itself during the run."""
-        length = _time(self._shown.run.lines[-1].time + SECOND)
+        length = time_text(self._shown.run.lines[-1].time + SECOND)
         counts = dict(self._shown.counts)
         functions: dict[str, Any] = {"*": {"duration": length}}
         functions.update({name: {"never": 1} for name in self._setting.silent})
@@ -222,14 +220,14 @@ class _Test:
         yield from self._gone(len(run.lines))
         yield from self._pass(run.lines[-1].time)
         for event, sender, robot in self._on_way:
-            yield _step(hear=event, by=robot, **{"from": sender})
+            yield step_text(hear=event, by=robot, **{"from": sender})
         if self._shown.claim is not None:
             yield self._shown.claim
 
     def _pass(self, time: int) -> Iterator[str]:
         """Let time pass until a time of the run; delays end then."""
         if time > self._now:
-            yield _step(**{"pass": _time(time - self._now)})
+            yield step_text(**{"pass": time_text(time - self._now)})
             self._now = time
 
     def _losses(self, number: int) -> Iterator[str]:
@@ -244,7 +242,7 @@ class _Test:
                 yield from self._pass(loss.time - self._early)
                 for event, sender, _ in [each for each in self._on_way if each[2] == loss.robot]:
                     yield self._arrival("drop", event, loss.robot, sender)
-                yield _step(lose=loss.robot)
+                yield step_text(lose=loss.robot)
                 self._lost.add(loss.robot)
 
     def _arrival(self, verb: str, event: str, robot: str | None, sender: str | None) -> str:
@@ -260,7 +258,7 @@ class _Test:
         if found is not None:
             self._on_way.remove(found)
             sender = found[1]
-        return _step(**{verb: event, "by": robot, "from": sender})
+        return step_text(**{verb: event, "by": robot, "from": sender})
 
     def _input(self, line: Line) -> str | None:
         """Return the step of what a line begins with, None for what happens by itself."""
@@ -277,7 +275,7 @@ class _Test:
         if (robot, event) in self._inside:
             self._inside.remove((robot, event))
             return None
-        return _step(send=event, to=robot, data=self._data(event, line.data))
+        return step_text(send=event, to=robot, data=self._data(event, line.data))
 
     def _end(self, line: Line, event: str) -> str:
         activities = [each.activity for each in line.actor.machine.states if each.activity]
@@ -291,7 +289,7 @@ class _Test:
             result = None
         as_ = outcome if outcome != "succeeded" else None
         who = line.actor.robot.name
-        return _step(end=activity.name, of=who, **{"as": as_}, result=result)
+        return step_text(end=activity.name, of=who, **{"as": as_}, result=result)
 
     def _data(self, event: str, data: Any) -> Any:
         type_ = self._system.event(event).type
@@ -320,35 +318,3 @@ def _is_one(one: Line, other: Line) -> bool:
         and (one.event, one.time, one.envelope) == (other.event, other.time, other.envelope)
         and not (one.event or "").startswith(_ACTIVITY)
     )
-
-
-def _step(**keys: Any) -> str:
-    """Return a step; keys without a value are left out."""
-    return _toml({key: value for key, value in keys.items() if value is not None})
-
-
-def _time(length: int) -> str:
-    """Return a duration as tests have it."""
-    for unit, size in (("s", SECOND), ("ms", MILLISECOND), ("us", MICROSECOND)):
-        if length % size == 0:
-            return f"{length // size} {unit}"
-    return f"{length / MICROSECOND} us"
-
-
-def _toml(value: Any) -> str:
-    """Return a value in TOML, on one line."""
-    match value:
-        case bool():
-            return "true" if value else "false"
-        case str():
-            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-        case Mapping():
-            inner = ", ".join(f"{_key(key)} = {_toml(each)}" for key, each in value.items())
-            return f"{{ {inner} }}" if inner else "{}"
-        case list() | tuple():
-            return f"[{', '.join(map(_toml, value))}]"
-    return repr(value)
-
-
-def _key(name: str) -> str:
-    return name if _BARE.fullmatch(name) else _toml(name)

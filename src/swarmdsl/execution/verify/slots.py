@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from swarmdsl.execution.engine import Event, Run
-from swarmdsl.execution.verify.body import Body, Delay, Input
+from swarmdsl.execution.verify.body import Body
 from swarmdsl.execution.verify.moves import Carried, Slot
+from swarmdsl.execution.verify.tasks import Delay, Input
 
 
 class Occupied(NamedTuple):

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from swarmdsl import ir
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.terms import facts_of, roles_of
 
 

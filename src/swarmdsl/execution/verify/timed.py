@@ -14,12 +14,12 @@ from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.verify.clock_table import ClockTable
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.explore import Graph, observe
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.network import Group
 from swarmdsl.execution.verify.possible import prove_possible
-from swarmdsl.execution.verify.runs import steps_between
+from swarmdsl.execution.verify.run import steps_between
 from swarmdsl.execution.verify.sentence import is_about_ends, length_of, table_of
 from swarmdsl.execution.verify.subjects import about, place_of
 from swarmdsl.execution.verify.terms import mask_of

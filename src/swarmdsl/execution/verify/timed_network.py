@@ -10,7 +10,8 @@ from collections.abc import Iterator, Sequence
 
 from swarmdsl.execution.verify.alphabet import Alphabet
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
-from swarmdsl.execution.verify.network import TICK, Group, Network, Step, without
+from swarmdsl.execution.verify.groups import TICK, Group, Step
+from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.timing import Bounds, Timing
 
 
@@ -95,29 +96,16 @@ class TimedNetwork(Network):
             return None
         return self.ones[self.number(group, later, old)] - self.ones[number]
 
-    def _find(self, number: int) -> Iterator[Step]:
-        group, state, bag = self.places[number]
-        automaton = self.groups[group].automaton
-        moves = automaton.moves(state)
-        if moves is None:
-            self.cut = True
-            return
-        for move in moves:
-            yield Step(number, move, self._target(group, move.target, bag))
-        is_clocked = isinstance(automaton, ClockedAutomaton)
-        for each in dict.fromkeys(bag):
-            age, message = divmod(each, self._kinds)
-            rest = without(bag, each)
-            heard = automaton.move_on(state, message)
-            if heard is None and automaton.is_late(state, message):
-                continue
-            if heard is None:
-                self.cut = True
-                continue
-            if not is_clocked or age >= self._times[message][0]:
-                yield Step(number, heard, self._target(group, heard.target, rest), each)
-            if self.lossy and not self.alphabet.messages[message].reliable:
-                yield Step(number, None, self.number(group, state, rest), each)
+    def _message(self, each: int) -> int:
+        return each % self._kinds
+
+    def _arrives(self, group: int, each: int) -> bool:
+        age, message = divmod(each, self._kinds)
+        is_clocked = isinstance(self.groups[group].automaton, ClockedAutomaton)
+        return not is_clocked or age >= self._times[message][0]
+
+    def _copy(self, each: int) -> int | None:
+        return each
 
     def _with(
         self, group: int, state: int, bag: tuple[int, ...], message: int, sender: int

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 
 from swarmdsl import ir
 from swarmdsl.execution.verify.clock_table import ClockTable
+from swarmdsl.execution.verify.groups import TICK, Step
 from swarmdsl.execution.verify.monitor_table import MonitorTable
-from swarmdsl.execution.verify.network import TICK, Network, Step
+from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.observer import Observer
 from swarmdsl.execution.verify.timed_network import TimedNetwork
 

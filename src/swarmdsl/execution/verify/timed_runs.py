@@ -11,8 +11,9 @@ from swarmdsl.execution.monitor import FALSE, Watch
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
-from swarmdsl.execution.verify.network import TICK, Step
-from swarmdsl.execution.verify.runs import ELSEWHERE, Play, Run, exceeding
+from swarmdsl.execution.verify.groups import TICK, Step
+from swarmdsl.execution.verify.play import ELSEWHERE, Play, exceeding
+from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.timed_network import TimedNetwork
 from swarmdsl.ir import Property
 

@@ -12,7 +12,7 @@ from swarmdsl.execution.verify.explore import Graph
 from swarmdsl.execution.verify.explosion import explain
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.runs import Run
+from swarmdsl.execution.verify.run import Run
 
 ESTIMATE = "estimate it with `swarmc simulate --runs 1000`"
 """Advice for probabilities."""

@@ -9,7 +9,7 @@ from swarmdsl.base.records import replace
 from swarmdsl.codegen.shared.property_texts import parts_text, sentence_text
 from swarmdsl.execution.verify.clock_table import Table
 from swarmdsl.execution.verify.composition import SETTLED, VIOLATED, Rule, Watch
-from swarmdsl.execution.verify.network import Group
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.observer import Observer
 from swarmdsl.ir import Count, Fact
 from swarmdsl.ir.sentences import claim

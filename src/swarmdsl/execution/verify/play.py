@@ -6,11 +6,9 @@ the engine, and times are found that fit all delays.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import pairwise
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any
 
-from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.monitor import FALSE, LOST, Watch
 from swarmdsl.execution.simulate.actors import Actor
@@ -18,78 +16,19 @@ from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.members import DEPARTED
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
-from swarmdsl.execution.simulate.trace import Line, as_json
+from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.verify.alphabet import Alphabet, Message
 from swarmdsl.execution.verify.body import Body
+from swarmdsl.execution.verify.copies import Copy, Robot, precedes
+from swarmdsl.execution.verify.groups import Step
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Group, Network, Step
+from swarmdsl.execution.verify.network import Network
+from swarmdsl.execution.verify.run import Loss, Run
 from swarmdsl.execution.verify.times import Beats, Constraint, fitting, in_step, limits
 from swarmdsl.execution.verify.timing import AT_ONCE, Bounds
 from swarmdsl.ir import Property
 
 ELSEWHERE = "the real messages lead elsewhere"
-
-
-class Loss(NamedTuple):
-    """Loss of a robot, with the number of lines before, and its time."""
-
-    at: int
-    robot: str
-    time: int
-
-
-@dataclass(frozen=True)
-class Run:
-    """A run of a swarm: its trace lines, and the messages that are lost on the way.
-
-    `lost` has the event and the receiver of each, with the number of lines before, `gone` the
-    robots that are lost. `flaw` says why
-    no swarm can run so, or is empty: then the model itself has run so. The last `loop` lines repeat
-    for ever; 0 says that nothing happens after the run, None that it can go on in any way.
-    """
-
-    lines: tuple[Line, ...]
-    lost: tuple[tuple[int, str, str], ...] = ()
-    gone: tuple[Loss, ...] = ()
-    flaw: str = ""
-    loop: int | None = None
-    causes: Mapping[int, int] = field(default_factory=dict)
-    """For lines on which events of other robots arrive, those on which they were sent."""
-
-
-@dataclass(eq=False)
-class Copy:
-    """A message on its way to one robot."""
-
-    number: int
-    event: Event
-    topic: str
-    order: int
-    line: int | None
-    """Number of the line on which it was sent; None for the loss of a robot that has ended."""
-    sent: int
-    """Number of the step at which it was sent."""
-    source: Robot
-
-
-@dataclass(eq=False)
-class Robot:
-    """A robot of a run: its state in the automaton, and what is on its way to it."""
-
-    name: str | None
-    group: Group
-    state: int
-    body: Body
-    bag: list[Copy] = field(default_factory=list)
-    late: list[Copy] = field(default_factory=list)
-    """Messages beyond the capacity of the network: they do not arrive in the run."""
-    moments: list[int] = field(default_factory=list)
-    """Numbers of the steps of the run at which it did something."""
-
-    def is_at(self, state: int, bag: tuple[int, ...]) -> bool:
-        """Return True if it is at a place of the network."""
-        mine = tuple(sorted(copy.number for copy in self.bag))
-        return self.group.automaton.classes[self.state] == state and mine == bag
 
 
 def play(
@@ -324,13 +263,13 @@ class Play:
         found = min((copy, *equal), key=lambda each: each.order)
         if found is not copy:
             robot.late[robot.late.index(found)] = copy
-        if any(_precedes(each, found) for each in robot.late):
+        if any(precedes(each, found) for each in robot.late):
             self.exceeds = self.exceeds or found.event.name
         return found
 
     def _is_before(self, robot: Robot, copy: Copy) -> bool:
         """Return True if an earlier message of the same channel is still on its way."""
-        return any(_precedes(other, copy) for other in robot.bag)
+        return any(precedes(other, copy) for other in robot.bag)
 
     def _move(self, robot: Robot, move: Move, event: Event | None) -> None:
         automaton = robot.group.automaton
@@ -401,31 +340,3 @@ class Play:
         self.lines.append(line)
         if self._watch is not None:
             self._watch.see(line)
-
-
-def _precedes(one: Copy, other: Copy) -> bool:
-    """Return True if a message was sent before another one on the same channel."""
-    senders = (each.event.envelope.sender for each in (one, other))
-    return one.order < other.order and one.topic == other.topic and len(set(senders)) == 1
-
-
-Find = Callable[[int], "list[tuple[int, Step]]"]
-
-
-def written(run: Run) -> Iterator[str]:
-    """Yield the lines of a trace, with their causes; the last one has the loop of the run."""
-    for number, line in enumerate(run.lines):
-        more = {}
-        if number in run.causes:
-            more["cause"] = run.causes[number] + 1
-        if run.loop is not None and number == len(run.lines) - 1:
-            more["loop"] = run.loop
-        yield as_json(line, more)
-
-
-def steps_between(states: Sequence[int], find: Find) -> list[Step]:
-    """Return the steps from each state to the next one."""
-    found = []
-    for state, following in pairwise(states):
-        found.append(next(step for after, step in find(state) if after == following))
-    return found

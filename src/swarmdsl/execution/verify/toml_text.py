@@ -1,0 +1,44 @@
+"""Steps of behaviour tests in TOML, on one line each."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from swarmdsl.execution.simulate.durations import MICROSECOND, MILLISECOND, SECOND
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def step_text(**keys: Any) -> str:
+    """Return a step; keys without a value are left out."""
+    return toml_text({key: value for key, value in keys.items() if value is not None})
+
+
+def time_text(length: int) -> str:
+    """Return a duration as tests have it."""
+    for unit, size in (("s", SECOND), ("ms", MILLISECOND), ("us", MICROSECOND)):
+        if length % size == 0:
+            return f"{length // size} {unit}"
+    return f"{length / MICROSECOND} us"
+
+
+def toml_text(value: Any) -> str:
+    """Return a value in TOML, on one line."""
+    match value:
+        case bool():
+            return "true" if value else "false"
+        case str():
+            return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+        case Mapping():
+            inner = ", ".join(f"{_key(key)} = {toml_text(each)}" for key, each in value.items())
+            return f"{{ {inner} }}" if inner else "{}"
+        case list() | tuple():
+            return f"[{', '.join(map(toml_text, value))}]"
+    return repr(value)
+
+
+def _key(name: str) -> str:
+    return name if _BARE.fullmatch(name) else toml_text(name)
