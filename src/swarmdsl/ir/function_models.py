@@ -101,7 +101,7 @@ MODELS: Mapping[str, FunctionModel] = {
     for each in (
         FunctionModel(
             "go_to",
-            "Go to a place in a straight line.",
+            "Go to a place, around what is in the way.",
             (
                 Argument("to", "place", None, "the place; without it, the first one in the goal"),
                 _HEIGHT,

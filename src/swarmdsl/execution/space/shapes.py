@@ -88,11 +88,7 @@ class Shapes:
         """Return the distance of each place from the nearest shape at its height, or at any."""
         found: Floats | None = None
         if len(self._x1):
-            px, py = x[:, None] - self._x1, y[:, None] - self._y1
-            along = (px * self._dx + py * self._dy) / self._square
-            along = np.minimum(np.maximum(along, 0.0), 1.0)
-            ox, oy = px - along * self._dx, py - along * self._dy
-            distance = np.sqrt(ox * ox + oy * oy)
+            distance = self._from_edges(x, y)
             if z is not None:
                 beside = (z[:, None] < self._low) | (z[:, None] >= self._high)
                 distance = np.where(beside, UNBOUNDED, distance)
@@ -105,6 +101,50 @@ class Shapes:
             nearest = distance.min(axis=1)
             found = nearest if found is None else np.minimum(found, nearest)
         return np.full(len(x), UNBOUNDED) if found is None else found
+
+    def clearances(self, start: Pair, end: Pair, low: float, high: float) -> Floats:
+        """Return the least distance of each line from shapes that reach in between two heights."""
+        found = np.full(len(start[0]), UNBOUNDED)
+        dx, dy = (end[0] - start[0])[:, None], (end[1] - start[1])[:, None]
+        square = dx * dx + dy * dy
+        safe = np.where(square > 0, square, 1.0)
+
+        def of_points(x: Floats, y: Floats) -> Floats:
+            """Return the distance of each point from each line."""
+            px, py = x - start[0][:, None], y - start[1][:, None]
+            along = np.clip((px * dx + py * dy) / safe, 0.0, 1.0)
+            ox, oy = px - along * dx, py - along * dy
+            return np.asarray(np.sqrt(ox * ox + oy * oy))
+
+        there = (high >= self._low) & (low < self._high)
+        if there.any():
+            gaps = np.minimum(
+                of_points(self._x1[there], self._y1[there]),
+                of_points(self._x2[there], self._y2[there]),
+            ).min(axis=1)
+            for x, y in (start, end):
+                gaps = np.minimum(gaps, self._from_edges(x, y)[:, there].min(axis=1))
+            met = (self._meets_lines(start, end)[0] & there).any(axis=1)
+            found = np.where(met, 0.0, gaps)
+        tall = low < self._top
+        if tall.any():
+            gaps = of_points(self._cx[tall], self._cy[tall]) - self._radius[tall]
+            found = np.minimum(found, gaps.min(axis=1))
+        return found
+
+    def corners(self, height: float) -> tuple[Pair, tuple[Floats, Floats, Floats]]:
+        """Return the ends of segments at a height, and the discs: x, y and radius."""
+        there = (height >= self._low) & (height < self._high)
+        x = np.concatenate([self._x1[there], self._x2[there]])
+        y = np.concatenate([self._y1[there], self._y2[there]])
+        ends = np.unique(np.stack([x, y], axis=1), axis=0)
+        tall = height < self._top
+        return (ends[:, 0], ends[:, 1]), (self._cx[tall], self._cy[tall], self._radius[tall])
+
+    def standing(self, height: float) -> bytes:
+        """Return a key for the shapes that are in the way at a height."""
+        there = (height >= self._low) & (height < self._high)
+        return there.tobytes() + (height < self._top).tobytes()
 
     def inside(self, x: Floats, y: Floats) -> Flags:
         """Return True for places in a box or a disc."""
@@ -152,8 +192,22 @@ class Shapes:
             found += self._meets_discs(start, end, heights).sum(axis=1)
         return found
 
+    def _from_edges(self, x: Floats, y: Floats) -> Floats:
+        """Return the distance of each place from each segment."""
+        px, py = x[:, None] - self._x1, y[:, None] - self._y1
+        along = (px * self._dx + py * self._dy) / self._square
+        along = np.minimum(np.maximum(along, 0.0), 1.0)
+        ox, oy = px - along * self._dx, py - along * self._dy
+        return np.asarray(np.sqrt(ox * ox + oy * oy))
+
     def _meets_edges(self, start: Pair, end: Pair, heights: Pair) -> Flags:
         """Return True where a line goes through a segment, at a height at which it is."""
+        met, along = self._meets_lines(start, end)
+        level = heights[0][:, None] + along * (heights[1] - heights[0])[:, None]
+        return met & (level >= self._low) & (level < self._high)
+
+    def _meets_lines(self, start: Pair, end: Pair) -> tuple[Flags, Floats]:
+        """Return True where a line goes through a segment, and at which share of the line."""
         dx, dy = (end[0] - start[0])[:, None], (end[1] - start[1])[:, None]
         fx, fy = self._x1 - start[0][:, None], self._y1 - start[1][:, None]
         across = dx * self._dy - dy * self._dx
@@ -161,9 +215,8 @@ class Shapes:
         safe = np.where(parallel, 1.0, across)
         along = (fx * self._dy - fy * self._dx) / safe
         beside = (fx * dy - fy * dx) / safe
-        level = heights[0][:, None] + along * (heights[1] - heights[0])[:, None]
         met: Flags = ~parallel & (along >= 0) & (along <= 1) & (beside >= 0) & (beside <= 1)
-        return met & (level >= self._low) & (level < self._high)
+        return met, along
 
     def _meets_discs(self, start: Pair, end: Pair, heights: Pair) -> Flags:
         """Return True where a line goes through a disc, below its top."""

@@ -13,6 +13,7 @@ from swarmdsl.execution.space.layout import Layout
 from swarmdsl.execution.space.motion import Motion
 from swarmdsl.execution.space.neighbours import pairs
 from swarmdsl.execution.space.robots import Robots
+from swarmdsl.execution.space.routes import Router
 from swarmdsl.execution.space.sensing import Eyes
 
 _ALL = slice(None)
@@ -28,6 +29,7 @@ class Stage(Robots):
         self.motion = motion(self)
         self.eyes = Eyes(self)
         self.covering = Covering(self)
+        self.router = Router(self.shapes, self.bounds, self.motion.arrival)
         self._pairs: dict[float, tuple[Rows, Rows]] = {}
 
     # ---- for models of functions
