@@ -4,6 +4,10 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+# An installer that is faster than pip, which asks the index about one package after the other: make UV=uv
+UV :=
+PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
+INSTALL = $(if $(UV),$(UV) pip install --quiet --python $(BIN)/python,$(PIP))
 READY := $(VENV)/.ready
 # More for pytest: make test ARGS="-x tests/syntax"
 ARGS :=
@@ -125,16 +129,16 @@ clean: ## Remove what was built, except .venv.
 
 $(READY): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	$(INSTALL) --editable '.[dev]'
 	touch $@
 
 # Tests say what is missing where an extra cannot be installed.
 $(VENV)/.agreement $(VENV)/.storm $(VENV)/.editor $(VENV)/.docs: $(VENV)/.%: pyproject.toml | $(READY)
-	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$*]' && touch $@
+	-$(INSTALL) --editable '.[$*]' && touch $@
 
 # What cannot be installed is not measured, and the page says so.
 $(BENCH_READY): pyproject.toml benchmarks/package-lock.json
-	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
+	-$(INSTALL) --editable '.[bench]'
 	-cd benchmarks && npm ci && touch node_modules/.ready
 
 $(EXTENSION_READY): $(EXTENSION)/package-lock.json

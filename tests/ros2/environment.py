@@ -76,6 +76,8 @@ def install(folder: Path) -> None:
     if not python.exists():
         subprocess.run([sys.executable, "-m", "venv", venv], check=True)
     pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    if uv := os.environ.get("UV"):
+        pip = [uv, "pip", "install", "--quiet", "--python", python]
     subprocess.run([*pip, "-r", HERE / "requirements.txt"], check=True)
     _relocate(python)
     lines = [
