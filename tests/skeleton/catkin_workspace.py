@@ -25,7 +25,7 @@ def missing_of_catkin() -> str | None:
     )
 
 
-def make(graph: Any, folder: Path, *targets: str, optimisation: str = "-O2") -> None:
+def make(graph: Any, folder: Path, *targets: str, optimisation: str = "-O1") -> None:
     """Build targets of a workspace; it has to succeed."""
     command = [
         *("catkin_make", "-C", str(folder), "-l99", "-DPYTHON_EXECUTABLE=/usr/bin/python3"),
