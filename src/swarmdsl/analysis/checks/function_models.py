@@ -55,7 +55,10 @@ def check_model(function: Function, context: Context) -> None:
 def _check_value(value: Expression, argument: Argument, context: Context) -> None:
     expected = argument_type(argument.kind)
     if expected is not None:
+        reported = len(context.report)
         context.expect(value, expected, context.typing)
+        if len(context.report) > reported:
+            return
         number = number_of(value, context.typing.folding)
         scale = 1 / _SECOND if argument.kind == "time" else 1
         limits = argument.limits(number * scale) if number is not None else None
