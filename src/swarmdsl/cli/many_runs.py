@@ -19,7 +19,15 @@ if TYPE_CHECKING:
 _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 
 _NEED_RUNS = ("jobs", "early", "confidence", "indifference", "error", "histogram")
-_ABOUT_ONE_RUN = ("replay", "trace_file", "timeline", "map_file", "real_time", "stop_on_violation")
+_ABOUT_ONE_RUN = (
+    "replay",
+    "trace_file",
+    "timeline",
+    "map_file",
+    "animation",
+    "real_time",
+    "stop_on_violation",
+)
 
 
 def _share(flag: str, limit: float, default: float, help_: str) -> Callable[..., Any]:

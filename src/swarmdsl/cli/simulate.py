@@ -82,6 +82,11 @@ def _check_alone(many: bool) -> None:
     help="Draw where robots went, what they saw, and who is in reach at the end, as SVG.",
 )
 @click.option(
+    "--animation",
+    type=click.Path(path_type=Path),
+    help="Draw the run in motion on its map, as SVG, or as a page of HTML that plays it.",
+)
+@click.option(
     "--results",
     type=click.Path(path_type=Path),
     help="Write verdicts on properties, measures and fitness to a file, as JSON.",
@@ -139,6 +144,7 @@ def simulate(
     trace_file: Path | None,
     timeline: Path | None,
     map_file: Path | None,
+    animation: Path | None,
     results: Path | None,
     replay: tuple[Path, ...],
     seed: int | None,
@@ -190,14 +196,18 @@ def simulate(
         options.check_picture(timeline, "--timeline", ".svg", {})
     if map_file is not None:
         options.check_picture(map_file, "--map", ".svg", {})
-        if replay or world == "abstract":
+    if animation is not None and animation.suffix.lower() != ".html":
+        options.check_picture(animation, "--animation", ".svg", {})
+    for name, value in (("map", map_file), ("animation", animation)):
+        if value is not None and (replay or world == "abstract"):
             other = "--replay" if replay else "--world abstract"
-            raise click.UsageError(f"`--map` and `{other}` conflict")
+            raise click.UsageError(f"`--{name}` and `{other}` conflict")
     given = Path(events) if events not in (None, "-") else None
     outputs = {
         "--trace-file": trace_file,
         "--timeline": timeline,
         "--map": map_file,
+        "--animation": animation,
         "--results": results,
         "--histogram": many_options["histogram"],
     }
@@ -221,6 +231,7 @@ def simulate(
         results,
         world,
         map_file,
+        animation,
     )
     if ros2:
         from swarmdsl.execution.ros2_world.command import serve

@@ -25,6 +25,7 @@ from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.results import as_document
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL
+from swarmdsl.execution.simulate.run_map import Maps
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.space import ModelError
 from swarmdsl.execution.simulate.summary import format_table, measure_table, property_table
@@ -140,6 +141,10 @@ class _Served:
                 world.recorded.listener = lambda line: print(line, file=stream)
                 self._written.append(self._request.trace_file)
             world.listen(graph)
+            maps = Maps(self._request.map, self._request.animation)
+            pictures = [stack.enter_context(write_stream(path)) for path in maps.paths]
+            self._written += maps.paths
+            drawn = maps.record(self._subject, world) if pictures else None
             try:
                 wait_for_nodes(world, graph, self._tell_missing)
                 step = self._setting.layout.step
@@ -151,6 +156,9 @@ class _Served:
                 time = format_duration(world.clock.now)
                 function, reason = error.function, error.reason
                 report.report("failed-model", function=function, time=time, reason=reason)
+            if drawn is not None:
+                for file, picture in zip(pictures, maps.drawn(drawn), strict=True):
+                    file.write(picture)
             now = world.clock.now
             watched = [e for e in watchable(self._subject) if self._request.watches(e.name)]
             recording = Recording(watched, fitness_of(self._subject))

@@ -188,7 +188,7 @@ class _Play:
             with ExitStack() as stack:
                 stream = self._stream(stack, report)
                 picture = self._picture(history, stack, report)
-                map_ = self._map(stack, report)
+                maps = self._maps(stack, report)
                 if report.has_errors:
                     tell(report)
                     return False
@@ -225,8 +225,7 @@ class _Play:
                     fitness = evaluate(self._fitness, readings, self._world.space)
                 if picture is not None:
                     picture({each.property.name: each.remark for each in results})
-                if map_ is not None:
-                    map_()
+                maps()
         except OSError as error:
             if error.filename is None:
                 raise  # of standard output
@@ -358,16 +357,23 @@ class _Play:
         self._world.network.transmitted = timeline.transmitted
         return lambda remarks: stream.write(timeline.svg(self._world.clock.now, history, remarks))
 
-    def _map(self, stack: ExitStack, report: Diagnostics) -> Callable[[], object] | None:
-        """Prepare drawing the map, if requested."""
-        path = self._request.map
-        stream = self._write_to(path, stack, report) if path is not None else None
-        if stream is None:
-            return None
-        from swarmdsl.execution.simulate.run_map import RunMap
+    def _maps(self, stack: ExitStack, report: Diagnostics) -> Callable[[], None]:
+        """Prepare drawing the map and the animation, as far as they are requested."""
+        if self._request.map is None and self._request.animation is None:
+            return lambda: None
+        from swarmdsl.execution.simulate.run_map import Maps
 
-        recorded = RunMap(self._subject, self._world)
-        return lambda: stream.write(recorded.svg())
+        maps = Maps(self._request.map, self._request.animation)
+        streams = [self._write_to(path, stack, report) for path in maps.paths]
+        recorded = maps.record(self._subject, self._world)
+        self._listeners.append(recorded.stepped)
+
+        def draw() -> None:
+            for stream, picture in zip(streams, maps.drawn(recorded), strict=True):
+                assert stream is not None
+                stream.write(picture)
+
+        return draw
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         try:

@@ -111,10 +111,14 @@ class Moment(NamedTuple):
 
 def map_svg(title: str, ground: Ground, moment: Moment) -> str:
     """Draw the map of a run at a moment, with the trails that lead to it."""
-    return _Map(title, ground, moment).draw()
+    return MapDrawing(title, ground, moment).draw()
 
 
-class _Map:
+class MapDrawing:
+    """Drawing of the map of a run at a moment."""
+
+    style = _STYLE
+
     def __init__(self, title: str, ground: Ground, moment: Moment) -> None:
         self.title = title
         self.ground = ground
@@ -125,29 +129,49 @@ class _Map:
         self.width, self.height = wide * self.scale, deep * self.scale
         self.roles = dict.fromkeys(track.role for track in moment.tracks)
         self.colours = {
-            role: _COLOURS[number % len(_COLOURS)] for number, role in enumerate(self.roles)
+            role: _COLOURS[place % len(_COLOURS)] for place, role in enumerate(self.roles)
         }
         self.parts: list[str] = []
 
     def x(self, x: float) -> float:
+        """Return where a place is in the picture, from the left."""
         return _MARGIN + (x - self.ground.low.x) * self.scale
 
     def y(self, y: float) -> float:
+        """Return where a place is in the picture, from the top."""
         return _TOP + self.height - (y - self.ground.low.y) * self.scale
 
     def draw(self) -> str:
+        """Return the picture."""
         wide = self.width + 2 * _MARGIN
         high = _TOP + self.height + 30 + _ROW * (len(self.roles) + 1)
-        size = f'width="{_n(wide)}" height="{_n(high)}" viewBox="0 0 {_n(wide)} {_n(high)}"'
+        size = f'width="{number(wide)}" height="{number(high)}"'
+        size += f' viewBox="0 0 {number(wide)} {number(high)}"'
         self.parts = [
             f'<svg xmlns="http://www.w3.org/2000/svg" {size}>',
-            f"<style>{_STYLE}</style>",
+            f"<style>{self.style}</style>",
             _DEFINITIONS,
             '<rect class="paper" width="100%" height="100%"/>',
         ]
         self.text(16, 26, self.title, "title")
         self.text(16, 44, ", ".join(self.words()), "note")
         self.shapes()
+        self.contents()
+        self.legend()
+        return "\n".join([*self.parts, "</svg>", ""])
+
+    @property
+    def left(self) -> float:
+        """Left end of the ground."""
+        return _MARGIN
+
+    @property
+    def bottom(self) -> float:
+        """Lower end of the ground."""
+        return _TOP + self.height
+
+    def contents(self) -> None:
+        """Draw what is on the ground."""
         for one, other in self.moment.links:
             self.line("link", one[0], one[1], other[0], other[1])
         for track in self.moment.tracks:
@@ -155,10 +179,9 @@ class _Map:
         self.marks()
         for track in self.moment.tracks:
             self.robot(track)
-        self.legend()
-        return "\n".join([*self.parts, "</svg>", ""])
 
     def words(self) -> list[str]:
+        """Return what is said below the title."""
         words = [f"after {format_duration(self.moment.time)}"]
         if self.moment.targets:
             found = sum(each.found for each in self.moment.targets)
@@ -166,6 +189,7 @@ class _Map:
         return words
 
     def shapes(self) -> None:
+        """Draw the environment."""
         low, high = self.ground.low, self.ground.high
         self.box("ground", Box(low, high))
         for style, named in (("area", self.ground.areas), ("zone", self.ground.zones)):
@@ -181,34 +205,42 @@ class _Map:
             self.polyline("wall", [(point.x, point.y) for point in wall])
 
     def trail(self, track: Track) -> None:
+        """Draw the way of a robot."""
         ways = [(x, y) for _, (x, y, _) in track.places]
         if len(set(ways)) > 1:
             self.polyline("trail", _thinned(ways, 0.5 / self.scale), self.colours[track.role])
 
     def marks(self) -> None:
+        """Draw the targets, and from where they have been seen."""
         for mark in self.moment.targets:
             x, y, size = self.x(mark.place[0]), self.y(mark.place[1]), 5.0
-            points = f"{_n(x)},{_n(y - size)} {_n(x + size)},{_n(y)} {_n(x)},{_n(y + size)}"
+            corners = ((x, y - size), (x + size, y), (x, y + size), (x - size, y))
+            points = " ".join(f"{number(left)},{number(top)}" for left, top in corners)
             style, said = ("found", "found") if mark.found else ("target", "not found")
             self.parts.append(
-                f'<polygon class="{style}" points="{points} {_n(x - size)},{_n(y)}">'
-                f"<title>{_text(mark.name)}: {said}</title></polygon>"
+                f'<polygon class="{style}" points="{points}">'
+                f"<title>{plain_text(mark.name)}: {said}</title></polygon>"
             )
         for seen in self.moment.sightings:
-            x, y, size = self.x(seen.place[0]), self.y(seen.place[1]), 3.5
-            way = f"M{_n(x - size)},{_n(y - size)} l{_n(2 * size)},{_n(2 * size)}"
             title = f"{seen.robot} sees {seen.what} at {format_duration(seen.time)}"
+            cross = self.cross(self.x(seen.place[0]), self.y(seen.place[1]))
             self.parts.append(
-                f'<path class="seen" d="{way} m0,{_n(-2 * size)} l{_n(-2 * size)},{_n(2 * size)}">'
-                f"<title>{_text(title)}</title></path>"
+                f'<path class="seen" d="{cross}"><title>{plain_text(title)}</title></path>'
             )
 
+    def cross(self, x: float, y: float) -> str:
+        """Return the path of a cross around a place in the picture."""
+        side = 7.0
+        start = f"M{number(x - side / 2)},{number(y - side / 2)}"
+        return f"{start} l{side:g},{side:g} m0,-{side:g} l-{side:g},{side:g}"
+
     def robot(self, track: Track) -> None:
+        """Draw a robot where it is."""
         if not track.places:
             return
         x, y, z = track.places[-1][1]
         colour, point = self.colours[track.role], Point(x, y)
-        title = f"{track.name}: ({_n(x)} m, {_n(y)} m), {_n(z)} m above ground"
+        title = f"{track.name}: ({number(x)} m, {number(y)} m), {number(z)} m above ground"
         if track.lost:
             self.circle("lost", point, 5, f"{title}, lost", f'stroke="{colour}"')
         else:
@@ -216,45 +248,55 @@ class _Map:
         self.text(self.x(x) + 7, self.y(y) + 4, track.name, "robot")
 
     def legend(self) -> None:
+        """Draw the scale and the colours of roles."""
         top = _TOP + self.height + 22
         length = max((bar for bar in _BARS if bar * self.scale <= self.width / 4), default=_BARS[0])
         end = _MARGIN + length * self.scale
-        ends = f'x1="{_n(_MARGIN)}" y1="{_n(top)}" x2="{_n(end)}" y2="{_n(top)}"'
+        ends = f'x1="{number(_MARGIN)}" y1="{number(top)}" x2="{number(end)}" y2="{number(top)}"'
         self.parts.append(f'<line class="scale" {ends}/>')
         self.text(end + 8, top + 4, f"{length:g} m", "note")
         for role in self.roles:
             top += _ROW
             fill = f'fill="{self.colours[role]}"'
-            self.parts.append(f'<circle cx="{_n(_MARGIN + 5)}" cy="{_n(top)}" r="5" {fill}/>')
-            number = sum(track.role == role for track in self.moment.tracks)
-            self.text(_MARGIN + 16, top + 4, f"{role} ({number})", "note")
+            self.parts.append(
+                f'<circle cx="{number(_MARGIN + 5)}" cy="{number(top)}" r="5" {fill}/>'
+            )
+            count = sum(track.role == role for track in self.moment.tracks)
+            self.text(_MARGIN + 16, top + 4, f"{role} ({count})", "note")
 
     # ---- shapes
 
     def text(self, x: float, y: float, text: str, style: str) -> None:
-        self.parts.append(f'<text class="{style}" x="{_n(x)}" y="{_n(y)}">{_text(text)}</text>')
+        """Add a line of text."""
+        self.parts.append(
+            f'<text class="{style}" x="{number(x)}" y="{number(y)}">{plain_text(text)}</text>'
+        )
 
     def line(self, style: str, x: float, y: float, to_x: float, to_y: float) -> None:
-        first = f'x1="{_n(self.x(x))}" y1="{_n(self.y(y))}"'
-        last = f'x2="{_n(self.x(to_x))}" y2="{_n(self.y(to_y))}"'
+        """Add a line between two places."""
+        first = f'x1="{number(self.x(x))}" y1="{number(self.y(y))}"'
+        last = f'x2="{number(self.x(to_x))}" y2="{number(self.y(to_y))}"'
         self.parts.append(f'<line class="{style}" {first} {last}/>')
 
     def box(self, style: str, box: Box, title: str = "") -> None:
-        place = f'x="{_n(self.x(box.low.x))}" y="{_n(self.y(box.high.y))}"'
+        """Add a rectangle."""
+        place = f'x="{number(self.x(box.low.x))}" y="{number(self.y(box.high.y))}"'
         wide, high = (box.high.x - box.low.x) * self.scale, (box.high.y - box.low.y) * self.scale
         self.parts.append(
-            f'<rect class="{style}" {place} width="{_n(wide)}" height="{_n(high)}">'
-            f"<title>{_text(title)}</title></rect>"
+            f'<rect class="{style}" {place} width="{number(wide)}" height="{number(high)}">'
+            f"<title>{plain_text(title)}</title></rect>"
         )
 
     def circle(self, style: str, at: Point, radius: float, title: str, colour: str = "") -> None:
+        """Add a circle."""
         self.parts.append(
-            f'<circle class="{style}" cx="{_n(self.x(at.x))}" cy="{_n(self.y(at.y))}" '
-            f'r="{_n(radius)}" {colour}><title>{_text(title)}</title></circle>'
+            f'<circle class="{style}" cx="{number(self.x(at.x))}" cy="{number(self.y(at.y))}" '
+            f'r="{number(radius)}" {colour}><title>{plain_text(title)}</title></circle>'
         )
 
     def polyline(self, style: str, ways: Iterable[tuple[float, float]], colour: str = "") -> None:
-        points = " ".join(f"{_n(self.x(x))},{_n(self.y(y))}" for x, y in ways)
+        """Add a line through several places."""
+        points = " ".join(f"{number(self.x(x))},{number(self.y(y))}" for x, y in ways)
         stroke = f' stroke="{colour}"' if colour else ""
         self.parts.append(f'<polyline class="{style}" points="{points}"{stroke}/>')
 
@@ -270,10 +312,11 @@ def _thinned(ways: Sequence[tuple[float, float]], least: float) -> list[tuple[fl
     return kept
 
 
-def _text(text: str) -> str:
+def plain_text(text: str) -> str:
+    """Escape a string as text of XML."""
     return escape(legal(text))
 
 
-def _n(number: float) -> str:
+def number(value: float) -> str:
     """Format a number with at most two decimals."""
-    return f"{number:.2f}".rstrip("0").rstrip(".")
+    return f"{value:.2f}".rstrip("0").rstrip(".")

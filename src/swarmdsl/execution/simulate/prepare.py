@@ -49,6 +49,7 @@ class Request:
     world: str | None = None
     """Kind of space; None if the scenario or the model decides."""
     map: Path | None = None
+    animation: Path | None = None
 
     def watches(self, name: str) -> bool:
         """Return True if a property of this name is watched."""
@@ -87,7 +88,7 @@ def prepare(request: Request, report: Diagnostics) -> Prepared | None:
         events = read_source(path, None, report, "a file of events", MOST_RECORDED)
     kind = request.world or scenario.world
     spaces = Spaces() if request.replay else choose_space(kind, subject, scenario, report)
-    if request.map is not None and not spaces.is_flat and not report.has_errors:
+    if (request.map or request.animation) and not spaces.is_flat and not report.has_errors:
         help_ = "say where something is in the model, or run it with `--world flat`"
         report.report("no-positions", name=subject.name, help=help_)
     return None if report.has_errors else Prepared(subject, scenario, events, spaces)
