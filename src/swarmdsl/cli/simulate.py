@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +20,8 @@ from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostic
+    from swarmdsl.execution.simulate.live import Page
+    from swarmdsl.ir import System
 
 _NOT_WITH_ROS2 = ("machine", "events", "timeline", "replay", "stop_on_violation", "real_time")
 
@@ -44,6 +48,28 @@ def _check_alone(many: bool) -> None:
         raise click.UsageError("`--ros2` and `--runs` conflict")
     if given["world"] == "abstract":
         raise click.UsageError("`--ros2` and `--world abstract` conflict")
+
+
+@contextmanager
+def _opened(port: int, system: System | None, title: str, map_: str | None) -> Iterator[Page]:
+    """Serve the page of `--live` while the context lasts."""
+    from swarmdsl.ide.preview.editors import detect_editor
+    from swarmdsl.ide.preview.live_run import live_page
+
+    def tell(address: str) -> None:
+        click.echo(f"open {address} in a browser: the run begins then", err=True)
+
+    with ExitStack() as stack:
+        if hasattr(signal, "SIGPIPE"):
+            # A page may be closed while it is written to; the run goes on.
+            stack.callback(signal.signal, signal.SIGPIPE, signal.getsignal(signal.SIGPIPE))
+            signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+        try:
+            opened = live_page(system, title, map_, port, tell, detect_editor())
+            page = stack.enter_context(opened)
+        except OSError as error:
+            raise click.ClickException(f"port {port}: {error.strerror}") from error
+        yield page
 
 
 @click.command(
@@ -130,7 +156,20 @@ def _check_alone(many: bool) -> None:
 @click.option(
     "--real-time-factor",
     type=options.Number(0, 1000, min_open=True),
-    help="Speed of the time of `--ros2`, if the nodes keep up: 2 is twice as fast.  [default: 1]",
+    help="Speed of `--real-time`, `--live` or `--ros2`, if all keep up: 2 is twice as fast.  "
+    "[default: 1]",
+)
+@click.option(
+    "--live",
+    is_flag=True,
+    help="Show the map and the active states on a page in the browser while the run goes on, in "
+    "real time; it begins when the page is open.",
+)
+@click.option(
+    "--port",
+    type=options.Integer(0, 65535),
+    metavar="PORT",
+    help="Port of `--live` on the loopback interface; 0 takes a free one.  [default: 0]",
 )
 @options.diagnostics_format
 @options.debug
@@ -156,6 +195,8 @@ def simulate(
     real_time: bool,
     ros2: bool,
     real_time_factor: float | None,
+    live: bool,
+    port: int | None,
     format_: str,
     **many_options: Any,
 ) -> int:
@@ -170,6 +211,8 @@ def simulate(
 
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` conflict")
+    if live and replay:
+        raise click.UsageError("`--replay` and `--live` conflict")
     for name, value in (("events", events), ("trace", trace), ("trace-file", trace_file)):
         if replay and value is not None:
             raise click.UsageError(f"`--replay` and `--{name}` conflict")
@@ -188,8 +231,10 @@ def simulate(
             "trace to a `--trace-file`"
         )
     many = many_of(**many_options)
-    if real_time_factor is not None and not ros2:
-        raise click.UsageError("`--real-time-factor` needs `--ros2`")
+    if real_time_factor is not None and not (ros2 or live or real_time):
+        raise click.UsageError("`--real-time-factor` needs `--real-time`, `--live` or `--ros2`")
+    if port is not None and not live:
+        raise click.UsageError("`--port` needs `--live`")
     if ros2:
         _check_alone(many is not None)
     if timeline is not None:
@@ -223,7 +268,7 @@ def simulate(
         timeline,
         seed,
         until,
-        real_time,
+        real_time or live,
         replay,
         not no_properties,
         stop_on_violation,
@@ -232,11 +277,13 @@ def simulate(
         world,
         map_file,
         animation,
+        real_time_factor or 1.0,
+        partial(_opened, port or 0) if live else None,
     )
     if ros2:
         from swarmdsl.execution.ros2_world.command import serve
 
-        simulate_: Callable[..., bool | None] = partial(serve, factor=real_time_factor or 1.0)
+        simulate_: Callable[..., bool | None] = serve
     elif many is None:
         simulate_ = run_simulation
     else:

@@ -20,6 +20,7 @@ from swarmdsl.execution.ros2_world.ports import MissingInterfaceError
 from swarmdsl.execution.ros2_world.served import ServedWorld
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
+from swarmdsl.execution.simulate.live import show
 from swarmdsl.execution.simulate.measures import fitness_of
 from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
 from swarmdsl.execution.simulate.properties import watchable
@@ -41,7 +42,7 @@ _ENDINGS = {
 }
 
 
-def serve(request: Request, tell: Tell, factor: float) -> bool | None:
+def serve(request: Request, tell: Tell) -> bool | None:
     """Serve the robots; return True without errors, None if interrupted."""
     report = Diagnostics()
     if not is_there():
@@ -57,7 +58,7 @@ def serve(request: Request, tell: Tell, factor: float) -> bool | None:
         return False
     assert prepared.spaces.setting is not None
     tell(report)
-    return _Served(request, prepared, cast, prepared.spaces.setting, factor).play(tell)
+    return _Served(request, prepared, cast, prepared.spaces.setting).play(tell)
 
 
 def _check(prepared: Prepared, report: Diagnostics) -> None:
@@ -92,7 +93,6 @@ class _Served:
         prepared: Prepared,
         cast: Sequence[Actor],
         setting: Setting,
-        factor: float,
     ) -> None:
         scenario = prepared.scenario
         self._request = request
@@ -100,7 +100,6 @@ class _Served:
         self._subject = prepared.subject
         self._cast = cast
         self._setting = setting
-        self._factor = factor
         self._seed = request.seed if request.seed is not None else scenario.seed
         until = request.until if request.until is not None else scenario.until
         self._until = until if until is not None else DEFAULT_UNTIL
@@ -138,17 +137,18 @@ class _Served:
         with ExitStack() as stack:
             if self._request.trace_file is not None:
                 stream = stack.enter_context(write_stream(self._request.trace_file))
-                world.recorded.listener = lambda line: print(line, file=stream)
+                world.recorded.listeners.append(lambda line: print(line, file=stream))
                 self._written.append(self._request.trace_file)
             world.listen(graph)
             maps = Maps(self._request.map, self._request.animation)
             pictures = [stack.enter_context(write_stream(path)) for path in maps.paths]
             self._written += maps.paths
             drawn = maps.record(self._subject, world) if pictures else None
+            show_end = self._show(world, stack)
             try:
                 wait_for_nodes(world, graph, self._tell_missing)
                 step = self._setting.layout.step
-                ending = _ENDINGS[drive(world, graph, step, self._until, self._factor)]
+                ending = _ENDINGS[drive(world, graph, step, self._until, self._request.factor)]
             except KeyboardInterrupt:
                 interrupted = True
             except ModelError as error:
@@ -156,6 +156,7 @@ class _Served:
                 time = format_duration(world.clock.now)
                 function, reason = error.function, error.reason
                 report.report("failed-model", function=function, time=time, reason=reason)
+            show_end()
             if drawn is not None:
                 for file, picture in zip(pictures, maps.drawn(drawn), strict=True):
                     file.write(picture)
@@ -189,6 +190,14 @@ class _Served:
             names = [printable(str(path)) for path in self._written]
             click.echo(f"written: {', '.join(names)}", err=True)
         return None if interrupted else not report.has_errors
+
+    def _show(self, world: ServedWorld, stack: ExitStack) -> Callable[[], None]:
+        """Open the page that shows the run, if requested; return what draws the end."""
+        if self._request.live is None:
+            return lambda: None
+        page, draw = show(self._request.live, self._subject, world, is_flat=True, stack=stack)
+        world.recorded.listeners.append(page.step)
+        return draw
 
     def _summary(self, world: ServedWorld, ending: str) -> Iterator[str]:
         members = counted(len(world.robots), "member")

@@ -26,7 +26,7 @@ class Recorded:
 
     def __init__(self, members: Sequence[str]) -> None:
         self.lines: list[dict[str, Any]] = []
-        self.listener: Callable[[str], None] | None = None
+        self.listeners: list[Callable[[str], None]] = []
         """Called with each line, as JSON."""
         self._last: dict[str, dict[str, Any]] = {}
         self._waiting = dict.fromkeys(members)
@@ -91,8 +91,8 @@ class Recorded:
             line["at"] = [round(each, 3) for each in place]
         self._last[member] = line
         self.lines.append(line)
-        if self.listener is not None:
-            self.listener(_json(line))
+        for listener in self.listeners:
+            listener(_json(line))
 
 
 def _json(line: dict[str, Any]) -> str:

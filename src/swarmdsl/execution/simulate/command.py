@@ -116,6 +116,7 @@ class _Play:
         self._written: list[Path] = []
         self._until = request.until if request.until is not None else scenario.until
         self._seed = request.seed if request.seed is not None else scenario.seed
+        self._is_flat = prepared.spaces.is_flat
         self._watched = [each for each in watchable(subject) if request.watches(each.name)]
         self._fitness = fitness_of(subject)
         self._listeners: list[Callable[[Line], None]] = []
@@ -196,6 +197,7 @@ class _Play:
                     self._listeners.append(self._writer(stream))
                 if stream is None or not stream.isatty():
                     self._show_board(stack)
+                last = self._live(stack)
                 watched = bool(self._watched) or self._fitness is not None
                 if watched and self._listeners:
                     self._listeners.append(monitors.see)  # the last one: it can end the run
@@ -226,6 +228,7 @@ class _Play:
                 if picture is not None:
                     picture({each.property.name: each.remark for each in results})
                 maps()
+                last()
         except OSError as error:
             if error.filename is None:
                 raise  # of standard output
@@ -279,7 +282,7 @@ class _Play:
             report_unwritten(path, error, report)
 
     def _run(self, tell: Tell) -> Ending:
-        pace = Pace() if self._request.real_time else None
+        pace = Pace(self._request.factor) if self._request.real_time else None
         if self._request.events != STANDARD_INPUT:
             return run(self._world, self._inputs, self._until, pace)
         if pace is None:
@@ -373,6 +376,18 @@ class _Play:
                 assert stream is not None
                 stream.write(picture)
 
+        return draw
+
+    def _live(self, stack: ExitStack) -> Callable[[], None]:
+        """Open the page that shows the run, if requested; return what draws the end."""
+        if self._request.live is None:
+            return lambda: None
+        from swarmdsl.execution.simulate.live import show
+
+        page, draw = show(
+            self._request.live, self._subject, self._world, is_flat=self._is_flat, stack=stack
+        )
+        self._listeners.append(lambda line: page.step(as_json(line)))
         return draw
 
     def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:

@@ -15,6 +15,7 @@ from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.choose_space import Spaces, choose_space
 from swarmdsl.execution.simulate.inputs import Input, Reader
+from swarmdsl.execution.simulate.live import Opened
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.subject import Document, Subject, choose
@@ -50,6 +51,10 @@ class Request:
     """Kind of space; None if the scenario or the model decides."""
     map: Path | None = None
     animation: Path | None = None
+    factor: float = 1.0
+    """Speed of virtual time in a run in real time."""
+    live: Opened | None = None
+    """Opens the page that shows the run."""
 
     def watches(self, name: str) -> bool:
         """Return True if a property of this name is watched."""

@@ -27,20 +27,21 @@ _BLINK = 0.01
 
 
 class Pace:
-    """Synchronize virtual time with real time."""
+    """Synchronize virtual time with real time, or let it be `factor` times as fast."""
 
-    def __init__(self) -> None:
+    def __init__(self, factor: float = 1.0) -> None:
         self._start = time.monotonic_ns()
+        self._factor = factor
 
     @property
     def now(self) -> int:
-        """Nanoseconds since the start."""
-        return time.monotonic_ns() - self._start
+        """Nanoseconds of virtual time since the start."""
+        return round((time.monotonic_ns() - self._start) * self._factor)
 
     def wait(self, until: int) -> None:
         """Wait until a time."""
         while (left := until - self.now) > 0:
-            time.sleep(min(left / SECOND, _NAP))
+            time.sleep(min(left / SECOND / self._factor, _NAP))
             interrupts.raise_lost()
 
 

@@ -26,6 +26,13 @@ class Steps(TypedDict, total=False):
     entered: Mapping[str, Sequence[str]]
 
 
+class Drawn(TypedDict):
+    """Picture of a diagram, with its id."""
+
+    id: str
+    svg: str
+
+
 class Message(Steps, total=False):
     """Update for a page; all keys are optional.
 
@@ -39,6 +46,8 @@ class Message(Steps, total=False):
     `active` are the innermost active states of members, None for members that ended. `taken` are
     the ids of transitions that members have just taken, `entered` the states that they entered,
     including those left since; the empty id is a machine that started.
+
+    `redrawn` is a new picture of a diagram, for pages that show it.
     """
 
     titles: dict[str, str]
@@ -46,6 +55,7 @@ class Message(Steps, total=False):
     id: str
     svg: str
     broken: int
+    redrawn: Drawn
     active: Mapping[str, Sequence[str] | None]
 
 

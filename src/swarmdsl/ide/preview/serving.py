@@ -45,6 +45,9 @@ class Snapshot:
         # Innermost active states of members by trace.
         self._active: dict[str, dict[str, Sequence[str]]] = {}
         self._moves = 0
+        # Number of the last change, and the last one that each page has been sent.
+        self._changes = 0
+        self._delivered: dict[object, int] = {}
         # Update number and the steps in it.
         self._steps: deque[tuple[int, Steps]] = deque(maxlen=_HISTORY)
 
@@ -57,7 +60,7 @@ class Snapshot:
             else:
                 # Keep the diagrams; only the last error count matters.
                 self._messages = (*(each for each in self._messages if "titles" in each), update)
-            self._changed.notify_all()
+            self._notify()
 
     def move(
         self,
@@ -78,20 +81,45 @@ class Snapshot:
                     there[member] = states
             self._moves += 1
             self._steps.append((self._moves, latest))
-            self._changed.notify_all()
+            self._notify()
 
     def forget(self, trace: str) -> None:
         """Drop the states of a trace that restarts."""
         with self._changed:
             self._active.pop(trace, None)
             self._moves += 1
-            self._changed.notify_all()
+            self._notify()
+
+    def wait_for_page(self, seconds: float) -> bool:
+        """Wait until somebody looks at a page; return False if that takes too long."""
+        with self._changed:
+            return self._changed.wait_for(lambda: bool(self._delivered), seconds)
+
+    def wait_for_delivery(self, seconds: float) -> None:
+        """Wait until all pages have been sent the last change, unless that takes too long."""
+        with self._changed:
+            self._changed.wait_for(
+                lambda: all(each == self._changes for each in self._delivered.values()), seconds
+            )
+
+    def _notify(self) -> None:
+        self._changes += 1
+        self._changed.notify_all()
 
     def follow(self) -> Iterator[Sequence[Message]]:
         """Yield the messages for a page, now and after each change; empty on a timeout."""
+        page = object()
+        try:
+            yield from self._follow(page)
+        finally:
+            with self._changed:
+                self._delivered.pop(page, None)
+                self._changed.notify_all()
+
+    def _follow(self, page: object) -> Iterator[Sequence[Message]]:
         sent: Sequence[Message] = ()
         active: dict[str, Sequence[str]] = {}
-        moves = 0
+        moves = changes = 0
         seen = self._moves
 
         def is_new() -> bool:
@@ -99,9 +127,12 @@ class Snapshot:
 
         while True:
             with self._changed:
+                # Whoever comes back has sent what it was given.
+                self._delivered[page] = changes
+                self._changed.notify_all()
                 self._changed.wait_for(is_new, _KEEP_ALIVE)
                 new = [each for each in self._messages if not any(each is old for old in sent)]
-                sent, moves = self._messages, self._moves
+                sent, moves, changes = self._messages, self._moves, self._changes
                 steps = [step for number, step in self._steps if number > seen]
                 seen = moves
                 now = {

@@ -3,6 +3,7 @@
 // Messages of the host: `{ titles: { ID: TITLE }, runs }`, `{ id, svg }` with a drawn diagram,
 // `{ broken }` with the number of errors (the picture stays), `{ active }` with active states,
 // `{ taken, entered }` with transitions just taken and states they entered,
+// `{ redrawn: { id, svg } }` with a new picture of a diagram, for pages that show it,
 // `{ cursor: { file, line } }` and `{ show: ID }`.
 
 import { Folding } from "./folding.js";
@@ -76,6 +77,9 @@ function receive(message) {
   }
   if (message.svg) {
     receivePicture(message);
+  }
+  if (message.redrawn?.id === shown) {
+    receivePicture(message.redrawn);
   }
   which.value = shown;
   if (message.broken !== undefined) {
