@@ -27,6 +27,7 @@ _RUN = (
     "ls",
     "find",
     "cat",
+    "cp",
     "sed",
     "rm",
     "cd",

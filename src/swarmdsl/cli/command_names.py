@@ -17,6 +17,7 @@ COMMANDS = (
     "lsp",
     "merge",
     "new",
+    "optimize",
     "preview",
     "rename",
     "simulate",

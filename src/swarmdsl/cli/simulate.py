@@ -26,7 +26,9 @@ if TYPE_CHECKING:
 _NOT_WITH_ROS2 = ("machine", "events", "timeline", "replay", "stop_on_violation", "real_time")
 
 
-def _duration(_context: click.Context, _param: click.Parameter, text: str | None) -> int | None:
+def parse_duration(
+    _context: click.Context, _param: click.Parameter, text: str | None
+) -> int | None:
     """Parse a duration with its unit, to nanoseconds."""
     from swarmdsl.execution.simulate.durations import duration
 
@@ -127,7 +129,7 @@ def _opened(port: int, system: System | None, title: str, map_: str | None) -> I
 @click.option(
     "--until",
     metavar="DURATION",
-    callback=_duration,
+    callback=parse_duration,
     help="End after this virtual time.  [default: the scenario's, or 10min after the last of "
     "`--events`]",
 )

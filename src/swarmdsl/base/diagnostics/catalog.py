@@ -411,4 +411,9 @@ CODES: dict[str, Code] = {
     "no-engine": Code("SW1803", "error", "cannot run on `{address}`: {reason}"),
     "worker-refuses": Code("SW1804", "error", "a worker refuses the runs: {reason}"),
     "lost-workers": Code("SW1805", "error", "workers were lost {times} times: {reason}"),
+    "nothing-to-optimize": Code("SW1806", "error", "swarm `{name}` has {reason}"),
+    "no-candidate": Code("SW1807", "error", "no candidate is possible: {reason}"),
+    "cannot-apply": Code("SW1808", "error", "cannot write the winner into `{name}`: {reason}"),
+    "not-applied": Code("SW1809", "warning", "`{name}` is not changed: it is better as it is"),
+    "missing-package": Code("SW1810", "error", "`{what}` needs package `{package}`"),
 }

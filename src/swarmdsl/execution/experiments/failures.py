@@ -10,7 +10,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 class StoppedError(Exception):
     """Raised where an experiment cannot go on: a diagnostic with its fields and a way out."""
 
-    def __init__(self, name: str, help_: str | None = None, **fields: Any) -> None:
+    def __init__(self, name: str, help_: str | None = None, /, **fields: Any) -> None:
         super().__init__(name)
         self.name = name
         self.help = help_

@@ -1,0 +1,203 @@
+"""`swarmc optimize`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from swarmdsl.base.diagnostics.render import DOCUMENTS, render
+from swarmdsl.cli import options
+from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
+from swarmdsl.cli.simulate import parse_duration
+from swarmdsl.cli.suggestions import Choice
+
+if TYPE_CHECKING:
+    from swarmdsl.base.diagnostics.collector import Diagnostic
+    from swarmdsl.execution.experiments.search.evaluation import Together
+    from swarmdsl.execution.experiments.search.methods import Name
+
+_MOST_SEEDS = 100_000
+
+
+@click.command(
+    epilog="Example: swarmc optimize examples/storage --scenario shift.toml --jobs 2 -o results"
+)
+@options.files
+@click.option("--swarm", metavar="NAME", help="Optimize this swarm.")
+@click.option(
+    "--scenario",
+    "scenarios",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    multiple=True,
+    help="Environment of the runs, as TOML; may be repeated.",
+)
+@click.option(
+    "--together",
+    type=Choice(("mean", "worst")),
+    default="mean",
+    show_default=True,
+    help="Value of several scenarios: their mean, or the worst of them.",
+)
+@click.option(
+    "--subject-to",
+    "properties",
+    metavar="NAME",
+    multiple=True,
+    help="A property that no run of a candidate may violate; may be repeated.",
+)
+@click.option(
+    "--method",
+    type=Choice(("auto", "cma", "tpe", "grid", "random")),
+    default="auto",
+    show_default=True,
+    help="How candidates are found; `auto` tries all of them where they are few, else `cma`.",
+)
+@click.option(
+    "--evaluations",
+    type=options.Integer(1, 1_000_000),
+    metavar="N",
+    help="Number of candidates that are tried.  [default: that of `optimize`, or 200]",
+)
+@click.option(
+    "--seeds",
+    type=options.Integer(2, _MOST_SEEDS),
+    metavar="N",
+    default=30,
+    show_default=True,
+    help="Seeds of a candidate in the race, at most.",
+)
+@click.option(
+    "--fresh",
+    type=options.Integer(2, _MOST_SEEDS),
+    metavar="N",
+    default=100,
+    show_default=True,
+    help="Seeds with which the winner and the model as it is are measured in the end.",
+)
+@click.option(
+    "--seed",
+    type=options.Integer(0, 2**31 - 1),
+    help="First seed, also of the search.  [default: that of `optimize`, or 0]",
+)
+@click.option(
+    "--until",
+    metavar="DURATION",
+    callback=parse_duration,
+    help="End each run after this virtual time.  [default: the scenario's, or 10min]",
+)
+@click.option(
+    "--world",
+    type=Choice(("abstract", "flat", "physics")),
+    help="Space of the runs, as for `swarmc simulate`.",
+)
+@click.option(
+    "--limit",
+    type=options.Number(0, 86400, min_open=True),
+    metavar="SECONDS",
+    help="A run that takes longer makes its candidate impossible.  [default: 60]",
+)
+@click.option(
+    "--jobs",
+    type=options.Integer(1, 256),
+    metavar="J",
+    help="Number of processes.  [default: one for each processor]",
+)
+@click.option(
+    "--cluster",
+    metavar="ADDRESS",
+    help="Run on a Dask cluster, such as `tcp://host:8786`, or on an installed kind of engine.",
+)
+@click.option(
+    "-o",
+    "--output",
+    type=click.Path(path_type=Path),
+    metavar="FOLDER",
+    help="Keep the runs, the history and the files of the winner in a folder.",
+)
+@click.option("--resume", is_flag=True, help="Use the runs that are in the folder.")
+@click.option("--apply", is_flag=True, help="Write the winner into the model.")
+@click.option(
+    "--feed",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write what happens to a file while it happens, as JSON lines.",
+)
+@click.option("--json", "is_json", is_flag=True, help="Print the result as JSON.")
+@options.diagnostics_format
+@options.debug
+def optimize(
+    paths: tuple[Path, ...],
+    swarm: str | None,
+    scenarios: tuple[Path, ...],
+    together: Together,
+    properties: tuple[str, ...],
+    method: Name,
+    evaluations: int | None,
+    seeds: int,
+    fresh: int,
+    seed: int | None,
+    until: int | None,
+    world: str | None,
+    limit: float | None,
+    jobs: int | None,
+    cluster: str | None,
+    output: Path | None,
+    resume: bool,
+    apply: bool,
+    feed: Path | None,
+    is_json: bool,
+    format_: str,
+) -> int:
+    """Search for the params and numbers of robots with the best fitness.
+
+    The ranges are those that the model declares with `optimize`. All candidates run with the same
+    seeds; those that are worse leave the race. The winner runs with seeds that the search has not
+    seen, beside the model as it is. The result does not depend on the number of processes.
+    """
+    from swarmdsl.execution.experiments.search.command import Request
+    from swarmdsl.execution.experiments.search.command import optimize as run_search
+
+    if jobs is not None and cluster is not None:
+        raise click.UsageError("`--jobs` and `--cluster` conflict")
+    if resume and output is None:
+        raise click.UsageError("`--resume` needs `-o`, the folder with the runs")
+    if len(set(scenarios)) != len(scenarios):
+        raise click.UsageError("a `--scenario` is given twice")
+    is_document = format_ in DOCUMENTS
+    if is_document and is_json:
+        raise click.UsageError(f"`--format {format_}` and `--json` both print")
+    options.check_outputs({"--feed": feed}, (*paths, *scenarios))
+    request = Request(
+        paths,
+        swarm,
+        scenarios,
+        method,
+        evaluations,
+        seeds,
+        fresh,
+        seed,
+        together,
+        properties,
+        until,
+        world,
+        jobs or os.cpu_count() or 1,
+        cluster,
+        output,
+        resume,
+        apply,
+        feed,
+        is_json,
+        limit,
+    )
+    if not is_document:
+        done = run_search(request, lambda report: render(report, format_, sys.stderr))
+    else:
+        found: list[Diagnostic] = []
+        done = run_search(request, found.extend)
+        render(found, format_, sys.stdout)
+    return INTERRUPTED if done is None else OK if done else ERRORS

@@ -1,0 +1,247 @@
+"""`swarmc optimize`: search, and what is made of the result."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from pathlib import Path
+from typing import Any, TextIO
+
+import click
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.suggest import suggest
+from swarmdsl.base.write_stream import report_unwritten, write_stream
+from swarmdsl.codegen.exchange.search_space import number
+from swarmdsl.execution.experiments.applying import apply_to_model
+from swarmdsl.execution.experiments.engines import Engine, cluster, local
+from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.progress_bar import Feed, shown
+from swarmdsl.execution.experiments.running import Runs
+from swarmdsl.execution.experiments.search.evaluation import Aim, Together
+from swarmdsl.execution.experiments.search.files import files_of
+from swarmdsl.execution.experiments.search.methods import Name
+from swarmdsl.execution.experiments.search.optimizing import Found, Plan, Search
+from swarmdsl.execution.experiments.search.report import as_data, as_text, settings_text
+from swarmdsl.execution.experiments.search.space import space_of
+from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
+from swarmdsl.execution.experiments.store import FILE, Store
+from swarmdsl.execution.experiments.task import NO_SCENARIO, canonical
+from swarmdsl.execution.simulate.measures import fitness_of
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.ir import Fitness, Optimization, System
+
+HISTORY, RESULTS = "history.jsonl", "results.json"
+Tell = Callable[[Diagnostics], None]
+
+
+@dataclass(frozen=True)
+class Request:
+    """Arguments of the command. Without `output`, nothing is kept."""
+
+    paths: tuple[Path, ...]
+    swarm: str | None = None
+    scenarios: tuple[Path, ...] = ()
+    method: Name = "auto"
+    evaluations: int | None = None
+    seeds: int = 30
+    fresh: int = 100
+    seed: int | None = None
+    together: Together = "mean"
+    properties: tuple[str, ...] = ()
+    until: int | None = None
+    world: str | None = None
+    jobs: int = 1
+    cluster: str | None = None
+    output: Path | None = None
+    resume: bool = False
+    apply: bool = False
+    feed: Path | None = None
+    is_json: bool = False
+    limit: float | None = None
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """What is optimized."""
+
+    subject: Subject
+    system: System
+    optimization: Optimization
+    fitness: Fitness
+    shipment: Shipment
+    plan: Plan
+
+
+def optimize(request: Request, tell: Tell) -> bool | None:
+    """Search for the best candidate; return True without errors, None if interrupted."""
+    report = Diagnostics()
+    found: Found | None = None
+    interrupted = False
+    problem = _problem(request, report)
+    tell(report)
+    if problem is None:
+        return False
+    report = Diagnostics()
+    search: list[Search] = []
+    try:
+        with ExitStack() as stack:
+            found = _search(request, problem, search, stack)
+    except KeyboardInterrupt:
+        interrupted = True
+        _say_so_far(search)
+    except StoppedError as stopped:
+        stopped.report(report)
+    except OSError as error:
+        report_unwritten(Path(error.filename or "."), error, report)
+    if found is not None:
+        _conclude(request, problem, found, report)
+    tell(report)
+    return None if interrupted else not report.has_errors
+
+
+def _say_so_far(search: list[Search]) -> None:
+    best = search[0].best if search else None
+    said = f"the best so far: {settings_text(best.candidate)}" if best is not None else "no result"
+    tried = f", after {search[0].tried} candidates" if search and search[0].tried else ""
+    click.echo(f"interrupted{tried}; {said}", err=True)
+
+
+def _search(request: Request, problem: _Problem, searches: list[Search], stack: ExitStack) -> Found:
+    plan, digest = problem.plan, problem.shipment.digest
+    folder = request.output
+    if folder is None:
+        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="swarmdsl-")))
+    store = stack.enter_context(Store(folder / FILE, is_new=not request.resume))
+    history = stack.enter_context(write_stream(folder / HISTORY))
+    stream = stack.enter_context(write_stream(request.feed)) if request.feed is not None else None
+    engine = stack.enter_context(_engine(request))
+
+    def best() -> str:
+        found = searches[0].best if searches else None
+        if found is None or found.mean is None:
+            return ""
+        return f"{found.mean:.6g} with {settings_text(found.candidate)}"
+
+    bar = stack.enter_context(shown(plan.expected, engine.name, best))
+    feed = Feed(stream, plan.expected, bar)
+
+    def tell(line: dict[str, Any]) -> None:
+        history.write(f"{canonical(line)}\n")
+        history.flush()
+        feed.say("evaluation", **line)
+
+    feed.say("begin", subject=problem.subject.name, method=plan.chosen, workers=engine.name)
+    runs = Runs({digest: problem.shipment}, engine, store, feed, request.limit)
+    searches.append(Search(plan, runs, digest, tell))
+    found = searches[0].run()
+    feed.say("end", **as_data(found, plan, problem.subject.name, problem.fitness.name))
+    return found
+
+
+def _engine(request: Request) -> Engine:
+    return cluster(request.cluster) if request.cluster is not None else local(request.jobs)
+
+
+def _conclude(request: Request, problem: _Problem, found: Found, report: Diagnostics) -> None:
+    """Print, write and apply a result."""
+    named = problem.subject.name, problem.fitness.name
+    data = f"{json.dumps(as_data(found, problem.plan, *named), indent=2)}\n"
+    if request.is_json:
+        click.echo(data, nl=False)
+    else:
+        for line in as_text(found, problem.plan, *named):
+            click.echo(line)
+    if request.output is not None:
+        candidate = found.winner.candidate
+        texts = {
+            RESULTS: data,
+            **dict(files_of(candidate, problem.optimization, problem.system)),
+        }
+        for name, text in texts.items():
+            with _written(request.output / name, report) as stream:
+                stream.write(text)
+        click.echo(f"\nwritten: {FILE}, {HISTORY}, {', '.join(texts)}", err=True)
+    if request.apply:
+        _apply(request, problem, found, report)
+
+
+@contextmanager
+def _written(path: Path, report: Diagnostics) -> Iterator[TextIO]:
+    try:
+        with write_stream(path) as stream:
+            yield stream
+    except OSError as error:
+        report_unwritten(path, error, report)
+
+
+def _apply(request: Request, problem: _Problem, found: Found, report: Diagnostics) -> None:
+    """Write the winner into the model, unless it is not better than today's."""
+    if found.comparison is not None and found.comparison.answer == "no":
+        report.report("not-applied", help="the model is as it was", name=problem.subject.name)
+        return
+    try:
+        changed = problem.plan.space.changed(found.winner.candidate)
+        layouts = apply_to_model(request.paths, problem.subject.name, changed, report)
+    except StoppedError as stopped:
+        stopped.report(report)
+        return
+    for layout in layouts:
+        click.echo(layout.diff(), nl=False, err=True)
+    if not layouts and not report.has_errors:
+        click.echo("the model has these values already", err=True)
+
+
+def _problem(request: Request, report: Diagnostics) -> _Problem | None:
+    """Load the model, and find out what is to be optimized."""
+    conditions = Conditions(request.until, request.world, request.properties)
+    packed = pack(request.paths, request.swarm, request.scenarios, report, conditions)
+    if packed is None:
+        return None
+    shipment, subject = packed
+    system = subject.system
+    assert system is not None
+    optimization = next((o for o in system.optimizations if o.swarm == subject.name), None)
+    if optimization is None:
+        help_ = f"declare its ranges: `optimize {subject.name} {{ count of role in 1 .. 5 }}`"
+        report.report("nothing-to-optimize", name=subject.name, reason="no `optimize`", help=help_)
+        return None
+    fitness = fitness_of(subject)
+    if fitness is None:
+        help_ = "give its inputs measures, as in `in done : uint32 = total(robot in Done)`"
+        reason = "no fitness that a run measures"
+        report.report("nothing-to-optimize", name=subject.name, reason=reason, help=help_)
+        return None
+    space = space_of(optimization, system)
+    if not space.dimensions:
+        help_ = "add `role.param in 1.0 .. 5.0` or `count of role in 1 .. 5`"
+        reason = "no range in its `optimize`"
+        report.report("nothing-to-optimize", name=subject.name, reason=reason, help=help_)
+        return None
+    known = [each.name for each in system.properties if each.subject == subject.name]
+    chances = [each.name for each in system.properties if each.chance is not None]
+    for name in request.properties:
+        if name not in known or name in chances:
+            help_ = suggest(name, known, "properties")
+            kind = f"property of `{subject.name}`"
+            if name in chances:
+                kind, help_ = "property of one run", f"`{name}` has a chance: it is about many"
+            report.report("unresolved-name", kind=kind, name=name, help=help_)
+    if report.has_errors:
+        return None
+    given = {name: int(number(value)) for name, value in optimization.settings}
+    seed = request.seed if request.seed is not None else given.get("seed", 0)
+    plan = Plan(
+        space,
+        Aim(fitness.goal, request.together, request.properties),
+        tuple(map(str, request.scenarios)) or (NO_SCENARIO,),
+        request.method,
+        request.evaluations or given.get("evaluations", 200),
+        request.seeds,
+        request.fresh,
+        seed,
+    )
+    return _Problem(subject, system, optimization, fitness, shipment, plan)

@@ -1,0 +1,74 @@
+"""Files of a winner, for other programs and for `swarmc simulate`."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.exchange.search_space import behaviour_package, search_parameters
+from swarmdsl.execution.experiments.settings import keys_of
+from swarmdsl.execution.experiments.task import COUNT, Candidate
+from swarmdsl.execution.simulate.durations import SECOND, duration
+from swarmdsl.ir import Optimization, System
+
+_PARAMETERS = "parameters"
+
+
+def scenario_text(candidate: Candidate) -> str:
+    """Return the tables of a scenario with the settings, as TOML."""
+    tables: dict[tuple[str, ...], list[str]] = {}
+    for name, value in candidate.settings:
+        *above, last = keys_of(name)
+        tables.setdefault(tuple(above), []).append(f"{_key(last)} = {json.dumps(value)}")
+    parts = (
+        "\n".join([f"[{'.'.join(map(_key, keys))}]", *lines]) for keys, lines in tables.items()
+    )
+    return "\n\n".join(parts) + "\n"
+
+
+def _key(word: str) -> str:
+    return word if word.replace("_", "").replace("-", "").isalnum() else json.dumps(word)
+
+
+def candidate_data(candidate: Candidate, system: System) -> list[dict[str, Any]]:
+    """Return the candidate as the simulation orchestrator of CPSwarm has it, times in seconds."""
+    package = f"file:{behaviour_package(system, '')}"
+    found = []
+    for name, value in candidate.settings:
+        meta = "command_line" if name.startswith(COUNT) else package
+        plain = name.removeprefix(COUNT).rpartition(".")[2]
+        number = (duration(value) or 0) / SECOND if isinstance(value, str) else value
+        found.append({"name": plain, "meta": meta, "value": number})
+    return found
+
+
+def parameters_data(optimization: Optimization, system: System) -> dict[str, Any]:
+    """Return the ranges as target `parameters` writes them, as far as it can."""
+    found = search_parameters(optimization, system, "", _PARAMETERS, Diagnostics())
+    return {
+        "parameters": [
+            {
+                "name": each.name,
+                "meta": each.meta,
+                "min": each.minimum,
+                "max": each.maximum,
+                "scale": str(each.scale).removesuffix(".0"),
+            }
+            for each in found
+        ]
+    }
+
+
+def files_of(
+    candidate: Candidate, optimization: Optimization, system: System
+) -> Iterator[tuple[str, str]]:
+    """Yield the names and the texts of the files of a winner."""
+    yield "best.toml", scenario_text(candidate)
+    yield "candidate.json", _json(candidate_data(candidate, system))
+    yield "parameters.json", _json(parameters_data(optimization, system))
+
+
+def _json(data: Any) -> str:
+    return f"{json.dumps(data, indent=2)}\n"
