@@ -202,7 +202,9 @@ def test_the_winner_is_written_into_the_model(
 
     own = MODEL.replace("robot : Robot[1..6];", "robot : Robot[1..6]; robot[0] { patience = 9 s };")
     assert run([*write(tmp_path, optimize, own), "--jobs", "1", "--apply"]) == 1
-    assert "`robot[0]` has a value of its own for `patience`" in capsys.readouterr().err
+    said = capsys.readouterr().err
+    assert "error[SW1808]" in said
+    assert "`robot[0]` has a value of its own for `patience`" in said
     assert (tmp_path / "model.swarm").read_text(encoding="utf-8") == own + optimize
 
 
