@@ -8,6 +8,7 @@ compared one by one: each of them hears any message at any time.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -41,7 +42,8 @@ class Views:
         """Return the steps of a state: what can be seen of each, None if that is nothing."""
         if (kind, state) not in self._steps:
             automaton = self._model.kinds[kind]
-            moves = (*(automaton.steps[state] or ()), *automaton.heard[state].values())
+            heard = chain(*automaton.heard[state].values())
+            moves = (*(automaton.steps[state] or ()), *heard)
             self._steps[kind, state] = [
                 (self._seen(automaton, state, move), move.target) for move in moves
             ]

@@ -43,8 +43,8 @@ property Each     of Field : each tower : never in Told
 property Possible of Field : each tower : always possible in Told
 """
 DOUBTFUL = {
-    # Nobody is near in the runs that are covered, and 1,234 is none of the values that are tried.
-    "on Number [neighbors within 5 m > 0]": "nobody is near",
+    # How long a robot has waited is not covered, and 1,234 is none of the values that are tried.
+    "on Number [elapsed() > 1 s]": "reads the time",
     "on Number [event.data * event.data == 1522756]": "only some values of `Number.data`",
 }
 
@@ -70,7 +70,7 @@ def test_what_a_robot_may_send_is_not_missing(trigger: str, modelled: Callable[.
 
 
 def test_a_robot_influences_only_those_that_may_hear_it(modelled: Callable[..., Model]) -> None:
-    text = MODEL.replace("@TRIGGER@", "on Number [neighbors within 5 m > 0]")
+    text = MODEL.replace("@TRIGGER@", "on Number [elapsed() > 1 s]")
     model = modelled(text.replace("@EVENT@", "Number"))
     groups = model.groups()
 

@@ -73,6 +73,9 @@ def differs(property_: ir.Property, model: Model, bounds: Bounds) -> Doubt | Non
         place = _place_of(machine, lambda tree: _counts_present(tree, bounds))
         if place is not None:
             return Doubt("the behavior depends on how many robots are present", *place)
+        place = _place_of(machine, _counts_near)
+        if place is not None:
+            return Doubt("the behavior depends on how many robots are near", *place)
     for role, (least, _) in bounds.items():
         declared = next(each for each in _roles(model) if each.name == role)
         place = declared.origin
@@ -100,6 +103,11 @@ def _roles(model: Model) -> Sequence[ir.Role]:
 def _is_count(tree: Any) -> bool:
     """Return True for the number of robots of one's own role."""
     return isinstance(tree, ir.SelfField) and tree.field == "count"
+
+
+def _counts_near(tree: Any) -> bool:
+    """Return True for the number of robots nearby."""
+    return isinstance(tree, ir.Call) and tree.function == "neighbors"
 
 
 def _counts_present(tree: Any, bounds: Bounds) -> bool:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import reduce
 from operator import or_
-from typing import Any
+from typing import Any, TypeVar
 
 from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.monitor import LOST
@@ -21,13 +22,16 @@ from swarmdsl.execution.verify.slots import Occupied, carried, occupied
 from swarmdsl.execution.verify.state_key import StateKey
 from swarmdsl.execution.verify.tasks import Input, Task
 
+Tried = TypeVar("Tried")
+
 
 class Automaton:
     """States and moves of a kind of robot.
 
     `steps` are the moves of each state, None of those that were not looked at; `heard` are those
-    that messages cause. A robot keeps one deferred event of a name: more stay on their way, as
-    `late`. Messages arrive in any order, so that this leaves out nothing.
+    that messages cause: one for each number of robots that may be near, if it asks for that. A
+    robot keeps one deferred event of a name: more stay on their way, as `late`. Messages arrive in
+    any order, so that this leaves out nothing.
     """
 
     def __init__(self, kind: Kind, alphabet: Alphabet) -> None:
@@ -36,8 +40,9 @@ class Automaton:
         self.replays = 0
         self.is_too_large = False
         """True if it has more states, or moves, than are looked at."""
+        self.asks_who_is_near = False
         self.steps: list[list[Move] | None] = []
-        self.heard: list[dict[int, Move]] = []
+        self.heard: list[dict[int, list[Move]]] = []
         self.late: list[set[int]] = []
         self.losses: list[Move | None] = []
         """For each state, the loss of the robot; None where it is lost, or cannot be."""
@@ -70,17 +75,17 @@ class Automaton:
         made = []
         for each in given:
             for choice in self._choices(each):
-                made.append(self._try(number, choice))
+                made += self._tries(number, choice)
         if body.running:
             for event, messages in self.kind.outside.messages.items():
                 once = self.kind.outside.once.get(event, frozenset())
                 for index in range(len(messages)):
                     if index in once and (event, index) in body.used:
                         continue
-                    made.append(self._try(number, Input("outside", -1, event, index)))
+                    made += self._tries(number, Input("outside", -1, event, index))
         self.steps[number] = made
         if self.kind.can_be_lost and not self.is_lost[number] and self._shows_loss(body):
-            self.losses[number] = self._try(number, Input("lose", -1, LOST))
+            (self.losses[number],) = self._tries(number, Input("lose", -1, LOST))
 
     def hear(self, number: int, message: int) -> None:
         """Find the move of a state when a message arrives."""
@@ -92,7 +97,7 @@ class Automaton:
         elif self._is_late(number, given):
             self.late[number].add(message)
         else:
-            self.heard[number][message] = self._try(number, given)
+            self.heard[number][message] = self._tries(number, given)
 
     def listens(self, message: int) -> bool:
         """Return True if a machine handles a message that can be for such a robot."""
@@ -118,7 +123,7 @@ class Automaton:
 
     def lengths(self) -> set[int]:
         """Return the lengths of all delays."""
-        heard = (move for moves in self.heard for move in moves.values())
+        heard = (move for known in self.heard for moves in known.values() for move in moves)
         own = (move for moves in self.steps for move in moves or ())
         return {
             each.length
@@ -148,6 +153,7 @@ class Automaton:
 
     def apply(self, body: Body, given: Input, event: Event | None = None) -> None:
         """Let an input happen to a body; `event` is the very one that arrives."""
+        body.near.choose(given.near)
         match given.kind:
             case "end":
                 state, outcome, result = given.choice
@@ -225,28 +231,49 @@ class Automaton:
         return body
 
     def _body_at_rest(self) -> Body:
-        return Body(self.kind.cast, self.alphabet.system, Clock(), self.kind.crew, self.kind.silent)
+        kind = self.kind
+        system = self.alphabet.system
+        return Body(kind.cast, system, Clock(), kind.crew, kind.silent, kind.others)
 
     def _begin(self) -> None:
         body = self._body_at_rest()
         given = Input("start", -1, "")
         self.first = self._move(body, given, body.start, [0] * len(self.kind.cast), None)
+        self.asks_at_start = body.near.is_asked
 
     def _is_late(self, number: int, given: Input) -> bool:
         """Return True if an event would be deferred after another one, so that it may as well wait.
 
         It must not if a machine of the robot does anything else with it.
         """
+
+        def is_deferred(body: Body, each: Input) -> bool:
+            self.apply(body, each)
+            return all(line.deferred for line in body.lines)
+
         if given.name not in self.deferred[number]:
             return False
-        body = self._at(number)
-        self.apply(body, given)
-        return all(line.deferred for line in body.lines)
+        return all(self._each(number, given, is_deferred))
 
-    def _try(self, number: int, given: Input) -> Move:
-        body = self._at(number)
-        held = list(self.looks[number].held)
-        return self._move(body, given, lambda: self.apply(body, given), held, number)
+    def _tries(self, number: int, given: Input) -> list[Move]:
+        """Return the moves on an input."""
+
+        def move(body: Body, each: Input) -> Move:
+            held = list(self.looks[number].held)
+            return self._move(body, each, lambda: self.apply(body, each), held, number)
+
+        return list(self._each(number, given, move))
+
+    def _each(
+        self, number: int, given: Input, act: Callable[[Body, Input], Tried]
+    ) -> Iterator[Tried]:
+        """Let a robot act on an input, for each number of robots nearby, the fewest first."""
+        todo: deque[tuple[int, ...]] = deque([()])
+        while todo:
+            body = self._at(number)
+            yield act(body, given._replace(near=todo.popleft()))
+            todo += body.near.others()
+            self.asks_who_is_near |= body.near.is_asked
 
     def _move(
         self,

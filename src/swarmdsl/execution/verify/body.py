@@ -27,6 +27,7 @@ from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.members import DEPARTED, JOINED, Roster
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.verify.crew import Crew
+from swarmdsl.execution.verify.nearness import Nearness
 from swarmdsl.execution.verify.tasks import Delay, Input, Task, Wait
 
 
@@ -40,6 +41,7 @@ class Body:
         clock: Clock,
         crew: Crew | None = None,
         silent: frozenset[str] = frozenset(),
+        others: int = 0,
     ) -> None:
         self.seen: Callable[[Line], None] | None = None
         """Listener to the lines, called when the data are as after the line."""
@@ -66,6 +68,7 @@ class Body:
         self.used: set[tuple[str, int]] = set()
         """Events from outside that have come, of those that come once."""
         self.is_lost = False
+        self.near = Nearness(others)
         self._silent = silent
         self._crew = crew
         self.roster: Roster | None = None
@@ -74,7 +77,7 @@ class Body:
             self.roster = Roster(crew.robots)
         for instance, actor in zip(self.instances, cast, strict=True):
             self._trace.watch(instance, actor)
-            instance.data[NEIGHBORS] = _nobody
+            instance.data[NEIGHBORS] = self.near.count
             if self.roster is not None:
                 instance.data[PRESENT] = self.roster.count
 
@@ -212,6 +215,7 @@ class Body:
         self._forget_ended()
 
     def _guarded(self, action: Callable[[], None]) -> None:
+        self.near.begin_macrostep()
         try:
             action()
         except LoopError as error:
@@ -275,11 +279,6 @@ class Body:
         if declared.swarm:
             envelope = Envelope(robot.name or "", self.clock.now, to)
             self.sent.append(Event(event.name, data, envelope=envelope))
-
-
-def _nobody(distance: float) -> int:
-    """Return the number of robots within a distance where all are far from each other."""
-    return 0
 
 
 class _Desk:

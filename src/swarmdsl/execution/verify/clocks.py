@@ -31,7 +31,7 @@ class ClockedAutomaton:
         self._states: list[tuple[int, tuple[Bounds, ...]]] = []
         self._numbers: dict[tuple[int, tuple[Bounds, ...]], int] = {}
         self._moves: dict[int, list[Move]] = {}
-        self._heard: dict[tuple[int, int], Move] = {}
+        self._heard: dict[tuple[int, int], list[Move]] = {}
         self._later: dict[int, int | None] = {}
         self._slots: dict[tuple[int, int], int | None] = {}
         self.first = self._timed(whole.first, ())
@@ -73,15 +73,13 @@ class ClockedAutomaton:
             found = self._moves[state] = list(chosen.values())
         return found
 
-    def move_on(self, state: int, message: int) -> Move | None:
-        """Return the move of a state when a message arrives; None if it is not known."""
-        inner, clocks = self._states[state]
-        move = self.whole.heard[inner].get(message)
-        if move is None:
-            return None
+    def moves_on(self, state: int, message: int) -> list[Move]:
+        """Return the moves of a state when a message arrives; none if they are not known."""
         key = (state, message)
         if key not in self._heard:
-            self._heard[key] = self._timed(move, clocks)
+            inner, clocks = self._states[state]
+            moves = self.whole.heard[inner].get(message, ())
+            self._heard[key] = [self._timed(move, clocks) for move in moves]
         return self._heard[key]
 
     def is_late(self, state: int, message: int) -> bool:

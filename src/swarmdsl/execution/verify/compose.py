@@ -8,6 +8,7 @@ from typing import Any
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
+from swarmdsl.codegen.shared.identity import neighbor_uses
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify.composition import Composition, Letter, Local, Team, Turn
@@ -64,9 +65,9 @@ def compose(
         report.report("no-place", place or origin, target=target, what=what)
     if lacks:
         return
-    for doubt in dict.fromkeys(model.doubts(model.groups())):
-        what = f"all runs of `{subject.name}`: {doubt.reason}"
-        report.report("no-place", doubt.place or origin, target=target, what=what)
+    for reason, place in _not_shown(model):
+        what = f"all runs of `{subject.name}`: {reason}"
+        report.report("no-place", place or origin, target=target, what=what)
     yield _composed(model, counts, model.groups(thorough=True), None, origin)
     for property_ in properties:
         reason = _unwatched(property_)
@@ -82,6 +83,17 @@ def compose(
                 report.report("no-place", property_.origin, target=target, what=what)
                 break
             yield _composed(model, counts, groups, (observer, property_, robot), origin)
+
+
+def _not_shown(model: Model) -> Iterator[tuple[str, Span | None]]:
+    """Yield what a composition leaves out, or adds, each with its place."""
+    for doubt in dict.fromkeys(model.doubts(model.groups())):
+        yield doubt.reason, doubt.place
+    for automaton in model.kinds:
+        for actor in automaton.kind.cast:
+            for _, place in neighbor_uses(model.machines[actor.machine.name]):
+                yield "it has more, in which any number of robots is near", place
+                return
 
 
 def _unwatched(property_: ir.Property) -> str:
@@ -168,9 +180,7 @@ def _team(
     for state in range(automaton.count):
         moves = list(automaton.moves(state) or ())
         for message in range(len(model.alphabet.messages)):
-            heard = automaton.move_on(state, message)
-            if heard is not None and message in arriving:
-                moves.append(heard)
+            moves += automaton.moves_on(state, message) if message in arriving else ()
         for move in moves:
             turn = _turn(model, number, group, state, move, observer, receivers)
             key = (turn.source, turn.target, turn.hears, turn.sends, turn.moments)

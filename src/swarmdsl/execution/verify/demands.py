@@ -73,11 +73,23 @@ class Demands:
         )
         return named or follows or self._slice.is_addressed
 
+    def reads_sender(self, event: str) -> bool:
+        """Return True if it counts who has sent an event."""
+        return any(
+            (kind, name) == ("sender", event)
+            or (name == event and self._reads_header("node", (kind, name, path)))
+            for kind, name, path in self._demanded
+        )
+
     def sender_of(self, event: str) -> Iterator[Doubt]:
         """Yield a doubt if it counts who has sent an event from outside."""
         if ("sender", event, ()) in self._demanded:
             reason = f"the sender of `{event}` from outside is not covered"
             yield Doubt(reason, self._place(("sender", event, ())))
+
+    def is_for_swarm(self, event: str) -> bool:
+        """Return True for an event that reaches other robots."""
+        return self._system.event(event).swarm
 
     def fields(self, event: str) -> list[Path]:
         """Return the fields of an event that decide on anything."""

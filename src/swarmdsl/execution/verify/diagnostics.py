@@ -184,6 +184,8 @@ def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str
             yield "what each robot must do is asked of one that is not lost"
     elif silent:
         yield f"{listed(silent, 'and')} may never end"
+    if any(automaton.asks_who_is_near for automaton in model.kinds):
+        yield "any number of other robots may be near a robot that counts them"
     yield from _losses_of_robots(model, is_answered=not silent)
     yield from _from_outside(model)
     if environment.said:

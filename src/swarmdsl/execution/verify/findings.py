@@ -184,8 +184,12 @@ class _Part:
         moves = automaton.moves(state)
         if moves is None or not all(_keeps(automaton, move, state) for move in moves):
             return False
-        heard = (automaton.move_on(state, m) for m in self._sent if automaton.whole.listens(m))
-        return all(move is None or _keeps(automaton, move, state) for move in heard)
+        return all(
+            _keeps(automaton, move, state)
+            for message in self._sent
+            if automaton.whole.listens(message)
+            for move in automaton.moves_on(state, message)
+        )
 
     def _waits_outside(self, group: Group, state: int) -> bool:
         """Return True if a robot handles events of a scenario, which may all have come."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain
 
 from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.model import Model
@@ -66,6 +67,6 @@ def _sent(group: Group) -> set[int]:
     for loss in automaton.losses:
         found.update(loss.sends if loss is not None else ())
     for steps, heard in zip(automaton.steps, automaton.heard, strict=True):
-        for move in (*(steps or ()), *heard.values()):
+        for move in (*(steps or ()), *chain(*heard.values())):
             found.update(move.sends)
     return found

@@ -29,6 +29,8 @@ class Kind:
     losses: int = 0
     """Number of robots that can be lost, as far as such a robot can tell."""
     can_be_lost: bool = False
+    others: int = 0
+    """Number of other robots of the swarm."""
     robots: dict[str | None, Sequence[Actor]] = field(default_factory=dict)
     """Machines of each robot of the kind; `cast` are those of the first one."""
 

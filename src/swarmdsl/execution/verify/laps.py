@@ -67,7 +67,7 @@ def repeated(network: Network, lasso: Lasso, *, fair: bool = True) -> Lasso | st
     for last in range(1, _MOST_LAPS + 1):
         laps.go_on(loop)
         if laps.departs:
-            return ELSEWHERE
+            return laps.departs
         if laps.exceeds or laps.late:
             return exceeding(network, laps.exceeds or laps.late)
         if laps.overtakes:

@@ -16,7 +16,7 @@ from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.verify.groups import Step
 from swarmdsl.execution.verify.network import Network
-from swarmdsl.execution.verify.play import ELSEWHERE, Play, exceeding
+from swarmdsl.execution.verify.play import Play, exceeding
 from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.timed_observer import LATE
 from swarmdsl.execution.verify.times import Constraint, fitting, in_step
@@ -77,7 +77,7 @@ def _timed(
     timeless = Play(network, [0] * (len(steps) + 1), None)
     timeless.run(steps)
     if timeless.departs:
-        return Run((), flaw=ELSEWHERE)
+        return Run((), flaw=timeless.departs)
     if timeless.exceeds:
         return Run((), flaw=exceeding(network, timeless.exceeds))
     if timeless.overtakes:
@@ -133,7 +133,7 @@ def _at(
     timed = Play(network, times, watch)
     timed.run(steps)
     if timed.departs:
-        return Run((), flaw=ELSEWHERE)
+        return Run((), flaw=timed.departs)
     if not watch.violations and timed.late:
         return Run((), flaw=exceeding(network, timed.late))
     (result,) = watch.results(times[-1], ended=ended)

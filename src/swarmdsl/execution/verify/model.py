@@ -8,6 +8,7 @@ from typing import Any
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
+from swarmdsl.execution.engine import Event
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.members import DEPARTED, JOINED, following
 from swarmdsl.execution.simulate.scenario import Scenario
@@ -25,6 +26,7 @@ from swarmdsl.execution.verify.kind import Kind
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.quotient import Quotient
+from swarmdsl.execution.verify.strangers import messages_to
 from swarmdsl.execution.verify.terms import facts_of, mask_of
 from swarmdsl.execution.verify.timing import Bounds
 from swarmdsl.execution.verify.uncovered import uncovered, uncovered_lifespans
@@ -34,7 +36,10 @@ MOST_STATES, MOST_MOVES = 500, 5_000
 
 
 class Model:
-    """Automata of the robots of a subject, for given numbers of members."""
+    """Automata of the robots of a subject, for given numbers of members.
+
+    If it is of `only` one robot, all others may send it anything at any time.
+    """
 
     def __init__(
         self,
@@ -44,6 +49,7 @@ class Model:
         options: Options,
         budget: Budget,
         report: Diagnostics,
+        only: str | None = None,
     ) -> None:
         assert subject.system is not None
         self.subject = subject
@@ -52,7 +58,9 @@ class Model:
         self.counts = counts
         scenario = replace(options.scenario or Scenario(), counts=counts)
         robots = subject.create_robots(counts, scenario.alone)
-        self.cast = actors(subject, robots, scenario, report)
+        everybody = actors(subject, robots, scenario, report)
+        self.cast = [each for each in everybody if only in (None, each.robot.name)]
+        self._strangers = [each for each in everybody if each not in self.cast]
         self.kinds: list[Automaton] = []
         if report.has_errors:
             return
@@ -71,13 +79,13 @@ class Model:
         extra = conditions(self.cast, facts)
         self.demands = Demands(self.system, data, extra, lengths=options.exact)
         self.alphabet = Alphabet(self.system, self.demands)
-        robots = list(dict.fromkeys(actor.robot for actor in self.cast))
+        robots = list(dict.fromkeys(actor.robot for actor in everybody))
         self.environment = Environment(
             self.system,
             self.demands,
             options,
             robots,
-            lambda names: self.sends(names or self.machines),
+            lambda names: self.sends(names or {each.machine.name for each in everybody}),
         )
         self._crew = Crew(
             tuple(robots), following(self.system), has_heartbeat=subject.heartbeat is not None
@@ -113,6 +121,16 @@ class Model:
             and each.robots.quantifier == "index"
         }
 
+    def alone(self, property_: ir.Property, robot: str | None, budget: Budget) -> Model:
+        """Return the automaton of one robot, to which others may send anything at any time.
+
+        Only what decides on this robot and a property counts: of this there is less.
+        """
+        found = Diagnostics()
+        made = Model(self.subject, self.counts, [property_], self.options, budget, found, robot)
+        assert not found.has_errors, "the swarm has been made before"
+        return made
+
     def network(
         self,
         groups: Sequence[Group],
@@ -121,10 +139,12 @@ class Model:
         timed: bool = False,
         spared: str | None = None,
         eager: bool = False,
+        lonely: bool = False,
     ) -> Network:
         """Return the network of some groups; with `timed`, runs must fit times in any case.
 
-        A robot may be spared: it is not lost. An `eager` network has only some of the runs.
+        A robot may be spared: it is not lost. An `eager` network has only some of the runs,
+        and so has a `lonely` one: those in which nobody is near.
         """
         options = self.options
         timing = options.timing if timed or options.exact else None
@@ -136,6 +156,7 @@ class Model:
             base=base,
             timing=timing,
             eager=eager,
+            lonely=lonely,
             faults=self.environment.faults,
             spared=spared,
             heartbeat=self.subject.heartbeat,
@@ -221,7 +242,7 @@ class Model:
 
     def sends(self, names: Iterable[str]) -> Iterator[ir.Send]:
         """Yield the sends of some machines."""
-        return sends(self.machines[name] for name in names)
+        return sends(self.system.machines_by_name[name] for name in names)
 
     def _gather(self, facts: FactsByRole) -> None:
         """Make an automaton for each kind of robot."""
@@ -236,10 +257,20 @@ class Model:
             self._robots.append([robot])
             doubts = self._doubts[len(self.kinds)] = list(self._doubtful(cast))
             kind = self._kind(cast, facts[cast[0].robot.role], doubts)
+            for message in self._of_strangers(kind, doubts):
+                self.alphabet.number(message)
             automaton = Automaton(kind, self.alphabet)
             self.kinds.append(automaton)
             if any(moment.event is not None for moment in automaton.first.moments):
                 doubts.append(Doubt("a delay of zero ends while the robots still start"))
+            if automaton.asks_at_start:
+                doubts.append(Doubt("who is near when the robots start is not covered"))
+
+    def _of_strangers(self, kind: Kind, doubts: list[Doubt]) -> Iterator[Event]:
+        """Yield the messages that a robot may get from robots that are left out."""
+        sends = list(self.sends(dict.fromkeys(each.machine.name for each in self._strangers)))
+        senders = [each.robot for each in self._strangers]
+        return messages_to(kind, senders, sends, self.demands, self.environment, doubts)
 
     def _key(self, cast: Sequence[Actor]) -> Any:
         """Return what tells the robots of a kind from others."""
@@ -288,6 +319,7 @@ class Model:
             self._crew if self.environment.faults or self._follows(cast) else None,
             self.environment.faults,
             self.environment.can_be_lost(robot),
+            len(self._crew.robots) - 1,
             {robot.name: cast},
         )
 

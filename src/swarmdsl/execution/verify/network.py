@@ -32,6 +32,7 @@ class Network:
         base: int = 0,
         timing: Timing | None = None,
         eager: bool = False,
+        lonely: bool = False,
         faults: int = 0,
         spared: str | None = None,
         heartbeat: Heartbeat | None = None,
@@ -46,6 +47,8 @@ class Network:
         """Times that runs must fit; None if functions and events take any time."""
         self.eager = eager
         """True if only runs are looked at in which messages arrive before anything else happens."""
+        self._lonely = lonely
+        """True if only runs are looked at in which nobody is near another robot."""
         self.faults = faults
         """Number of robots that can be lost."""
         self._spared = spared
@@ -195,7 +198,7 @@ class Network:
         """Return the steps of a robot at a place."""
         found = self.steps[number]
         if found is None:
-            found = self.steps[number] = list(self._find(number))
+            found = self.steps[number] = [s for s in self._find(number) if self._is_looked_at(s)]
             plain: dict[int, None] = {}
             casts: dict[tuple[int, tuple[int, ...], int], None] = {}
             group = self.places[number].group
@@ -250,6 +253,9 @@ class Network:
         group = self.places[step.place].group
         return tuple(m for m in sends if self._somebody_hears(m, group))
 
+    def _is_looked_at(self, step: Step) -> bool:
+        return not (self._lonely and step.move is not None and any(step.move.given.near))
+
     def _find(self, number: int) -> Iterator[Step]:
         group, state, bag = self.places[number]
         automaton = self.groups[group].automaton
@@ -262,14 +268,14 @@ class Network:
         for each in dict.fromkeys(bag):
             message = self._message(each)
             rest = without(bag, each)
-            heard = automaton.move_on(state, message)
-            if heard is None and automaton.is_late(state, message):
+            heard = automaton.moves_on(state, message)
+            if not heard and automaton.is_late(state, message):
                 continue
-            if heard is None:
+            if not heard:
                 self.cut = True
                 continue
-            if self._arrives(group, each):
-                yield Step(number, heard, self._target(group, heard.target, rest), self._copy(each))
+            for move in heard if self._arrives(group, each) else ():
+                yield Step(number, move, self._target(group, move.target, rest), self._copy(each))
             if self.lossy and not self.alphabet.messages[message].reliable:
                 yield Step(number, None, self.number(group, state, rest), each)
 

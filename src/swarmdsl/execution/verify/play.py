@@ -29,6 +29,8 @@ from swarmdsl.execution.verify.timing import AT_ONCE, Bounds
 from swarmdsl.ir import Property
 
 ELSEWHERE = "the real messages lead elsewhere"
+NEAR = "robots are near each other in it: whether they can be depends on their places"
+"""Flaw of a run that need not be one."""
 
 
 def play(
@@ -46,7 +48,7 @@ def play(
     timeless = Play(network, [0] * (len(steps) + 1), None)
     timeless.run(steps)
     if timeless.departs:
-        return Run((), flaw=ELSEWHERE)
+        return Run((), flaw=timeless.departs)
     if timeless.exceeds or (is_whole and timeless.late):
         return Run((), flaw=exceeding(network, timeless.exceeds or timeless.late))
     if timeless.overtakes:
@@ -62,7 +64,7 @@ def play(
     timed = Play(network, times, watch)
     timed.run(steps)
     if timed.departs:
-        return Run((), flaw=ELSEWHERE)
+        return Run((), flaw=timed.departs)
     if watch is not None:
         if not watch.violations and timed.late:
             return Run((), flaw=exceeding(network, timed.late))
@@ -100,7 +102,8 @@ class Play:
         """Topic on which a message overtakes an earlier one."""
         self.exceeds = ""
         """Event of a message beyond the capacity that a later one overtakes."""
-        self.departs = False
+        self.departs = ""
+        """Reason why robots cannot take the steps that were found, if they cannot."""
         self.misfit = "a delay ends too early or too late in it"
         """Flaw of a run that no times fit."""
         if network.timing is not None:
@@ -118,7 +121,8 @@ class Play:
             for name in group.robots:
                 cast = group.cast(name)
                 kind = whole.kind
-                body = Body(cast, self._alphabet.system, Clock(), kind.crew, kind.silent)
+                system = self._alphabet.system
+                body = Body(cast, system, Clock(), kind.crew, kind.silent, kind.others)
                 body.seen = self.see
                 self._bodies.update(dict.fromkeys(cast, body))
                 first = whole.first.target
@@ -204,13 +208,13 @@ class Play:
         group = self.network.groups[group_number]
         robots = [r for r in self.robots if r.group is group and r.is_at(state, bag)]
         if not robots:
-            self.departs = True
+            self.departs = ELSEWHERE
             return
         if step.move is None:
             robot = self.chosen(robots)
             lost = self._dropped(robot, step.lost)
             if lost is None:
-                self.departs = True
+                self.departs = ELSEWHERE
                 return
             robot.bag.remove(lost)
             self.lost.append((len(self.lines), lost.event.name, robot.name or ""))
@@ -285,7 +289,10 @@ class Play:
             (line.event, tuple(dict.fromkeys(map(name, line.taken))), tuple(line.sent))
             for line, name in zip(robot.body.lines, called, strict=True)
         )
-        self.departs |= shown != real
+        if shown != real:
+            self.departs = ELSEWHERE
+        elif any(found.given.near):
+            self.departs = self.departs or NEAR
         robot.state = found.target
         if not robot.body.running:
             self._missed += [(self.now, copy) for copy in (*robot.bag, *robot.late)]

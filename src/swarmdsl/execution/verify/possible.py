@@ -68,6 +68,9 @@ def prove_possible(
         if not is_timed and (_has_delays(model, groups) or network.timing is not None):
             reason = "whether it is possible may depend on the lengths of delays"
             return Verdict(property_, "unknown", states, reason, robot=me)
+        if any(group.automaton.whole.asks_who_is_near for group in groups):
+            reason = "whether it is possible may depend on who is near"
+            return Verdict(property_, "unknown", states, reason, robot=me)
         topic = _reordered(model, network)
         if topic:
             reason = f"whether it is possible may depend on the order of events on `{topic}`"

@@ -18,7 +18,7 @@ from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.observer import Observer
-from swarmdsl.execution.verify.play import play
+from swarmdsl.execution.verify.play import NEAR, play
 from swarmdsl.execution.verify.possible import prove_possible
 from swarmdsl.execution.verify.run import Run, steps_between
 from swarmdsl.execution.verify.sentence import (
@@ -31,7 +31,14 @@ from swarmdsl.execution.verify.subjects import about, place_of
 from swarmdsl.execution.verify.terms import Terms, arriving, facts_of
 from swarmdsl.execution.verify.timed import prove_exactly
 from swarmdsl.execution.verify.timed_observer import LateObserver
-from swarmdsl.execution.verify.verdict import ESTIMATE, Outcome, Verdict, unfinished, violated
+from swarmdsl.execution.verify.verdict import (
+    ESTIMATE,
+    Outcome,
+    Verdict,
+    not_run,
+    unfinished,
+    violated,
+)
 
 _SAFE = ("never", "always", "only", "times")
 """Patterns that a finite run violates."""
@@ -61,6 +68,10 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
 def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
     """Decide on a property, of one robot if it is about each."""
     verdict = _without_clocks(property_, model, me, budget)
+    if verdict.reason == not_run(NEAR) and property_.kind != "possible":
+        # Robots can be far from each other: a longer run, in which they are, may violate it, too.
+        again = _without_clocks(property_, model, me, budget, lonely=True)
+        verdict = again if again.outcome == "fails" else verdict
     if verdict.outcome != "unknown" or verdict.place is not None:
         return verdict
     if model.options.exact and not model.environment.faults:
@@ -76,11 +87,14 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
 
 
 def _without_clocks(
-    property_: ir.Property, model: Model, me: str | None, budget: Budget
+    property_: ir.Property, model: Model, me: str | None, budget: Budget, *, lonely: bool = False
 ) -> Verdict:
-    """Decide on a property for functions and delays that take any time."""
+    """Decide on a property for functions and delays that take any time.
+
+    With `lonely`, only runs are looked at in which nobody is near another robot.
+    """
     if is_about_ends(property_):
-        return _in_the_end(property_, model, me, budget)
+        return _in_the_end(property_, model, me, budget, lonely=lonely)
     every = model.groups([property_], me=me)
     mine = place_of(me, every)
     seen = set(about(property_, model, every))
@@ -92,22 +106,33 @@ def _without_clocks(
         states = _alone(property_, every[mine].automaton)
         if states is not None:
             return Verdict(property_, "holds", states, robot=me, alone=True)
+    if mine is not None and not is_sure and _is_alone(property_):
+        alone = model.alone(property_, me, budget)
+        (own,) = alone.groups([property_], me=me)
+        if alone.complete and not alone.doubts([own]):
+            states = _alone(property_, own.automaton)
+            if states is not None:
+                return Verdict(property_, "holds", states, robot=me, alone=True)
     if property_.kind == "possible":
         place = groups.index(every[mine]) if mine is not None else None
         return prove_possible(property_, model, model.network(groups, spared=me), place, me, budget)
-    observer = observer_of(property_, model, groups, me, others=len(groups) < len(every))
+    observer = observer_of(
+        property_, model, groups, me, lonely=lonely, others=len(groups) < len(every)
+    )
     graph = observe(observer.network, observer, budget)
     if graph.bad is not None and observer.others:
         # Whether others act at that moment is known only with all of them.
         groups = every
-        observer = observer_of(property_, model, groups, me, others=False)
+        observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
         graph = observe(observer.network, observer, budget)
     if graph.bad is None:
         return _not_violated(property_, model, graph, groups, me, budget)
     found = violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
     if found.run is None and property_.chance is None:
         # A longer run, in which messages arrive first, may be one that can be.
-        observer = observer_of(property_, model, groups, me, others=observer.others, eager=True)
+        observer = observer_of(
+            property_, model, groups, me, lonely=lonely, others=observer.others, eager=True
+        )
         graph = observe(observer.network, observer, budget)
         if graph.bad is not None:
             again = violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
@@ -115,7 +140,9 @@ def _without_clocks(
     return found
 
 
-def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
+def _in_the_end(
+    property_: ir.Property, model: Model, me: str | None, budget: Budget, *, lonely: bool
+) -> Verdict:
     """Decide on a property that runs that go on for ever can violate.
 
     If robots of a group must be told apart to decide, each is looked at by itself.
@@ -126,11 +153,13 @@ def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Bu
         seen = set(about(property_, model, every))
         seen |= {number for number, group in enumerate(every) if group.robots == (me,)}
         groups = cone(model, every, seen) or every
-        observer = observer_of(property_, model, groups, me, others=len(groups) < len(every))
+        observer = observer_of(
+            property_, model, groups, me, lonely=lonely, others=len(groups) < len(every)
+        )
         if observer.others:
             # What holds for a moment ends when any robot does something.
             groups = every
-            observer = observer_of(property_, model, groups, me, others=False)
+            observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
         graph = observe(observer.network, observer, budget)
         if graph.bad is not None:
             return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
@@ -151,8 +180,7 @@ def _in_the_end(property_: ir.Property, model: Model, me: str | None, budget: Bu
             return _not_violated(property_, model, graph, groups, me, budget)
         if all(len(group.robots) == 1 for group in groups):
             break
-    reason = f"the run that was found cannot be: {flaw}"
-    return Verdict(property_, "unknown", len(graph.seen), reason, robot=me)
+    return Verdict(property_, "unknown", len(graph.seen), not_run(flaw), robot=me)
 
 
 def _run(property_: ir.Property, observer: Observer, graph: Graph, bad: int) -> Run:
@@ -175,6 +203,7 @@ def observer_of(
     *,
     others: bool,
     eager: bool = False,
+    lonely: bool = False,
 ) -> Observer:
     """Return the observer of a property in some groups, of one robot if it is about each."""
     table = table_of(property_)
@@ -187,6 +216,7 @@ def observer_of(
         timed=is_timed,
         spared=spared,
         eager=eager,
+        lonely=lonely,
     )
     mine = place_of(me, groups)
     if is_timed:
@@ -264,9 +294,7 @@ def _alone(property_: ir.Property, automaton: Local) -> int | None:
         if loss is not None:
             moves.append(loss)
         for message in range(len(automaton.whole.alphabet.messages)):
-            heard = automaton.move_on(state, message)
-            if heard is not None:
-                moves.append(heard)
+            moves += automaton.moves_on(state, message)
         found |= {(move.target, after(memory, move)) for move in moves}
         todo += found - seen
         seen |= found

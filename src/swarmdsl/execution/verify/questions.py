@@ -80,8 +80,7 @@ def _moves(
         for move in automaton.moves(state) or ():
             yield state, None, move
         for message in messages:
-            heard = automaton.move_on(state, message)
-            if heard is not None:
+            for heard in automaton.moves_on(state, message):
                 yield state, message, heard
 
 

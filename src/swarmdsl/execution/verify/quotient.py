@@ -51,13 +51,11 @@ class Quotient:
         found = self.whole.steps[self._representatives[state]]
         if found is None:
             return None
-        chosen = {self._label(move, self.classes[move.target]): move for move in reversed(found)}
-        return [self._lifted(each) for each in reversed(chosen.values())]
+        return self._chosen(found)
 
-    def move_on(self, state: int, message: int) -> Move | None:
-        """Return the move of a state when a message arrives; None if it is not known."""
-        found = self.whole.heard[self._representatives[state]].get(message)
-        return None if found is None else self._lifted(found)
+    def moves_on(self, state: int, message: int) -> list[Move]:
+        """Return the moves of a state when a message arrives; none if they are not known."""
+        return self._chosen(self.whole.heard[self._representatives[state]].get(message, ()))
 
     def loss(self, state: int) -> Move | None:
         """Return the loss of the robot; None where it is lost, or cannot be."""
@@ -74,14 +72,15 @@ class Quotient:
 
     def follow(self, number: int, move: Move) -> Move:
         """Return the move of a state of the automaton that looks like one of the quotient."""
-        if move.given.kind == "hear":
-            return self.whole.heard[number][move.given.choice]
         if move.given.kind == "lose":
             loss = self.whole.losses[number]
             assert loss is not None, "robots in states that are one can be lost"
             return loss
         wanted = self._label(move, move.target)
-        for each in self.whole.steps[number] or ():
+        following: Sequence[Move] = self.whole.steps[number] or ()
+        if move.given.kind == "hear":
+            following = self.whole.heard[number][move.given.choice]
+        for each in following:
             if self._label(each, self.classes[each.target]) == wanted:
                 return each
         raise AssertionError("states that are one have the same moves")
@@ -98,6 +97,11 @@ class Quotient:
         """Return True if the robot has ended."""
         return self.look(state).ended
 
+    def _chosen(self, found: Sequence[Move]) -> list[Move]:
+        """Return the first of all moves that nothing tells apart."""
+        chosen = {self._label(move, self.classes[move.target]): move for move in reversed(found)}
+        return [self._lifted(each) for each in reversed(chosen.values())]
+
     def _lifted(self, move: Move) -> Move:
         return move._replace(target=self.classes[move.target])
 
@@ -111,18 +115,19 @@ class Quotient:
         return (cut, look.ended, look.holding & self.mask, tasks, lost)
 
     def _label(self, move: Move, target: int) -> tuple[Any, ...]:
-        given, moments = move.given, move.moments
+        given, moments, near = move.given, move.moments, any(move.given.near)
         if self._thorough:
-            return (given.kind, given.actor, given.name, moments, move.sends, target)
+            return (given.kind, given.actor, given.name, moments, move.sends, target, near)
         shown = tuple(each.holding & self.mask for each in moments)
-        return (shown, move.idle, move.sends, target, move.ended if self._has_tasks else None)
+        ended = move.ended if self._has_tasks else None
+        return (shown, move.idle, move.sends, target, ended, near)
 
     def _signature(self, number: int, blocks: Sequence[int]) -> Any:
         steps = self.whole.steps[number] or ()
         own = frozenset(self._label(each, blocks[each.target]) for each in steps)
         heard = tuple(
-            (message, self._label(each, blocks[each.target]))
-            for message, each in sorted(self.whole.heard[number].items())
+            (message, frozenset(self._label(each, blocks[each.target]) for each in moves))
+            for message, moves in sorted(self.whole.heard[number].items())
         )
         loss = self.whole.losses[number]
         loses = None if loss is None else self._label(loss, blocks[loss.target])

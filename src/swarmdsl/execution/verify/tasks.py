@@ -18,6 +18,8 @@ class Input(NamedTuple):
     actor: int
     name: str
     choice: Any = None
+    near: tuple[int, ...] = ()
+    """How many robots are near, in the order in which the machines ask."""
 
 
 Task = tuple[str, int, str | int]

@@ -12,7 +12,7 @@ from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.groups import TICK, Step
-from swarmdsl.execution.verify.play import ELSEWHERE, Play, exceeding
+from swarmdsl.execution.verify.play import Play, exceeding
 from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.timed_network import TimedNetwork
 from swarmdsl.ir import Property
@@ -40,7 +40,7 @@ def play_timed(
     played = _TimedPlay(network, times, watch)
     played.run(steps)
     if played.departs:
-        return Run((), flaw=ELSEWHERE)
+        return Run((), flaw=played.departs)
     if played.exceeds or (ended and played.late):
         return Run((), flaw=exceeding(network, played.exceeds or played.late))
     if played.overtakes:

@@ -20,8 +20,8 @@ def uncovered(
     if not has_heartbeat:
         for _, place in member_uses(machine):
             yield Doubt("without a swarm, it is open which robots are there", place)
-    for _, place in islice(neighbor_uses(machine), 1):
-        yield Doubt("only runs in which nobody is near are covered", place)
+    for _, place in islice(neighbor_uses(machine) if robot.name is None else (), 1):
+        yield Doubt("without a swarm, it is open how many robots are near", place)
     for activity in (state.activity for state in machine.walk() if state.activity is not None):
         place = activity.origin
         if activity.result_callback is not None:

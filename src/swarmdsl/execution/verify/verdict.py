@@ -12,6 +12,7 @@ from swarmdsl.execution.verify.explore import Graph
 from swarmdsl.execution.verify.explosion import explain
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.play import NEAR
 from swarmdsl.execution.verify.run import Run
 
 ESTIMATE = "estimate it with `swarmc simulate --runs 1000`"
@@ -49,12 +50,18 @@ def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> 
     """Return the verdict when a run was found that seems to violate a property."""
     states = len(graph.seen)
     if run.flaw:
-        reason = f"the run that was found cannot be: {run.flaw}"
-        return Verdict(property_, "unknown", states, reason, robot=me)
+        return Verdict(property_, "unknown", states, not_run(run.flaw), robot=me)
     if property_.chance is not None:
         reason = f"some runs violate it: how probable they are is not covered: {ESTIMATE}"
         return Verdict(property_, "unknown", states, reason, robot=me)
     return Verdict(property_, "fails", states, robot=me, run=run)
+
+
+def not_run(flaw: str) -> str:
+    """Return the reason why a run that was found shows nothing."""
+    if flaw == NEAR:
+        return f"the run that was found may not be one: {flaw}"
+    return f"the run that was found cannot be: {flaw}"
 
 
 def unfinished(model: Model, budget: Budget) -> str:
