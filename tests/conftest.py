@@ -58,6 +58,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--swarms", type=int, default=1, help="how many random swarms other model checkers look at"
     )
     parser.addoption(
+        "--proofs", type=int, default=0, help="how many more random swarms are played in all ways"
+    )
+    parser.addoption(
         "--mutants", type=int, default=400, help="how many models with random mistakes are checked"
     )
     parser.addoption(

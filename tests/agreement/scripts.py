@@ -115,10 +115,11 @@ class Subject:
             for transition in state.transitions
         }
 
-    def scripts(self) -> tuple[list[Script], list[ir.Transition]]:
+    def scripts(self, left: int = 0) -> tuple[list[Script], list[ir.Transition]]:
         """Scripts that take every transition that can be taken, and the transitions left over.
 
-        Raises LoopError for a machine that does not come to rest at first.
+        Of these, `left` are not searched for. Raises LoopError for a machine that does not come to
+        rest at first.
         """
         missing = self.transitions
         found: list[tuple[Step, ...]] = []
@@ -136,7 +137,7 @@ class Subject:
         found.clear()
         known = {Model(self).situation}
         waiting: deque[tuple[Step, ...]] = deque([()])
-        while waiting and missing:
+        while waiting and len(missing) > left:
             before = waiting.popleft()
             for choice in self.after(before).choices:
                 model = self.after(before)

@@ -47,7 +47,8 @@ def subjects(path: Path) -> dict[str, tuple[Subject, str]]:
 @cache
 def scripts(path: Path, name: str) -> tuple[list[Script], list[str]]:
     """The scripts of a machine, and the transitions that none of them takes."""
-    found, missing = subjects(path)[name][0].scripts()
+    never = NEVER.get((titled(path), name), [])
+    found, missing = subjects(path)[name][0].scripts(len(never))
     return found, [each.origin.text for each in missing if each.origin is not None]
 
 

@@ -19,14 +19,18 @@ from .known import expected
 from .replay import difference, installed
 from .scripts import Model, Subject
 
-SYSTEMS = 80
+FEW, MANY = 25, 80
+"""Numbers of models; many with `--agreement`."""
 
 
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
-def test_engines_agree_about_models(agree: Callable[..., None]) -> None:
+def test_engines_agree_about_models(
+    agree: Callable[..., None], pytestconfig: pytest.Config
+) -> None:
+    most = MANY if pytestconfig.getoption("--agreement") else FEW
     scripts: Counter[str] = Counter()
 
-    @settings(max_examples=SYSTEMS, phases=[Phase.generate])
+    @settings(max_examples=most, phases=[Phase.generate])
     @given(systems())
     def run(system: System) -> None:
         files = {

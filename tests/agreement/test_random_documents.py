@@ -11,13 +11,17 @@ import random
 from collections import Counter
 from collections.abc import Callable
 
+import pytest
+
 from swarmdsl.execution.engine import LoopError
 
 from .engines import ENGINES, Document, Step
 from .replay import difference, installed
 from .scripts import Script
 
-DOCUMENTS, WALKS, STEPS = 80, 4, 15
+FEW, MANY = 25, 80
+"""Numbers of documents; many with `--agreement`."""
+WALKS, STEPS = 4, 15
 EVENTS = ("a", "b", "c")
 
 
@@ -119,9 +123,11 @@ def script(document: bytes, dice: random.Random) -> Script:
     return Script(tuple(steps), tuple(expected))
 
 
-def test_engines_agree_about_documents(agree: Callable[..., None]) -> None:
+def test_engines_agree_about_documents(
+    agree: Callable[..., None], pytestconfig: pytest.Config
+) -> None:
     scripts: Counter[str] = Counter()
-    for seed in range(DOCUMENTS):
+    for seed in range(MANY if pytestconfig.getoption("--agreement") else FEW):
         document = Maker(seed).document
         dice = random.Random(seed)
         try:

@@ -14,7 +14,7 @@ import pytest
 from swarmdsl.execution.verify.environment import Options
 
 from ..verify.random_swarms import random_swarm
-from .witnesses import MISSING, Compared, compare
+from .witnesses import MISSING, Case, Compared, compare
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = {
@@ -34,11 +34,11 @@ WITNESSES = [
 ]
 
 
-def random(seed: int, target: str, folder: Path) -> Compared:
-    """Compare a random swarm."""
-    source = folder / "random.swarm"
+def random(seed: int, folder: Path) -> Case:
+    """Write a random swarm."""
+    source = folder / f"random{seed}.swarm"
     source.write_text(random_swarm(seed), encoding="utf-8")
-    return compare(source, target, folder, options=Options(1, seed % 3 == 0))
+    return Case(source, options=Options(1, seed % 3 == 0))
 
 
 @pytest.mark.parametrize("target", WITNESSES)
@@ -47,7 +47,7 @@ def test_robots_that_hear_each_other(target: str, tmp_path: Path) -> None:
     source = tmp_path / "model.swarm"
     source.write_text(text.replace("Spiderino[8]", "Spiderino[2..8]"), encoding="utf-8")
 
-    found = compare(source, target, tmp_path, counts={"robot": 3})
+    found = compare([Case(source, {"robot": 3})], target, tmp_path)
 
     assert (found.counts, found.holds, found.fails) == (1, 6, 0)
 
@@ -56,7 +56,7 @@ def test_robots_that_hear_each_other(target: str, tmp_path: Path) -> None:
 def test_robots_that_address_each_other(target: str, tmp_path: Path) -> None:
     source = ROOT / "tests" / "composed" / "addressed.swarm"
 
-    found = compare(source, target, tmp_path, options=Options(1, lossy=True))
+    found = compare([Case(source, options=Options(1, lossy=True))], target, tmp_path)
 
     assert (found.counts, found.holds, found.fails) == (1, 1, 2)
 
@@ -73,10 +73,9 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 @pytest.mark.timeout(3000)
 @pytest.mark.parametrize("target", WITNESSES)
 def test_random_swarms(seeds: range, target: str, tmp_path: Path, witnessed: Witnessed) -> None:
-    def compare_all() -> Compared:
-        return sum((random(seed, target, tmp_path) for seed in seeds), Compared(0, 0, 0))
+    cases = [random(seed, tmp_path) for seed in seeds]
 
-    found = witnessed("random swarms", target, compare_all)
+    found = witnessed("random swarms", target, lambda: compare(cases, target, tmp_path))
 
     assert min(found) > 0
 
@@ -84,7 +83,7 @@ def test_random_swarms(seeds: range, target: str, tmp_path: Path, witnessed: Wit
 @pytest.mark.timeout(3000)
 @pytest.mark.parametrize("target", WITNESSES)
 def test_models(name: str, target: str, tmp_path: Path, witnessed: Witnessed) -> None:
-    found = witnessed(name, target, lambda: compare(SOURCES[name], target, tmp_path))
+    found = witnessed(name, target, lambda: compare([Case(SOURCES[name])], target, tmp_path))
 
     # Others may have too many states.
     assert found.counts or name not in FEW

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
@@ -109,25 +110,65 @@ def check(target: str, models: Sequence[Path], folder: Path) -> list[Found]:
     return storm(models)
 
 
-def compare(
-    source: Path,
-    target: str,
-    folder: Path,
-    *,
-    counts: Mapping[str, int] | None = None,
-    options: Options | None = None,
-) -> Compared:
-    """Compare numbers of states and verdicts on a model with those of the checker of a target.
+class Case(NamedTuple):
+    """A model to compare, with numbers of members and conditions."""
+
+    source: Path
+    counts: Mapping[str, int] = {}
+    options: Options = Options()
+
+
+def compare(cases: Sequence[Case], target: str, folder: Path) -> Compared:
+    """Compare numbers of states and verdicts on models with those of the checker of a target.
 
     rumur counts states that differ in the order of equal robots once, SPIN and Storm each of them.
+    All files of the target are checked together: to start Storm takes longer than to use it.
     """
-    system = _system(source)
-    counts, options = counts or {}, options or Options()
-    files = _build(source, target, counts, options, folder / "out")
-    total = Compared(0, 0, 0)
-    for subject in subjects(system):
-        mine = {name: number for name, number in counts.items() if subject.swarm is not None}
-        budget, report = Budget(Limits()), Diagnostics()
+    parts = [
+        part for n, case in enumerate(cases) for part in _parts(case, target, folder / f"out{n}")
+    ]
+    every = [model for part in parts for model in part.models]
+    found = dict(zip(every, check(target, every, folder), strict=True))
+    return sum((part.compare(found) for part in parts), Compared(0, 0, 0))
+
+
+@dataclass(frozen=True)
+class _Part:
+    """A swarm, or a machine alone, and the files that a target writes of it.
+
+    The checker of the target must see so many `states` in the first file; `watching` are the files
+    for each property.
+    """
+
+    model: Model
+    states: int
+    alone: Path
+    watching: Mapping[str, Sequence[Path]]
+
+    @property
+    def models(self) -> list[Path]:
+        """All files."""
+        return [self.alone, *(file for made in self.watching.values() for file in made)]
+
+    def compare(self, found: Mapping[Path, Found]) -> Compared:
+        """Compare the states, and the verdicts on all properties."""
+        subject = self.model.subject
+        assert found[self.alone] == Found(self.states, violated=False), subject.name
+        total = Compared(1, 0, 0)
+        for property_ in watchable(subject):
+            made = self.watching[property_.name]
+            if made:
+                violated = any(found[each].violated for each in made)
+                total += _same(prove(property_, self.model, Budget(Limits())), violated)
+        return total
+
+
+def _parts(case: Case, target: str, out: Path) -> Iterator[_Part]:
+    """Yield what can be compared of a model: what has not too many states."""
+    files = _build(case, target, out)
+    for subject in subjects(_system(case.source)):
+        mine = {name: number for name, number in case.counts.items() if subject.swarm is not None}
+        budget, report, options = Budget(Limits()), Diagnostics(), case.options
         model = Model(subject, mine, watchable(subject), options, budget, report)
         if report.has_errors or not model.complete:
             continue
@@ -139,22 +180,15 @@ def compare(
         if every >= MOST:
             continue
         suffix = next(iter(files)).suffix if files else ""
-        alone = folder / "out" / target / f"{subject.name}{suffix}"
-        watching = {
-            each.name: [f for f in files if _is_of(f, f"{subject.name}_{each.name}")]
-            for each in watchable(subject)
-        }
-        models = [alone, *(file for made in watching.values() for file in made)]
-        found = dict(zip(models, check(target, models, folder), strict=True))
-        wanted = len(graph.seen) if target == "murphi" else every
-        assert found[alone] == Found(wanted, violated=False), subject.name
-        total += Compared(1, 0, 0)
-        for property_ in watchable(subject):
-            made = watching[property_.name]
-            if made:
-                violated = any(found[each].violated for each in made)
-                total += _same(prove(property_, model, Budget(Limits())), violated)
-    return total
+        yield _Part(
+            model,
+            len(graph.seen) if target == "murphi" else every,
+            out / target / f"{subject.name}{suffix}",
+            {
+                each.name: [f for f in files if _is_of(f, f"{subject.name}_{each.name}")]
+                for each in watchable(subject)
+            },
+        )
 
 
 MISSING: Mapping[str, str] = {
@@ -200,15 +234,13 @@ def _system(source: Path) -> System:
     return checked.system
 
 
-def _build(
-    source: Path, target: str, counts: Mapping[str, int], options: Options, out: Path
-) -> list[Path]:
+def _build(case: Case, target: str, out: Path) -> list[Path]:
     texts = {
-        "size": ", ".join(f"{role}={number}" for role, number in counts.items()),
-        "channel": str(options.capacity),
-        "lossy": str(options.lossy).lower(),
+        "size": ", ".join(f"{role}={number}" for role, number in case.counts.items()),
+        "channel": str(case.options.capacity),
+        "lossy": str(case.options.lossy).lower(),
     }
-    pipeline.build([source], [Request(target, texts)], out)
+    pipeline.build([case.source], [Request(target, texts)], out)
     return sorted(path for path in (out / target).glob("*") if path.is_file())
 
 

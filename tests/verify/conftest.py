@@ -23,6 +23,18 @@ ROOT = Path(__file__).resolve().parents[2]
 MODELS = ROOT / "tests" / "verify" / "models"
 
 
+CHUNK = 50
+"""Number of random swarms that one test looks at, beyond the few that are always looked at."""
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    if "seeds" in metafunc.fixturenames:
+        many = metafunc.config.getoption("--proofs")
+        chunks = [range(n, min(n + CHUNK, many)) for n in range(0, many, CHUNK)]
+        names = ["few", *(f"{each[0]}-{each[-1]}" for each in chunks)]
+        metafunc.parametrize("seeds", [metafunc.module.FEW, *chunks], ids=names)
+
+
 def system_of(path: Path) -> System:
     """Compile a model without mistakes."""
     checked = pipeline.check([path], find_settings([path], Diagnostics()))

@@ -103,7 +103,7 @@ def searched(swarm: Sequence[Population], wanted: Tokens, states: int = 20_000) 
 
 def test_smallest_swarms_are_those_of_forward_searches() -> None:
     found: Counter[int | None] = Counter()
-    for seed in (*range(400), 2789):
+    for seed in (*range(100), 2789):
         chance = Random(seed)
         swarm = random_swarm(chance)
         wanted = random_tokens(chance, swarm)
@@ -120,8 +120,8 @@ def test_smallest_swarms_are_those_of_forward_searches() -> None:
             assert answer.numbers == smallest, seed
             found[sum(smallest) if smallest is not None else None] += 1
 
-    assert found.total() > 380
-    assert min(found[None], found[1], found[2], found[3]) > 10
+    assert found.total() > 95
+    assert min(found[None], found[1], found[2], found[3]) > 2
 
 
 def test_a_search_ends_at_its_limit() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
 
@@ -98,21 +99,21 @@ def verdicts_as_in_all_runs(
     return found
 
 
-def test_verdicts_are_those_of_all_runs(tmp_path: Path) -> None:
-    found: Counter[str] = Counter()
-    for seed in FEW:
-        found += compare(seed, tmp_path / "random.swarm")
-
-    assert min(found["holds"], found["fails"]) > 20
-    assert found.total() == 6 * len(FEW)
-
-
-@pytest.mark.long
 @pytest.mark.timeout(3000)
-@pytest.mark.parametrize("start", [100, 150])
-def test_verdicts_on_many_swarms_are_those_of_all_runs(start: int, tmp_path: Path) -> None:
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+@pytest.mark.timeout(3000)
+def test_verdicts_are_those_of_all_runs(seeds: Sequence[int], tmp_path: Path) -> None:
     found: Counter[str] = Counter()
-    for seed in range(start, start + 50):
+    for seed in seeds:
         found += compare(seed, tmp_path / "random.swarm")
 
     assert min(found["holds"], found["fails"]) > 20
+    assert seeds is not FEW or found.total() == 6 * len(FEW)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,8 @@ from .slow_lassos import never_happening
 
 MOST = 60
 """Number of states up to which the slow explorer plays all runs from their beginning."""
+# Seeds of swarms that have no more states.
+FEW = (*range(8), 11, 13, 15, 17, 18, 19)
 
 
 def compare(
@@ -64,11 +67,12 @@ def compare(
     return found
 
 
+@pytest.mark.timeout(3000)
 def test_verdicts_are_those_of_all_fair_loops(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    seeds: Sequence[int], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     found: Counter[str] = Counter()
-    for seed in range(20):
+    for seed in seeds:
         found += compare(seed, tmp_path / "random.swarm", capsys)
 
     assert min(found["holds"], found["fails"], found["loop"]) > 3
@@ -94,16 +98,3 @@ def test_verdicts_by_numbers_of_robots_are_those_of_each_by_itself(
     # A run may be found by numbers, and not by robots, that no times fit.
     assert all({*each} != {"holds", "fails"} for each in zip(*verdicts, strict=True))
     assert min(map(verdicts[0].count, ("holds", "fails"))) > 5
-
-
-@pytest.mark.long
-@pytest.mark.timeout(3000)
-@pytest.mark.parametrize("start", [1000])
-def test_verdicts_on_many_swarms_are_those_of_all_fair_loops(
-    start: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    found: Counter[str] = Counter()
-    for seed in range(start, start + 100):
-        found += compare(seed, tmp_path / "random.swarm", capsys)
-
-    assert min(found["holds"], found["fails"], found["loop"]) > 10
