@@ -10,14 +10,13 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import Settings, find_settings
-from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.choose_space import Spaces, choose_space
 from swarmdsl.execution.simulate.inputs import Input, Reader
 from swarmdsl.execution.simulate.live import Opened
+from swarmdsl.execution.simulate.load_scenario import load_scenario
 from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.subject import Document, Subject, choose
 from swarmdsl.ir import System
 from swarmdsl.project.read_source import read_source
@@ -97,18 +96,6 @@ def prepare(request: Request, report: Diagnostics) -> Prepared | None:
         help_ = "say where something is in the model, or run it with `--world flat`"
         report.report("no-positions", name=subject.name, help=help_)
     return None if report.has_errors else Prepared(subject, scenario, events, spaces)
-
-
-def load_scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scenario | None:
-    """Read a scenario, or return the default one; None if it has mistakes."""
-    if path is None:
-        return Scenario()
-    source = read_source(path, None, report, "a scenario", MOST_DATA)
-    document = parse_toml(source, report) if source is not None else None
-    if document is None:
-        return None
-    scenario = read_scenario(document, subject, report)
-    return scenario if not report.has_errors else None
 
 
 def _subject(request: Request, report: Diagnostics) -> Subject | None:

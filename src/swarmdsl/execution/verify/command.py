@@ -20,7 +20,7 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.simulate.choose_space import has_geometry
-from swarmdsl.execution.simulate.prepare import load_scenario
+from swarmdsl.execution.simulate.load_scenario import load_scenario
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject, choose

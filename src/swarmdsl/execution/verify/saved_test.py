@@ -19,10 +19,6 @@ from swarmdsl.codegen.shared.default_values import default_result, default_value
 from swarmdsl.execution.simulate.durations import MICROSECOND, SECOND
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.testing.case import InvalidTest
-from swarmdsl.execution.testing.models import Models
-from swarmdsl.execution.testing.reading import read_tests
-from swarmdsl.execution.testing.verdict import judge
 from swarmdsl.execution.verify.finding import Finding
 from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.toml_text import step_text, time_text, toml_text
@@ -150,6 +146,12 @@ def _file(subject: Subject, models: Sequence[Path], path: Path, tests: Sequence[
 
 def _fails(text: str, path: Path) -> bool:
     """Return True if the only test of a file fails."""
+    # Most calls of the command write no test, and need not wait for this.
+    from swarmdsl.execution.testing.case import InvalidTest
+    from swarmdsl.execution.testing.models import Models
+    from swarmdsl.execution.testing.reading import read_tests
+    from swarmdsl.execution.testing.verdict import judge
+
     report = Diagnostics()
     tests = read_tests(Source(path.as_posix(), text, path), Models(), report)
     if tests is None:
