@@ -17,7 +17,11 @@ from swarmdsl.cli import run
 
 pytest.importorskip("numpy")
 
+from .conftest import load_module
+
+launching = load_module("launching")
 ROOT = Path(__file__).resolve().parents[2]
+MEADOW = ROOT / "examples" / "meadow"
 PATIENCE = 240.0
 """Real time that the flight may take, in seconds."""
 MEMBERS = {"scout[0]": "patrol", "scout[1]": "patrol", "post[0]": "listening"}
@@ -116,10 +120,10 @@ fitness Ways {
 """
 
 
-def simulated(folder: Path, *more: str) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+def simulated(folder: Path, model: Path, *more: str) -> tuple[dict[str, Any], list[dict[str, Any]]]:
     """Results and trace of the simulation."""
     results, trace = folder / "pure.json", folder / "pure.jsonl"
-    words = ["simulate", str(folder / "patrol.swarm"), "--results", str(results)]
+    words = ["simulate", str(model), "--results", str(results)]
     run([*words, "--trace-file", str(trace), *more])
     return json.loads(results.read_text()), read(trace)
 
@@ -129,16 +133,34 @@ def read(trace: Path) -> list[dict[str, Any]]:
     return [line for line in lines if "configuration" in line and not line.get("ignored")]
 
 
-def served(ros: Any, folder: Path, *more: str) -> subprocess.Popen[str]:
+def served(ros: Any, model: Path, *more: str) -> subprocess.Popen[str]:
     """A process that serves the robots of the model."""
     site = sysconfig.get_paths()["purelib"]
     paths = [ros.environment["PYTHONPATH"], str(ROOT / "src"), site]
     nodes = ros.environment
     ros.environment = {**nodes, "PYTHONPATH": os.pathsep.join(paths)}
-    words = ["-m", "swarmdsl", "simulate", folder / "patrol.swarm", "--ros2", *more]
+    words = ["-m", "swarmdsl", "simulate", model, "--ros2", *more]
     made: subprocess.Popen[str] = ros.start(*words, stderr=subprocess.PIPE)
     ros.environment = nodes
     return made
+
+
+def agree(pure: list[dict[str, Any]], flown: list[dict[str, Any]], said: str) -> None:
+    """Check that robots did the same, at nearly the same time and place."""
+    kept = ("event", "configuration", "started", "cancelled")
+    for member in {each["member"] for each in pure}:
+        ours = [line for line in pure if line["member"] == member]
+        theirs = [line for line in flown if line["member"] == member]
+        assert [[each.get(key) for key in kept] for each in theirs] == [
+            [each.get(key) for key in kept] for each in ours
+        ], said
+        for one, other in zip(ours, theirs, strict=True):
+            assert abs(one["t"] - other["t"]) <= LATE * 1000, (one, other)
+            assert math.dist(one["at"], other["at"]) <= LATE * SPEED
+
+
+def verdicts(results: dict[str, Any]) -> dict[str, str]:
+    return {each["name"]: each["verdict"] for each in results["properties"]}
 
 
 @pytest.fixture
@@ -165,11 +187,12 @@ def start(ros: Any, member: str, **more: str) -> subprocess.Popen[str]:
 def test_nodes_fly_as_the_simulation(ros: Any, patrol: Path) -> None:
     """One sees the person, one hears of it by radio and comes, one is out of reach."""
     until = ("--until", "16s")
-    expected, lines = simulated(patrol, *until)
+    model = patrol / "patrol.swarm"
+    expected, lines = simulated(patrol, model, *until)
     results, trace = patrol / "ros.json", patrol / "ros.jsonl"
     world = served(
         ros,
-        patrol,
+        model,
         *until,
         *("--real-time-factor", "4", "--results", str(results), "--trace-file", str(trace)),
     )
@@ -180,21 +203,64 @@ def test_nodes_fly_as_the_simulation(ros: Any, patrol: Path) -> None:
     assert results.exists(), said
     found = json.loads(results.read_text())
     flown = read(trace)
-    for member in MEMBERS:
-        pure = [line for line in lines if line["member"] == member]
-        real = [line for line in flown if line["member"] == member]
-        kept = ("event", "configuration", "started", "cancelled")
-        assert [[each.get(key) for key in kept] for each in real] == [
-            [each.get(key) for key in kept] for each in pure
-        ], said
-        for one, other in zip(pure, real, strict=True):
-            assert abs(one["t"] - other["t"]) <= LATE * 1000, (one, other)
-            assert math.dist(one["at"], other["at"]) <= LATE * SPEED
+    agree(lines, flown, said)
     ends = {line["member"]: line["configuration"] for line in flown}
     assert ends == {"scout[0]": ["Met"], "scout[1]": ["Met"], "post[0]": ["Listen"]}
-
-    verdicts = {each["name"]: each["verdict"] for each in found["properties"]}
-    assert verdicts == {each["name"]: each["verdict"] for each in expected["properties"]}
-    assert verdicts == {"Comes": "true", "NobodyMeets": "false"}
+    assert verdicts(found) == verdicts(expected) == {"Comes": "true", "NobodyMeets": "false"}
     assert found["fitness"] == pytest.approx(expected["fitness"], abs=3 * LATE * SPEED)
     assert world.returncode == 1  # a property is violated
+
+
+def launch(ros: Any, package: Path, monkeypatch: pytest.MonkeyPatch, **arguments: str) -> None:
+    """Start the nodes of a swarm as its launch file says."""
+    (file,) = (package / "launch").glob("*.launch.py")
+    described = launching.launch(file, {package.name: package}, monkeypatch.setitem, **arguments)
+    for number, each in enumerate(described):
+        words = ["-m", f"{package.name}.{each['executable']}", "--ros-args"]
+        words += ["-r", f"__ns:={each['namespace']}", "-r", f"__node:={each['name']}"]
+        for given in each["parameters"]:
+            if isinstance(given, dict):
+                values = ((name, json.dumps(value)) for name, value in given.items())
+                words += [word for name, value in values for word in ("-p", f"{name}:={value}")]
+            else:
+                words += ["--params-file", given]
+        with (ros.scratch / f"node_{number}.txt").open("w") as log:
+            ros.start(*words, stdout=log, stderr=log)
+
+
+def test_search_and_rescue_flies_as_the_simulation(
+    ros: Any, variant: Callable[..., Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """UAVs search, one finds a person and offers the task, and a rover drives there."""
+    text = (MEADOW / "mission.toml").read_text(encoding="utf-8")
+    scenario = tmp_path / "mission.toml"
+    scenario.write_text(text.replace("uav   = 3", "uav   = 2").replace("rover = 2", "rover = 1"))
+    given = ("--scenario", str(scenario), "--seed", "8", "--until", "23s")
+    expected, lines = simulated(tmp_path, MEADOW, *given)
+    results, trace, map_ = (tmp_path / f"ros.{end}" for end in ("json", "jsonl", "svg"))
+    world = served(
+        ros,
+        MEADOW,
+        *given,
+        *("--real-time-factor", "4", "--results", str(results), "--trace-file", str(trace)),
+        *("--animation", str(map_)),
+    )
+    package = variant("examples/meadow")
+    ros.prefer(package)
+    counts = {"uav_count": "2", "rover_count": "1"}
+    launch(ros, package, monkeypatch, world="true", components="false", **counts)
+    _, said = world.communicate(timeout=PATIENCE)
+
+    assert results.exists(), said
+    found = json.loads(results.read_text())
+    agree(lines, read(trace), said)
+    begun = {line["member"]: set() for line in lines}
+    for line in lines:
+        begun[line["member"]] |= set(line["started"])
+    assert begun["rover[0]"] >= {"bid_action", "ugv_move_to"}
+    assert {"auction_action", "uav_tracking"} <= begun["uav[0]"] | begun["uav[1]"]
+    assert verdicts(found) == verdicts(expected)
+    assert set(verdicts(found).values()) <= {"true", "open"}
+    assert found["fitness"] == pytest.approx(expected["fitness"], abs=LATE / 60)
+    assert "sees person[" in map_.read_text(encoding="utf-8")
+    assert world.returncode == 0, said

@@ -17,7 +17,7 @@ from swarmdsl.execution.ros2_world.names import name_in, namespace
 from swarmdsl.execution.ros2_world.served import ServedWorld
 from swarmdsl.execution.simulate.actors import actors
 from swarmdsl.execution.simulate.choose_space import choose_space
-from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.durations import SECOND, Fixed
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir import Communication, Delivery, ModelUse, Named, Point, RobotValues
@@ -90,9 +90,9 @@ WALKS = {
 
 @pytest.fixture
 def world(tmp_path: Path) -> Callable[..., tuple[ServedWorld, Graph]]:
-    def world(**member: Any) -> tuple[ServedWorld, Graph]:
+    def world(ends: Any = None, **member: Any) -> tuple[ServedWorld, Graph]:
         to = {"model": "go_to", "arguments": {"to": (40.0, 20.0, 0.0)}}
-        scenario = Scenario(functions={("walk", ""): to})
+        scenario = Scenario(functions={("walk", ""): to, ("walk", "rover[1]"): ends or to})
         body = numbers(radius=0.3, speed=5)
         system = changed(system_of(tmp_path), member={"body": body, **member}, role=WALKS["role"])
         (swarm,) = system.swarms
@@ -122,6 +122,32 @@ def test_a_goal_moves_the_robot_and_ends_with_its_result(world: Any) -> None:
     assert outcome == "succeeded"
     assert fields["target_pose"]["pose"]["position"]["x"] == pytest.approx(40, abs=0.2)
     assert made.holds.is_waiting  # for what the node makes of it
+
+
+@pytest.mark.parametrize(
+    ("ends", "expected"),
+    [
+        ({"duration": Fixed(3 * SECOND), "results": ({"target_id": "a"},)}, "succeeded"),
+        ({"duration": Fixed(3 * SECOND), "aborted": 1.0}, "aborted"),
+        ({"never": 1.0}, None),
+    ],
+)
+def test_a_function_without_a_model_ends_as_the_scenario_says(
+    ends: Any, expected: str | None, world: Any
+) -> None:
+    made, graph = world(ends)
+    begin, cancel = graph.servers["/s/rover_1/walk"]
+    goal, other = Goal(altitude=0.0), Goal(altitude=0.0)
+    begin(goal)
+    made.clock.advance(3 * SECOND - 1)
+    assert goal.ends == []
+    made.clock.advance(1)
+    fields = dict(ends.get("results", ({},))[0])
+    assert goal.ends == ([(expected, fields)] if expected else [])
+    begin(other)
+    cancel(other)
+    made.clock.advance(9 * SECOND)
+    assert other.ends == [("preempted", {})]
 
 
 def test_a_cancelled_goal_stops_the_robot(world: Any) -> None:
@@ -284,4 +310,6 @@ def test_options_that_conflict_are_reported(said: Any, more: tuple[str, ...], re
 
 def test_a_factor_needs_nodes(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["simulate", "x.swarm", "--real-time-factor", "2"]) == 2
-    assert "`--real-time-factor` needs `--ros2`" in capsys.readouterr().err
+    assert (
+        "`--real-time-factor` needs `--real-time`, `--live` or `--ros2`" in capsys.readouterr().err
+    )

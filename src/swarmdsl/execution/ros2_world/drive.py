@@ -50,19 +50,27 @@ def drive(world: ServedWorld, graph: Graph, step: int, until: int, factor: float
     while clock.now < until:
         following = min(clock.now + step, until)
         real += (following - clock.now) / SECOND / factor
-        while True:
-            left = real - time.monotonic()
-            waits = world.holds.is_waiting
-            if left <= 0 and not waits:
-                break
-            graph.spin(max(left, 0.0) if not waits else _NAP)
+        while (left := real - time.monotonic()) > 0:
+            graph.spin(left)
             interrupts.raise_lost()
         # What was late is not made up for: nodes would be late more and more.
         real = max(real, time.monotonic() - step / SECOND / factor)
+        _keep_up(world, graph)
+        while (due := clock.next) is not None and due <= following:
+            if due > clock.now:
+                graph.tell_time(due)
+            clock.step()
+            _keep_up(world, graph)
         if world.over:
             return "ended"
-        graph.tell_time(following)
-        clock.advance(following - clock.now)
+        if following > clock.now:
+            graph.tell_time(following)
+            clock.advance(following - clock.now)
+    return "ended" if world.over else "stopped"
+
+
+def _keep_up(world: ServedWorld, graph: Graph) -> None:
+    """Let nodes do what follows at once, before anything else happens in the world."""
     while world.holds.is_waiting:
         graph.spin(_NAP)
-    return "ended" if world.over else "stopped"
+        interrupts.raise_lost()

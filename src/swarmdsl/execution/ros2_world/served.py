@@ -14,6 +14,7 @@ from swarmdsl.execution.ros2_world.names import name_in, namespace
 from swarmdsl.execution.ros2_world.ports import Graph, Request, Sender
 from swarmdsl.execution.ros2_world.radio import Radio
 from swarmdsl.execution.ros2_world.recorded import Recorded
+from swarmdsl.execution.ros2_world.scripted import Scripted
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.network import Network
@@ -61,6 +62,7 @@ class ServedWorld:
         self._chance = RandomSource(seed)
         self._robot_of = {actor.name: actor.robot for actor in cast}
         self._spaces = {each: namespace(subject.swarm.name, each) for each in self.robots}
+        self._scripted = Scripted(self.clock, scenario, self._chance)
         self._calls: dict[Run, tuple[Robot, Request]] = {}
         self._served: set[tuple[str, str]] = set()
         self._senders: dict[tuple[Robot, str], Sender] = {}
@@ -186,7 +188,7 @@ class ServedWorld:
     # ---- internal
 
     def _serve(self, robot: Robot, graph: Graph) -> None:
-        """Serve the functions with a model that the machines of a robot call."""
+        """Serve the functions that the machines of a robot call, if it is known how they end."""
         called = {
             state.activity.name
             for actor in self._cast
@@ -195,7 +197,7 @@ class ServedWorld:
             if state.activity is not None
         }
         for name in sorted(called):
-            if self._setting.use(name, robot) is None:
+            if self._setting.use(name, robot) is None and not self._scripted.says(name, robot):
                 continue
             function = self._system.function(name)
             self._served.add((robot.name or "", name))
@@ -233,12 +235,15 @@ class ServedWorld:
             owner: Any = None  # a node elsewhere
             run = Run(owner, 0, activity)
             run.goal = request.data
-            if robot in self.network.gone or not self.space.start(run, robot):
+            if robot in self.network.gone or not self._start(run, robot):
                 request.end("aborted", {})
                 return
             self._calls[run] = (robot, request)
 
         return begin
+
+    def _start(self, run: Run, robot: Robot) -> bool:
+        return self.space.start(run, robot) or self._scripted.start(run, robot, self._ended)
 
     def _canceller(self, robot: Robot, function: Function) -> Any:
         def cancel(request: Request) -> None:
@@ -266,6 +271,7 @@ class ServedWorld:
     def _leave(self, run: Run) -> None:
         del self._calls[run]
         self.space.stop(run)
+        self._scripted.stop(run)
 
     def _told(self, robot: Robot, event: str, listeners: int) -> None:
         """Expect that a node tells what it has made of an event, unless its machine has ended."""
