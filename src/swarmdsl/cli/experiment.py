@@ -1,0 +1,95 @@
+"""`swarmc experiment`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import click
+
+from swarmdsl.base.diagnostics.render import render
+from swarmdsl.base.read_files import exists
+from swarmdsl.cli import options
+from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
+from swarmdsl.cli.suggestions import Choice
+
+if TYPE_CHECKING:
+    from swarmdsl.base.diagnostics.collector import Diagnostics
+
+
+@click.command(epilog="Example: swarmc experiment examples/agriculture/fleet.toml")
+@click.argument("file", metavar="FILE", type=options.PLACE)
+@click.option(
+    "-o",
+    "--output",
+    metavar="FOLDER",
+    type=click.Path(path_type=Path),
+    help="Folder for the runs and the results.  [default: NAME-results for NAME.toml]",
+)
+@click.option(
+    "--jobs",
+    type=options.Integer(1, 256),
+    metavar="J",
+    help="Number of processes.  [default: one for each processor]",
+)
+@click.option(
+    "--cluster",
+    metavar="ADDRESS",
+    help="Run on a cluster, such as one of Dask: `tcp://host:8786`.",
+)
+@click.option("--resume", is_flag=True, help="Go on with the runs in the folder.")
+@click.option(
+    "--format",
+    "format_",
+    type=Choice(("text", "json")),
+    default="text",
+    show_default=True,
+    help="Format of the results on standard output.",
+)
+@options.debug
+def experiment(
+    file: Path,
+    output: Path | None,
+    jobs: int | None,
+    cluster: str | None,
+    resume: bool,
+    format_: str,
+) -> int:
+    """Run an experiment: factors with levels, and what they change.
+
+    FILE is TOML: it names the model, the factors, the design and the number of repetitions. All
+    points of the design run with the same seeds. The folder gets all runs in a file of SQLite,
+    the results as JSON, and a page with charts, which needs no network.
+    """
+    from swarmdsl.execution.experiments.study.command import Request, run_study
+
+    if jobs is not None and cluster is not None:
+        raise click.UsageError("`--jobs` and `--cluster` conflict")
+    request = Request(
+        file, output, jobs or os.cpu_count() or 1, cluster, resume, format_ == "json"
+    )
+    with ExitStack() as stack:
+        succeeded = run_study(
+            request,
+            lambda text, folder, report: _open(text, folder, report, stack),
+            sys.stdout,
+            lambda report: render(report, "full", sys.stderr),
+        )
+    return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS
+
+
+def _open(text: str, folder: Path, report: Diagnostics, stack: ExitStack) -> Path | None:
+    """Return the path of a model, or of a revision of one in a folder that is removed later."""
+    from swarmdsl.tools.compare.revisions import Revision, extract
+
+    revision, colon, path = text.partition(":")
+    if exists(folder / text) or not colon or len(revision) < 2:
+        return folder / text
+    # The name of the folder is part of the digest of the model.
+    place = Path(os.path.realpath(stack.enter_context(TemporaryDirectory()))) / "revision"
+    place.mkdir()
+    return extract(Revision(revision, str(folder / path)), place, report)

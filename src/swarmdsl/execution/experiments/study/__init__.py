@@ -1,0 +1,1 @@
+"""Studies: experiments as a file describes them, from factors and levels to answers."""

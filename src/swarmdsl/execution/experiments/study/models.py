@@ -1,0 +1,254 @@
+"""Models and scenarios of a study, packed for workers, and its points as tasks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Label, Severity
+from swarmdsl.base.read_files import exists
+from swarmdsl.base.records import replace
+from swarmdsl.base.source import COMMAND_LINE, Source, Span
+from swarmdsl.driver.config.toml import Document, parse_toml
+from swarmdsl.execution.experiments.comparing import Goal
+from swarmdsl.execution.experiments.designs.factors import Point, Value
+from swarmdsl.execution.experiments.settings import EMPTY, apply_candidate
+from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
+from swarmdsl.execution.experiments.study.plan import FITNESS, Study, Varied
+from swarmdsl.execution.experiments.task import NO_SCENARIO, SCENARIO, Candidate, Task
+from swarmdsl.execution.simulate.choose_space import choose_space
+from swarmdsl.execution.simulate.measures import fitness_of, inputs_of
+from swarmdsl.execution.simulate.prepare import Prepared
+from swarmdsl.execution.simulate.properties import watchable
+from swarmdsl.execution.simulate.subject import Subject
+
+OpenModel = Callable[[str, Path, Diagnostics], Path | None]
+"""Return the path of a model or of a revision of one, from a text beside a folder."""
+
+
+@dataclass(frozen=True)
+class Model:
+    """A packed model; `name` is its level, empty if the models are not varied."""
+
+    name: Value
+    shipment: Shipment
+    subject: Subject
+    shown: tuple[str, ...]
+    """Paths as a command can name them."""
+
+
+class Setting:
+    """Models of a study by level, and what a point of its design means for them."""
+
+    def __init__(self, study: Study, models: tuple[Model, ...]) -> None:
+        self.study = study
+        self.models = models
+        self._by_name = {each.name: each for each in models}
+
+    @property
+    def first(self) -> Model:
+        """The first model."""
+        return self.models[0]
+
+    def model(self, point: Point) -> Model:
+        """Return the model of a point."""
+        return self._by_name[self._level("model", point, "")]
+
+    def scenario(self, point: Point) -> str:
+        """Return the name of the scenario of a point in the shipment."""
+        given = str(self.study.scenario) if self.study.scenario is not None else NO_SCENARIO
+        level = self._level("scenario", point, None)
+        return given if level is None else str(self.study.folder / str(level))
+
+    def candidate(self, point: Point) -> Candidate:
+        """Return the settings of a point."""
+        found: dict[str, Any] = {}
+        for each, value in zip(self.study.factors, point, strict=True):
+            if each.kind == "setting":
+                found[each.name] = each.setting(value)
+            elif each.kind == "faults":
+                found[f"{SCENARIO}faults"] = each.setting(value)
+        return Candidate.of(found)
+
+    def task(self, point: Point) -> Task:
+        """Return the runs of a point."""
+        study = self.study
+        seeds = tuple(range(study.seed, study.seed + study.repetitions))
+        digest = self.model(point).shipment.digest
+        return Task(digest, self.scenario(point), self.candidate(point), seeds)
+
+    def today(self) -> Task:
+        """Return the runs of the first model as it is, in the first scenario."""
+        study = self.study
+        seeds = tuple(range(study.seed, study.seed + study.repetitions))
+        levels = next(
+            (each.factor.levels for each in study.factors if each.kind == "scenario"), None
+        )
+        scenario = str(study.folder / str(levels[0])) if levels else NO_SCENARIO
+        if study.scenario is not None:
+            scenario = str(study.scenario)
+        return Task(self.first.shipment.digest, scenario, Candidate(), seeds)
+
+    def _level(self, kind: str, point: Point, default: Any) -> Any:
+        for each, value in zip(self.study.factors, point, strict=True):
+            if each.kind == kind:
+                return value
+        return default
+
+
+def open_study(study: Study, open_model: OpenModel, report: Diagnostics) -> Setting | None:
+    """Load the models and scenarios of a study, and check all levels with them.
+
+    None if something is wrong.
+    """
+    scenarios = list(_scenarios(study))
+    conditions = Conditions(study.until, study.world)
+    models = []
+    for name, texts, place in _models(study):
+        found = Diagnostics()
+        paths = [path for text in texts if (path := open_model(text, study.folder, found))]
+        packed = None
+        if not found.has_errors:
+            packed = pack(paths, study.swarm, scenarios, found, conditions)
+        report.include(_placed(each, place) for each in found)
+        if packed is not None:
+            models.append(Model(name, *packed, _shown(texts, study.folder)))
+    if report.has_errors:
+        return None
+    setting = Setting(study, tuple(models))
+    _check_measure(setting, report)
+    _check_levels(setting, report)
+    return None if report.has_errors else setting
+
+
+def _shown(texts: tuple[str, ...], folder: Path) -> tuple[str, ...]:
+    """Return the paths of models; a revision is named as git does."""
+    return tuple(
+        str(folder / text) if ":" not in text or exists(folder / text) else text for text in texts
+    )
+
+
+def _models(study: Study) -> Iterator[tuple[Value, tuple[str, ...], Span | None]]:
+    for each in study.factors:
+        if each.kind == "model":
+            for level in each.factor.levels:
+                yield level, (str(level),), each.places[level]
+            return
+    yield "", study.models, study.places.get("model")
+
+
+def _scenarios(study: Study) -> Iterator[Path]:
+    if study.scenario is not None:
+        yield study.scenario
+    for each in study.factors:
+        if each.kind == "scenario":
+            yield from (study.folder / str(level) for level in each.factor.levels)
+
+
+def _placed(found: Diagnostic, place: Span | None) -> Diagnostic:
+    """Give a diagnostic without a place, or about a command line, the place in the study."""
+    nowhere = found.primary is None or found.primary.span.source.name == COMMAND_LINE
+    return replace(found, primary=Label(place)) if nowhere and place is not None else found
+
+
+def measures(subject: Subject) -> dict[str, str]:
+    """Return what can be measured of a subject, each with its kind."""
+    fitness = fitness_of(subject)
+    found = {each.name: "property" for each in watchable(subject)}
+    if fitness is not None:
+        found |= {each.name: "measure" for each in inputs_of(fitness)}
+        found[FITNESS] = "fitness"
+    return found
+
+
+def _check_measure(setting: Setting, report: Diagnostics) -> None:
+    """Report a measure that a model does not have."""
+    study = setting.study
+    place = study.places.get("measure")
+    for model in setting.models:
+        known = measures(model.subject)
+        name = study.measure or FITNESS
+        if name in known:
+            continue
+        owner = f"`{model.subject.name}`"
+        if known:
+            help_ = f'it has {", ".join(f"`{each}`" for each in known)}: `measure = "..."`'
+        else:
+            help_ = "give the swarm a `fitness`, or the model a `property`"
+        report.report("no-such-measure", place, name=name, owner=owner, help=help_)
+    if not report.has_errors and study.goal is None and _kind(setting) == "measure":
+        help_ = 'say what is better: `goal = "maximize"` or `goal = "minimize"`'
+        report.report("missing-key", place, name="goal", help=help_)
+
+
+def _kind(setting: Setting) -> str:
+    return measures(setting.first.subject)[setting.study.measure or FITNESS]
+
+
+def goal_of(setting: Setting) -> Goal:
+    """Return what is better: the goal in the file, or that of the fitness; true of a property."""
+    fitness = fitness_of(setting.first.subject)
+    if setting.study.goal is not None:
+        return setting.study.goal
+    if _kind(setting) == "fitness" and fitness is not None and fitness.goal == "minimize":
+        return "minimize"
+    return "maximize"
+
+
+def _check_levels(setting: Setting, report: Diagnostics) -> None:
+    """Report levels that do not fit the models and scenarios, each once and at its place."""
+    study = setting.study
+    base = tuple(each.factor.at(0.0) for each in study.factors)
+    wrong: set[tuple[int, Value]] = set()
+    documents: dict[str, Document] = {}
+    for number, each in enumerate(study.factors):
+        for value in _tried(each):
+            point = (*base[:number], value, *base[number + 1 :])
+            found = _mistakes(setting, point, documents)
+            if found is None or (number, value) in wrong:
+                continue
+            wrong.add((number, value))
+            _report_level(each, value, found, report)
+
+
+def _tried(varied: Varied) -> tuple[Value, ...]:
+    factor = varied.factor
+    return factor.levels or (factor.low, factor.high)
+
+
+def _mistakes(setting: Setting, point: Point, documents: dict[str, Document]) -> Diagnostic | None:
+    """Return what is wrong with a point in its model and scenario, as a worker would find it."""
+    model, name = setting.model(point), setting.scenario(point)
+    report = Diagnostics()
+    if name not in documents:
+        text = model.shipment.scenarios.get(name, "")
+        source = Source(name, text, Path(name)) if name else EMPTY.source
+        documents[name] = parse_toml(source, report) or EMPTY
+    subject = model.subject
+    scenario = apply_candidate(setting.candidate(point), documents[name], subject, report)
+    if scenario is not None:
+        kind = setting.study.world or scenario.world
+        spaces = choose_space(kind, subject, scenario, report)
+        if not report.has_errors:
+            Prepared(subject, scenario, None, spaces).stage(report)
+    return next((each for each in report if each.severity is Severity.ERROR), None)
+
+
+def _report_level(varied: Varied, value: Value, found: Diagnostic, report: Diagnostics) -> None:
+    source = found.primary.span.source if found.primary is not None else None
+    if source is not None and source.path is not None:
+        report.include([found])  # a mistake in a scenario, wherever the level is
+        return
+    place = varied.places.get(value, varied.place)
+    if found.name in ("unresolved-name", "unknown-key") and varied.kind == "setting":
+        place = varied.place
+    report.report(
+        "unfit-level",
+        place,
+        name=varied.name,
+        value=varied.text(value),
+        reason=found.message,
+        help=found.help,
+    )
