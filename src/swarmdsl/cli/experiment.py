@@ -69,15 +69,13 @@ def experiment(
 
     if jobs is not None and cluster is not None:
         raise click.UsageError("`--jobs` and `--cluster` conflict")
-    request = Request(
-        file, output, jobs or os.cpu_count() or 1, cluster, resume, format_ == "json"
-    )
+    request = Request(file, output, jobs or os.cpu_count() or 1, cluster, resume, format_ == "json")
     with ExitStack() as stack:
         succeeded = run_study(
             request,
             lambda text, folder, report: _open(text, folder, report, stack),
             sys.stdout,
-            lambda report: render(report, "full", sys.stderr),
+            lambda report: render(report, "text", sys.stderr),
         )
     return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS
 

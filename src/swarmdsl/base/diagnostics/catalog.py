@@ -416,4 +416,9 @@ CODES: dict[str, Code] = {
     "cannot-apply": Code("SW1808", "error", "cannot write the winner into `{name}`: {reason}"),
     "not-applied": Code("SW1809", "warning", "`{name}` is not changed: it is better as it is"),
     "missing-package": Code("SW1810", "error", "`{what}` needs package `{package}`"),
+    "no-factors": Code("SW1821", "error", "the experiment varies nothing"),
+    "no-levels": Code("SW1822", "error", "factor `{name}` has no levels to combine"),
+    "too-large-study": Code("SW1823", "error", "{count} are too many: at most {most}"),
+    "no-such-measure": Code("SW1824", "error", "{owner} has no `{name}` to measure"),
+    "unfit-level": Code("SW1825", "error", "`{name}` cannot be {value}: {reason}"),
 }

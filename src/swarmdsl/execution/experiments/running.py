@@ -92,6 +92,11 @@ class Runs:
             found[replace(task, seeds=())].update((row.seed, row) for row in rows)
         return [[found[replace(task, seeds=())][seed] for seed in task.seeds] for task in tasks]
 
+    def known(self, tasks: Sequence[Task]) -> list[list[Row]]:
+        """Return the rows of each task that the store has, after an interruption for instance."""
+        found = [self._store.rows(task, self._key(task)) for task in tasks]
+        return [[rows[seed] for seed in sorted(rows)] for rows in found]
+
     def _work(self, tasks: Sequence[Task], total: int) -> Iterator[tuple[Task, list[Row]]]:
         """Yield rows as workers bring them."""
         waiting = deque(

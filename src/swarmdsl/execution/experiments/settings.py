@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -40,19 +41,27 @@ def keys_of(setting: str) -> tuple[str, ...]:
     return "params", word, param
 
 
-def apply_candidate(
-    candidate: Candidate, document: Document, subject: Subject, report: Diagnostics
-) -> Scenario | None:
-    """Return the scenario with the settings of a candidate; None if it has mistakes."""
-    values = copy.deepcopy(document.values)
-    places = _Places(document.places, candidate)
+def merged(candidate: Candidate, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of a scenario with the settings of a candidate in them."""
+    found: dict[str, Any] = copy.deepcopy(dict(values))
     for name, value in candidate.settings:
-        *above, last = keys = keys_of(name)
-        table: dict[str, Any] = values
+        *above, last = keys_of(name)
+        table = found
         for key in above:
             inner = table.get(key)
             table[key] = table = inner if isinstance(inner, dict) else {}
         table[last] = value
+    return found
+
+
+def apply_candidate(
+    candidate: Candidate, document: Document, subject: Subject, report: Diagnostics
+) -> Scenario | None:
+    """Return the scenario with the settings of a candidate; None if it has mistakes."""
+    values = merged(candidate, document.values)
+    places = _Places(document.places, candidate)
+    for name, _ in candidate.settings:
+        keys = keys_of(name)
         for known in [each for each in places if each[: len(keys)] == keys]:
             del places[known]
     found = read_scenario(Document(document.source, values, places), subject, report)

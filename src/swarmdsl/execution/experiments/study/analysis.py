@@ -18,7 +18,7 @@ from swarmdsl.execution.experiments.study.plan import FITNESS, Study
 from swarmdsl.execution.experiments.task import Row, Task
 from swarmdsl.execution.monitor import FALSE, TRUE
 
-MOST_COMPARED = 5
+MOST_COMPARED = 3
 """Number of points that are compared with the best one."""
 _FEWEST = 2
 

@@ -14,6 +14,7 @@ from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.experiments.engines import Engine, cluster, local
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.report.page import html
+from swarmdsl.execution.experiments.results.records import NAMES
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.study.analysis import Analysis, Result, analyse, result_of
@@ -29,8 +30,6 @@ from swarmdsl.execution.experiments.task import Row, Task
 from swarmdsl.execution.simulate.summary import format_table
 
 Tell = Callable[[Diagnostics], None]
-NAMES = "experiment.json"
-"""File with the names of the models in a folder of results."""
 _RESULTS, _REPORT, _RUNS = "results.json", "report.html", "runs"
 
 
@@ -98,9 +97,7 @@ def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _D
         tasks = list(dict.fromkeys([*tasks, setting.today()]))
     shipments = {each.shipment.digest: each.shipment for each in setting.models}
     with ExitStack() as stack:
-        store = stack.enter_context(
-            Store(request.folder / FILE, is_new=not request.resume)
-        )
+        store = stack.enter_context(Store(request.folder / FILE, is_new=not request.resume))
         _name_models(request.folder, study, setting)
         stack.enter_context(engine)
         bar = stack.enter_context(Bar())
@@ -114,8 +111,16 @@ def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _D
 
 def _name_models(folder: Path, study: Study, setting: Setting) -> None:
     """Write which digest in the store is which model. Raises StoppedError."""
-    models = {each.shipment.digest: str(each.name or ", ".join(each.shown)) for each in setting.models}
-    text = json.dumps({"experiment": str(study.path), "models": models}, indent=2)
+    models = {
+        each.shipment.digest: str(each.name or ", ".join(each.shown)) for each in setting.models
+    }
+    about = {
+        "experiment": str(study.path),
+        "measure": study.measure or FITNESS,
+        "goal": goal_of(setting),
+        "models": models,
+    }
+    text = json.dumps(about, indent=2)
     path = folder / NAMES
     try:
         with write_stream(path) as stream:

@@ -14,6 +14,7 @@ from swarmdsl.execution.experiments.study.plan import Kind, Varied
 from swarmdsl.execution.experiments.task import COUNT, SCENARIO
 from swarmdsl.execution.simulate.durations import SECOND, duration
 from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.values import kind
 
 MOST_LEVELS = 1000
 _RANGE = ("from", "to", "step")
@@ -184,12 +185,16 @@ class _Reader:
         return self._document.places[keys].key
 
     def _wrong(self, keys: Keys, expected: str, found: Any) -> None:
-        Table(self._document, (), self._report).wrong(keys, expected, found)
+        name = "factors" if len(keys) == 1 else _setting(keys)
+        place = self._document.places[keys].value
+        self._report.report("wrong-value", place, name=name, expected=expected, found=kind(found))
 
 
 def _setting(keys: Keys) -> str:
     """Return the name of a setting; keys can follow those of a scenario."""
-    first, *others = map(str, keys[1:])
+    first, *others = (each for each in keys[1:] if isinstance(each, str))
+    if others and others[-1] in _RANGE:
+        others.pop()
     if others and first == "count":
         return COUNT + ".".join(others)
     if others and first == "scenario":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -62,10 +62,12 @@ class Setting:
         level = self._level("scenario", point, None)
         return given if level is None else str(self.study.folder / str(level))
 
-    def candidate(self, point: Point) -> Candidate:
-        """Return the settings of a point."""
+    def candidate(self, point: Point, without: Collection[int] = ()) -> Candidate:
+        """Return the settings of a point, except those of some factors by number."""
         found: dict[str, Any] = {}
-        for each, value in zip(self.study.factors, point, strict=True):
+        for number, (each, value) in enumerate(zip(self.study.factors, point, strict=True)):
+            if number in without:
+                continue
             if each.kind == "setting":
                 found[each.name] = each.setting(value)
             elif each.kind == "faults":
@@ -112,7 +114,10 @@ def open_study(study: Study, open_model: OpenModel, report: Diagnostics) -> Sett
         packed = None
         if not found.has_errors:
             packed = pack(paths, study.swarm, scenarios, found, conditions)
-        report.include(_placed(each, place) for each in found)
+        swarm = study.places.get("swarm")
+        report.include(
+            _placed(each, swarm if each.name == "unresolved-name" else place) for each in found
+        )
         if packed is not None:
             models.append(Model(name, *packed, _shown(texts, study.folder)))
     if report.has_errors:
@@ -198,19 +203,28 @@ def goal_of(setting: Setting) -> Goal:
 
 
 def _check_levels(setting: Setting, report: Diagnostics) -> None:
-    """Report levels that do not fit the models and scenarios, each once and at its place."""
+    """Report levels that do not fit the models and scenarios, each once and at its place.
+
+    A level is wrong if it is so alone and together with the first levels of the others: another
+    factor may give a param its value.
+    """
     study = setting.study
     base = tuple(each.factor.at(0.0) for each in study.factors)
-    wrong: set[tuple[int, Value]] = set()
     documents: dict[str, Document] = {}
     for number, each in enumerate(study.factors):
+        alone = {at for at in range(len(base)) if study.factors[at].kind == "setting"} - {number}
         for value in _tried(each):
             point = (*base[:number], value, *base[number + 1 :])
-            found = _mistakes(setting, point, documents)
-            if found is None or (number, value) in wrong:
+            found = _mistake(setting, point, documents)
+            if found is None:
                 continue
-            wrong.add((number, value))
-            _report_level(each, value, found, report)
+            found = _mistake(setting, point, documents, alone)
+            if found is not None:
+                _report_level(each, value, found, report)
+    together = _mistake(setting, base, documents)
+    if together is not None and not report.has_errors:
+        first = study.factors[0]
+        _report_level(first, base[0], together, report)
 
 
 def _tried(varied: Varied) -> tuple[Value, ...]:
@@ -218,8 +232,16 @@ def _tried(varied: Varied) -> tuple[Value, ...]:
     return factor.levels or (factor.low, factor.high)
 
 
-def _mistakes(setting: Setting, point: Point, documents: dict[str, Document]) -> Diagnostic | None:
-    """Return what is wrong with a point in its model and scenario, as a worker would find it."""
+def _mistake(
+    setting: Setting,
+    point: Point,
+    documents: dict[str, Document],
+    without: Collection[int] = (),
+) -> Diagnostic | None:
+    """Return what is wrong with a point in its model and scenario, as a worker would find it.
+
+    Settings of the factors in `without` are left out.
+    """
     model, name = setting.model(point), setting.scenario(point)
     report = Diagnostics()
     if name not in documents:
@@ -227,7 +249,7 @@ def _mistakes(setting: Setting, point: Point, documents: dict[str, Document]) ->
         source = Source(name, text, Path(name)) if name else EMPTY.source
         documents[name] = parse_toml(source, report) or EMPTY
     subject = model.subject
-    scenario = apply_candidate(setting.candidate(point), documents[name], subject, report)
+    scenario = apply_candidate(setting.candidate(point, without), documents[name], subject, report)
     if scenario is not None:
         kind = setting.study.world or scenario.world
         spaces = choose_space(kind, subject, scenario, report)

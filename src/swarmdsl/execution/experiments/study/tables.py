@@ -69,6 +69,8 @@ def _sentence(answer: Answer) -> str:
 
 def verdict(found: Comparison) -> str:
     """Return the answer of a comparison with its numbers."""
+    if found.difference == 0 and found.deviation == 0:
+        return f"{found.answer} (no difference in {counted(found.runs, 'pair')})"
     between = interval(found.interval)
     runs = counted(found.runs, "pair" if found.is_paired else "run")
     parts = [f"difference {number(found.difference)}"]

@@ -1,0 +1,1 @@
+"""Kept runs of experiments and searches: lists, filters, comparisons, exports."""
