@@ -84,7 +84,7 @@ def show_results(request: Request, out: TextIO, tell: Tell) -> bool:
         _show(_run_table(kept), request, out)
     else:
         _show(_group_table(kept, measure, request.level), request, out)
-    if not request.as_json:
+    if not request.as_json and request.pair is None:
         left = f" of {len(records)}" if len(kept) < len(records) else ""
         out.write(f"{len(kept)}{left} runs in {counted(len(grouped(kept)), 'group')}\n")
     return True
