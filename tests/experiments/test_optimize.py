@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import html
 import json
 import math
 import os
+import re
+import shlex
 import signal
 import sqlite3
 import subprocess
@@ -332,3 +335,27 @@ def test_a_race_keeps_the_best_on_the_same_chance() -> None:
     assert [each.candidate.values for each in rounds[-1].survivors] == [{"x": 5}]
     assert len(rounds) <= 2
     assert rounds_of(3, 12) == [range(3, 8), range(8, 13), range(13, 15)]
+
+
+def test_the_page_shows_the_search_and_plays_its_worst_runs(
+    searched: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = (searched / "one" / "report.html").read_text(encoding="utf-8")
+    titles = re.findall("<h2>(.*?)</h2>", page)
+    assert titles == ["Convergence", "Candidates", "The winner on fresh seeds", "Runs worth a look"]
+    # All candidates are there, the winner and the model as it is among them.
+    assert page.count('<polyline class="path') == 9 * 3
+    assert page.count('class="path best"') == page.count('class="path today"') == 1
+    command = html.unescape(re.findall(r"<code>(swarmc simulate.*?)</code>", page)[0])
+    *words, seed = shlex.split(command)[1:]
+    worst = min(data(searched / "one")["winner"]["by_seed"].items(), key=lambda each: each[1])
+    assert worst[0] == seed
+    # A property of the model may be violated in this run.
+    assert run([*words, seed, "--trace", "none", "--results", "played.json"]) in (0, 1)
+    capsys.readouterr()
+    played = json.loads(Path("played.json").read_text(encoding="utf-8"))
+    assert played["fitness"]["value"] == worst[1]
+
+
+def data(folder: Path) -> Any:
+    return json.loads((folder / "results.json").read_text(encoding="utf-8"))

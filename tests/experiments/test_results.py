@@ -48,7 +48,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureF
 
 
 def test_groups_are_listed_with_their_means(run: Run) -> None:
-    code, text = run("--format", "json")
+    code, text = run("--json")
     assert code == 0
     first, second = json.loads(text)
     assert (first["count of robot"], first["runs"], first["failed"]) == (2, 8, 0)
@@ -56,14 +56,12 @@ def test_groups_are_listed_with_their_means(run: Run) -> None:
     assert (second["failed"], second["model"]) == (1, "0123456789ab")
     code, text = run()
     assert "16 runs in 2 groups" in text
-    code, text = run("--measure", "Fine", "--format", "json")
+    code, text = run("--measure", "Fine", "--json")
     assert [each["Fine"] for each in json.loads(text)] == [7 / 8, 7 / 8]
 
 
 def test_runs_are_filtered(run: Run) -> None:
-    code, text = run(
-        "--runs", "--where", "count of robot > 3", "--where", "seed<=2", "--format", "json"
-    )
+    code, text = run("--runs", "--where", "count of robot > 3", "--where", "seed<=2", "--json")
     assert code == 0
     assert [(each["group"], each["seed"]) for each in json.loads(text)] == [(2, 0), (2, 1), (2, 2)]
     code, text = run("--where", "count of robots > 3")
@@ -103,7 +101,7 @@ def test_a_condition_without_a_sign_is_refused(run: Run) -> None:
 
 
 def test_groups_are_compared_by_pairs_of_seeds(run: Run) -> None:
-    code, text = run("--compare", "2", "1", "--format", "json")
+    code, text = run("--compare", "2", "1", "--json")
     found = json.loads(text)
     assert (code, found["better"], found["paired"], found["runs"]) == (0, "yes", True, 8)
     assert found["difference"] == pytest.approx(1.05)

@@ -227,10 +227,7 @@ model = ["HEAD:model.swarm", "model.swarm"]
 """
     )
     for more in ((), ("--resume",)):
-        assert (
-            run(["experiment", "study.toml", "-o", "out", "--jobs", "1", "--format", "json", *more])
-            == 0
-        )
+        assert run(["experiment", "study.toml", "-o", "out", "--jobs", "1", "--json", *more]) == 0
         found = json.loads(capsys.readouterr().out)
         first, second = found["points"]
         assert second["mean"] - first["mean"] == pytest.approx(0.9)

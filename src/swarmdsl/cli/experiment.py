@@ -5,20 +5,20 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import ExitStack
+from io import StringIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import click
 
-from swarmdsl.base.diagnostics.render import render
+from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.base.read_files import exists
 from swarmdsl.cli import options
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
-from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
-    from swarmdsl.base.diagnostics.collector import Diagnostics
+    from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 
 
 @click.command(epilog="Example: swarmc experiment examples/agriculture/fleet.toml")
@@ -42,14 +42,8 @@ if TYPE_CHECKING:
     help="Run on a cluster, such as one of Dask: `tcp://host:8786`.",
 )
 @click.option("--resume", is_flag=True, help="Go on with the runs in the folder.")
-@click.option(
-    "--format",
-    "format_",
-    type=Choice(("text", "json")),
-    default="text",
-    show_default=True,
-    help="Format of the results on standard output.",
-)
+@click.option("--json", "is_json", is_flag=True, help="Print the results as JSON.")
+@options.diagnostics_format
 @options.debug
 def experiment(
     file: Path,
@@ -57,6 +51,7 @@ def experiment(
     jobs: int | None,
     cluster: str | None,
     resume: bool,
+    is_json: bool,
     format_: str,
 ) -> int:
     """Run an experiment: factors with levels, and what they change.
@@ -69,14 +64,21 @@ def experiment(
 
     if jobs is not None and cluster is not None:
         raise click.UsageError("`--jobs` and `--cluster` conflict")
-    request = Request(file, output, jobs or os.cpu_count() or 1, cluster, resume, format_ == "json")
+    is_document = format_ in DOCUMENTS
+    if is_document and is_json:
+        raise click.UsageError(f"`--format {format_}` and `--json` both print")
+    request = Request(file, output, jobs or os.cpu_count() or 1, cluster, resume, is_json)
+    found: list[Diagnostic] = []
     with ExitStack() as stack:
         succeeded = run_study(
             request,
             lambda text, folder, report: _open(text, folder, report, stack),
-            sys.stdout,
-            lambda report: render(report, "text", sys.stderr),
+            # What is found has one document on standard output.
+            StringIO() if is_document else sys.stdout,
+            found.extend if is_document else lambda each: render(each, format_, sys.stderr),
         )
+    if is_document:
+        render(found, format_, sys.stdout)
     return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS
 
 

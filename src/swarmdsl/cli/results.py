@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import sys
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
 
-from swarmdsl.base.diagnostics.render import render
+from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.cli import options
 from swarmdsl.cli.exit_code import ERRORS, OK
 from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
+    from swarmdsl.base.diagnostics.collector import Diagnostic
     from swarmdsl.execution.experiments.results.conditions import Condition
 
 
@@ -77,14 +79,8 @@ def _conditions(
     type=click.Path(path_type=Path),
     help="Write the runs to a file as CSV, with all that is known of each.",
 )
-@click.option(
-    "--format",
-    "format_",
-    type=Choice(("text", "json")),
-    default="text",
-    show_default=True,
-    help="Format on standard output.",
-)
+@click.option("--json", "is_json", is_flag=True, help="Print the results as JSON.")
+@options.diagnostics_format
 @options.debug
 def results(
     folder: Path,
@@ -95,6 +91,7 @@ def results(
     goal: Literal["maximize", "minimize"] | None,
     confidence: float,
     export: Path | None,
+    is_json: bool,
     format_: str,
 ) -> int:
     """List, filter, compare and export the runs of an experiment or a search.
@@ -107,15 +104,24 @@ def results(
     if pair is not None and runs:
         raise click.UsageError("`--compare` and `--runs` conflict")
     if export is not None:
-        if pair is not None or runs or format_ == "json":
+        if pair is not None or runs or is_json:
             raise click.UsageError("`--export` writes runs: leave the other outputs out")
         if export.suffix.lower() != ".csv":
             raise click.BadParameter(
                 f"`{export}` does not end with `.csv`", param_hint="'--export'"
             )
         options.check_outputs({"--export": export}, ())
-    request = Request(
-        folder, conditions, measure, pair, goal, confidence, runs, export, format_ == "json"
+    request = Request(folder, conditions, measure, pair, goal, confidence, runs, export, is_json)
+    is_document = format_ in DOCUMENTS
+    if is_document and is_json:
+        raise click.UsageError(f"`--format {format_}` and `--json` both print")
+    found: list[Diagnostic] = []
+    succeeded = show_results(
+        request,
+        # What is found has one document on standard output.
+        StringIO() if is_document else sys.stdout,
+        found.extend if is_document else lambda each: render(each, format_, sys.stderr),
     )
-    succeeded = show_results(request, sys.stdout, lambda report: render(report, "text", sys.stderr))
+    if is_document:
+        render(found, format_, sys.stdout)
     return OK if succeeded else ERRORS

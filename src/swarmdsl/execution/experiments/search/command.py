@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any, TextIO
@@ -12,6 +12,7 @@ from typing import Any, TextIO
 import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import MOST_RECORDED, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.suggest import suggest
 from swarmdsl.base.write_stream import report_unwritten, write_stream
@@ -25,16 +26,18 @@ from swarmdsl.execution.experiments.search.evaluation import Aim, Together
 from swarmdsl.execution.experiments.search.files import files_of
 from swarmdsl.execution.experiments.search.methods import Name
 from swarmdsl.execution.experiments.search.optimizing import Found, Plan, Search
+from swarmdsl.execution.experiments.search.page import search_page, worst_runs
 from swarmdsl.execution.experiments.search.report import as_data, as_text, settings_text
 from swarmdsl.execution.experiments.search.space import space_of
 from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.task import NO_SCENARIO, canonical
+from swarmdsl.execution.simulate.durations import written_duration
 from swarmdsl.execution.simulate.measures import fitness_of
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir import Fitness, Optimization, System
 
-HISTORY, RESULTS = "history.jsonl", "results.json"
+HISTORY, RESULTS, REPORT = "history.jsonl", "results.json", "report.html"
 Tell = Callable[[Diagnostics], None]
 
 
@@ -161,17 +164,43 @@ def _conclude(request: Request, problem: _Problem, found: Found, report: Diagnos
             RESULTS: data,
             **dict(files_of(candidate, problem.optimization, problem.system)),
         }
-        for name, text in texts.items():
-            with _written(request.output / name, report) as stream:
+        page, scenarios = _page(request, request.output, problem, found)
+        texts[REPORT] = page
+        for path, text in {**_below(request.output, texts), **scenarios}.items():
+            with _written(path, report) as stream:
                 stream.write(text)
         click.echo(f"\nwritten: {FILE}, {HISTORY}, {', '.join(texts)}", err=True)
     if request.apply:
         _apply(request, problem, found, report)
 
 
+def _page(
+    request: Request, folder: Path, problem: _Problem, found: Found
+) -> tuple[str, dict[Path, str]]:
+    """Return the page of a result, and the scenarios that play runs on it."""
+    plan, words = problem.plan, ["swarmc", "simulate", *map(str, request.paths)]
+    given = (
+        ("--swarm", request.swarm),
+        ("--world", request.world),
+        ("--until", written_duration(request.until) if request.until is not None else None),
+    )
+    words += [word for name, value in given if value is not None for word in (name, value)]
+    texts = problem.shipment.scenarios
+    worst, scenarios = worst_runs(found, plan, texts, words, folder / "runs")
+    lines = read_file(folder / HISTORY, MOST_RECORDED).decode()
+    history = [json.loads(line) for line in lines.splitlines()]
+    names = problem.subject.name, problem.fitness.name
+    return search_page(found, plan, names, history, worst), scenarios
+
+
+def _below(folder: Path, texts: Mapping[str, str]) -> dict[Path, str]:
+    return {folder / name: text for name, text in texts.items()}
+
+
 @contextmanager
 def _written(path: Path, report: Diagnostics) -> Iterator[TextIO]:
     try:
+        path.parent.mkdir(exist_ok=True)
         with write_stream(path) as stream:
             yield stream
     except OSError as error:

@@ -8,8 +8,9 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.exchange.search_space import behaviour_package, search_parameters
-from swarmdsl.execution.experiments.settings import keys_of
+from swarmdsl.execution.experiments.settings import merged
 from swarmdsl.execution.experiments.task import COUNT, Candidate
+from swarmdsl.execution.experiments.toml_text import toml_text
 from swarmdsl.execution.simulate.durations import SECOND, duration
 from swarmdsl.ir import Optimization, System
 
@@ -18,18 +19,7 @@ _PARAMETERS = "parameters"
 
 def scenario_text(candidate: Candidate) -> str:
     """Return the tables of a scenario with the settings, as TOML."""
-    tables: dict[tuple[str, ...], list[str]] = {}
-    for name, value in candidate.settings:
-        *above, last = keys_of(name)
-        tables.setdefault(tuple(above), []).append(f"{_key(last)} = {json.dumps(value)}")
-    parts = (
-        "\n".join([f"[{'.'.join(map(_key, keys))}]", *lines]) for keys, lines in tables.items()
-    )
-    return "\n\n".join(parts) + "\n"
-
-
-def _key(word: str) -> str:
-    return word if word.replace("_", "").replace("-", "").isalnum() else json.dumps(word)
+    return toml_text(merged(candidate, {}))
 
 
 def candidate_data(candidate: Candidate, system: System) -> list[dict[str, Any]]:

@@ -13,12 +13,12 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.experiments.engines import Engine, cluster, local
 from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.progress_bar import shown
 from swarmdsl.execution.experiments.report.page import html
 from swarmdsl.execution.experiments.results.records import NAMES
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.study.analysis import Analysis, Result, analyse, result_of
-from swarmdsl.execution.experiments.study.bar import Bar
 from swarmdsl.execution.experiments.study.data import as_data
 from swarmdsl.execution.experiments.study.models import OpenModel, Setting, goal_of, open_study
 from swarmdsl.execution.experiments.study.page import page
@@ -100,7 +100,7 @@ def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _D
         store = stack.enter_context(Store(request.folder / FILE, is_new=not request.resume))
         _name_models(request.folder, study, setting)
         stack.enter_context(engine)
-        bar = stack.enter_context(Bar())
+        bar = stack.enter_context(shown(len(tasks) * study.repetitions, engine.name, str))
         runs = Runs(shipments, engine, store, bar)
         try:
             return _Done(dict(zip(tasks, runs.run(tasks), strict=True)), runs.ran, False)
