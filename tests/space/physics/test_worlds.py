@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -12,6 +13,7 @@ from swarmdsl.execution.simulate import choose_space
 
 from ..worlds import TEXT
 
+MEADOW = Path(__file__).resolve().parents[3] / "examples" / "meadow"
 PROPERTIES = """
 property Arrives  of S : each rover : eventually in Done
 property Unharmed of S : each rover : never in Stuck
@@ -86,3 +88,36 @@ def test_a_scenario_chooses_physics(folder: Path, capsys: pytest.CaptureFixture[
     assert end["at"] == pytest.approx([14, 10, 0], abs=0.1)
     # At 2 m/s it takes 2 s; with an acceleration and a way to brake it takes longer.
     assert 2500 < end["t"] < 5500
+
+
+def test_search_and_rescue_goes_in_physics_as_in_the_plane(tmp_path: Path) -> None:
+    """A UAV finds a person and a rover drives there, in both worlds; in physics a bit later."""
+    text = (MEADOW / "mission.toml").read_text(encoding="utf-8")
+    scenario = tmp_path / "mission.toml"
+    scenario.write_text(text.replace("uav   = 3", "uav   = 2").replace("rover = 2", "rover = 1"))
+    found: dict[str, tuple[dict[str, Any], dict[str, list[str]]]] = {}
+    for kind in ("flat", "physics"):
+        results, trace = tmp_path / f"{kind}.json", tmp_path / f"{kind}.jsonl"
+        command = ["simulate", str(MEADOW), "--scenario", str(scenario), "--seed", "8"]
+        command += ["--until", "27s", "--results", str(results), "--trace-file", str(trace)]
+        assert run([*command, "--world", kind]) == 0
+        begun: dict[str, list[str]] = {}
+        for line in map(json.loads, trace.read_text(encoding="utf-8").splitlines()):
+            if line.get("started"):
+                begun.setdefault(line["member"], []).extend(line["started"])
+        found[kind] = json.loads(results.read_text(encoding="utf-8")), begun
+    flat, physics = found["flat"], found["physics"]
+    for member in ("uav[0]", "uav[1]", "rover[0]"):
+        both = list(zip(flat[1][member], physics[1][member], strict=False))
+        assert all(one == other for one, other in both)
+        assert len(both) >= 2
+    assert physics[1]["rover[0]"][:2] == ["bid_action", "ugv_move_to"]
+    verdicts = [
+        {each["name"]: each["verdict"] for each in results["properties"]}
+        for results, _ in (flat, physics)
+    ]
+    assert verdicts[0] == verdicts[1]
+    assert set(verdicts[0].values()) == {"true"}
+    values = [results["fitness"]["value"] for results, _ in (flat, physics)]
+    assert values[1] == pytest.approx(values[0], abs=0.05)
+    assert values[0] > 0.9
