@@ -25,6 +25,7 @@ _ABOUT_ONE_RUN = (
     "timeline",
     "map_file",
     "animation",
+    "picture",
     "live",
     "real_time",
     "stop_on_violation",

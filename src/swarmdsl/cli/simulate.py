@@ -23,7 +23,15 @@ if TYPE_CHECKING:
     from swarmdsl.execution.simulate.live import Page
     from swarmdsl.ir import System
 
-_NOT_WITH_ROS2 = ("machine", "events", "timeline", "replay", "stop_on_violation", "real_time")
+_NOT_WITH_ROS2 = (
+    "machine",
+    "events",
+    "timeline",
+    "replay",
+    "stop_on_violation",
+    "real_time",
+    "picture",
+)
 
 
 def parse_duration(
@@ -115,6 +123,11 @@ def _opened(port: int, system: System | None, title: str, map_: str | None) -> I
     help="Draw the run in motion on its map, as SVG, or as a page of HTML that plays it.",
 )
 @click.option(
+    "--picture",
+    type=click.Path(path_type=Path),
+    help="Draw the robots at the end as MuJoCo sees them, as PNG, with `--world physics`.",
+)
+@click.option(
     "--results",
     type=click.Path(path_type=Path),
     help="Write verdicts on properties, measures and fitness to a file, as JSON.",
@@ -186,6 +199,7 @@ def simulate(
     timeline: Path | None,
     map_file: Path | None,
     animation: Path | None,
+    picture: Path | None,
     results: Path | None,
     replay: tuple[Path, ...],
     seed: int | None,
@@ -245,7 +259,9 @@ def simulate(
         options.check_picture(map_file, "--map", ".svg", {})
     if animation is not None and animation.suffix.lower() != ".html":
         options.check_picture(animation, "--animation", ".svg", {})
-    for name, value in (("map", map_file), ("animation", animation)):
+    if picture is not None:
+        options.check_picture(picture, "--picture", ".png", {})
+    for name, value in (("map", map_file), ("animation", animation), ("picture", picture)):
         if value is not None and (replay or world == "abstract"):
             other = "--replay" if replay else "--world abstract"
             raise click.UsageError(f"`--{name}` and `{other}` conflict")
@@ -255,6 +271,7 @@ def simulate(
         "--timeline": timeline,
         "--map": map_file,
         "--animation": animation,
+        "--picture": picture,
         "--results": results,
         "--histogram": many_options["histogram"],
     }
@@ -279,6 +296,7 @@ def simulate(
         world,
         map_file,
         animation,
+        picture,
         real_time_factor or 1.0,
         partial(_opened, port or 0) if live else None,
     )

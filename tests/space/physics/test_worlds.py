@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import json
+import struct
+import zlib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from swarmdsl.cli import run
+from swarmdsl.execution.physics import picture
 from swarmdsl.execution.simulate import choose_space
 
 from ..worlds import TEXT
@@ -88,6 +92,55 @@ def test_a_scenario_chooses_physics(folder: Path, capsys: pytest.CaptureFixture[
     assert end["at"] == pytest.approx([14, 10, 0], abs=0.1)
     # At 2 m/s it takes 2 s; with an acceleration and a way to brake it takes longer.
     assert 2500 < end["t"] < 5500
+
+
+def pixels(file: Path) -> tuple[tuple[int, int], bytes]:
+    """Size and rows of a PNG, each row after the number of its filter."""
+    data = file.read_bytes()
+    assert data.startswith(b"\x89PNG\r\n\x1a\n")
+    place, found = 8, {}
+    while place < len(data):
+        (length,) = struct.unpack_from(">I", data, place)
+        kind, chunk = data[place + 4 : place + 8], data[place + 8 : place + 8 + length]
+        (check,) = struct.unpack_from(">I", data, place + 8 + length)
+        assert check == zlib.crc32(kind + chunk)
+        found[kind] = chunk
+        place += 12 + length
+    width, height = struct.unpack_from(">II", found[b"IHDR"])
+    return (width, height), zlib.decompress(found[b"IDAT"])
+
+
+def test_a_picture_shows_the_robots(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    command = ["simulate", "demo.swarm", "--until", "200ms", "--trace", "none"]
+    command += ["--world", "physics", "--picture", "end.png"]
+    if run(command) != 0:
+        said = capsys.readouterr().err
+        assert "error[SW1022]: there is no picture of the robots: " in said
+        pytest.skip(f"MuJoCo cannot draw here: {said.splitlines()[0]}")
+    assert "written: end.png" in capsys.readouterr().err
+    (width, height), rows = pixels(Path("end.png"))
+    assert len(rows) == height * (1 + 3 * width)
+    whole = np.frombuffer(rows, dtype=np.uint8).reshape(height, 1 + 3 * width)[:, 1:]
+    red, _, blue = whole.reshape(height, width, 3).astype(int).transpose(2, 0, 1)
+    # Two orange robots, 20 m apart from south to north, in the middle.
+    lines, columns = np.nonzero(red > blue + 30)
+    assert lines.min() < height / 2 < lines.max()
+    assert abs(columns.mean() - width / 2) < width / 20
+
+
+def test_a_renderer_that_fails_is_said(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fail(name: str) -> None:
+        raise ImportError("no library EGL")
+
+    monkeypatch.setattr(picture, "import_module", fail)
+    command = ["simulate", "demo.swarm", "--until", "200ms", "--picture", "end.png"]
+    assert run([*command, "--world", "physics"]) == 1
+    assert "SW1022]: there is no picture of the robots: no library EGL" in capsys.readouterr().err
+    assert run([*command, "--world", "flat"]) == 1
+    assert "only the world `physics` has bodies to draw" in capsys.readouterr().err
+    assert not Path("end.png").exists()
 
 
 def test_search_and_rescue_goes_in_physics_as_in_the_plane(tmp_path: Path) -> None:

@@ -327,6 +327,7 @@ CODES: dict[str, Code] = {
         "SW1020", "warning", "`{name}` counts robots near it: its lines are not compared"
     ),
     "no-ros": Code("SW1021", "error", "cannot serve the robots to nodes of ROS 2: {reason}"),
+    "no-picture": Code("SW1022", "error", "there is no picture of the robots: {reason}"),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),

@@ -60,6 +60,12 @@ class PhysicalMotion(Motion):
         """Let a robot fall: the motors of lost ones are off."""
         self._still[row // self.robots.robots] = 0
 
+    def picture(self, run: int) -> bytes:
+        """Return a picture of a run as PNG. Raises NoPictureError."""
+        from swarmdsl.execution.physics.picture import picture
+
+        return picture(self.scenes[run])
+
     def restore(self, row: int) -> None:
         """Set a robot on its feet."""
         robots = self.robots

@@ -85,6 +85,12 @@ class Scene:
         return Places(place, data.qvel[self._velocity].copy(), heading, touched)
 
     @property
+    def places(self) -> Floats:
+        """Places of the middles of all robots."""
+        found: Floats = self.data.qpos[self._place]
+        return found
+
+    @property
     def is_at_rest(self) -> bool:
         """True if nothing moves."""
         return bool((np.abs(self.data.qvel) < _AT_REST).all())

@@ -40,7 +40,7 @@ from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.results import as_document
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
-from swarmdsl.execution.simulate.space import ModelError
+from swarmdsl.execution.simulate.space import ModelError, NoPictureError
 from swarmdsl.execution.simulate.summary import Summary, measure_table, property_table
 from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line, as_json, as_text
@@ -228,6 +228,7 @@ class _Play:
                 if picture is not None:
                     picture({each.property.name: each.remark for each in results})
                 maps()
+                self._draw_robots(stack, report)
                 last()
         except OSError as error:
             if error.filename is None:
@@ -377,6 +378,20 @@ class _Play:
                 stream.write(picture)
 
         return draw
+
+    def _draw_robots(self, stack: ExitStack, report: Diagnostics) -> None:
+        """Write a picture of the robots at the end, if requested."""
+        path = self._request.picture
+        if path is None:
+            return
+        try:
+            picture = self._world.space.picture()
+        except NoPictureError as error:
+            report.report("no-picture", reason=str(error), help="use `--map` instead")
+            return
+        stream = self._write_to(path, stack, report)
+        if stream is not None and picture is not None:
+            stream.buffer.write(picture)
 
     def _live(self, stack: ExitStack) -> Callable[[], None]:
         """Open the page that shows the run, if requested; return what draws the end."""

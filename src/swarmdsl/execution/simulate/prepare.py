@@ -50,6 +50,8 @@ class Request:
     """Kind of space; None if the scenario or the model decides."""
     map: Path | None = None
     animation: Path | None = None
+    picture: Path | None = None
+    """File for a picture of the robots at the end, in physics."""
     factor: float = 1.0
     """Speed of virtual time in a run in real time."""
     live: Opened | None = None
@@ -95,6 +97,9 @@ def prepare(request: Request, report: Diagnostics) -> Prepared | None:
     if (request.map or request.animation) and not spaces.is_flat and not report.has_errors:
         help_ = "say where something is in the model, or run it with `--world flat`"
         report.report("no-positions", name=subject.name, help=help_)
+    if request.picture is not None and kind != "physics" and not report.has_errors:
+        reason = "only the world `physics` has bodies to draw"
+        report.report("no-picture", reason=reason, help="add `--world physics`, or use `--map`")
     return None if report.has_errors else Prepared(subject, scenario, events, spaces)
 
 

@@ -115,6 +115,10 @@ class Space:
         """Return the targets: name, place, and whether somebody has seen it."""
         return ()
 
+    def picture(self) -> bytes | None:
+        """Return a picture of the robots as PNG, None if there is none. Raises NoPictureError."""
+        return None
+
     def rows(self) -> Sequence[tuple[str, ...]]:
         """Return the lines of the summary: a heading, and values by robot; empty without any."""
         return ()
@@ -126,6 +130,10 @@ class Space:
 
 ABSTRACT = Space()
 """The space of worlds without geometry; it has no state."""
+
+
+class NoPictureError(Exception):
+    """Nothing can be drawn here; the message says why."""
 
 
 class ModelError(Exception):

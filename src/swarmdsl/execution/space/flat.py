@@ -185,6 +185,10 @@ class FlatSpace(Space):
         """Return the targets: name, place, and whether somebody has seen it."""
         return self._stage.targets.of_run(self.number)
 
+    def picture(self) -> bytes | None:
+        """Return a picture of the robots as PNG, None if what moves them has none."""
+        return self._stage.motion.picture(self.number)
+
     def rows(self) -> list[tuple[str, ...]]:
         """Return the lines of the summary: distance, energy and coverage, where there are any."""
         stage = self._stage

@@ -45,6 +45,10 @@ class Motion:
     def restore(self, row: int) -> None:
         """Let a lost robot go on where it is."""
 
+    def picture(self, run: int) -> bytes | None:
+        """Return a picture of a run as PNG, None if there is none."""
+        return None
+
     def close(self) -> None:
         """Give back what the motion holds."""
 
