@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
 from typing import NamedTuple
 
 from swarmdsl import ir
@@ -12,6 +11,7 @@ from swarmdsl.execution.verify.groups import Local, Step
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.terms import Terms, is_act
+from swarmdsl.execution.verify.truths import Sight, Truths
 from swarmdsl.ir import Count, Fact
 
 
@@ -43,6 +43,7 @@ class Observer:
         """True if a fact holds for a moment: the next line, whatever it shows, ends it."""
         self.others = others and self.forgets
         self._rows: dict[int, _Row] = {}
+        self._truths = Truths(network, self.terms, self._claims, me)
         self._singles: dict[int, list[tuple[Step, int, tuple[int, ...], bool]]] = {}
 
     def start(self, state: int) -> int:
@@ -85,7 +86,7 @@ class Observer:
         network = self.network
         memory = state & self.mine
         present = network.present(state)
-        seen = _Sight(self, present)
+        seen = Sight(present)
         silent = [self._silence(memory, seen)]
         for place, _ in present:
             group = network.places[place].group
@@ -115,7 +116,7 @@ class Observer:
         self, state: int, present: Sequence[tuple[int, int]]
     ) -> Iterator[tuple[int, Step, Sequence[int]]]:
         memory = state & self.mine
-        seen = _Sight(self, present)
+        seen = Sight(present)
         for step in self.network.risks(present):
             if self.network.is_waiting(step, present):
                 continue
@@ -149,7 +150,7 @@ class Observer:
             return
         memory = state & self.mine
         present = network.present(state)
-        seen = _Sight(self, present)
+        seen = Sight(present)
         silent = self._silence(memory, seen) - memory
         if self.others and silent:
             yield state + silent
@@ -163,9 +164,9 @@ class Observer:
                 yield state + change
             for change in row.plain:
                 yield state + change + silent
-            for change, move in row.loud:
-                yield state + change + self._moments(memory, place, move, seen) - memory
-            for change, shifts, sends, sender, moves in row.casts:
+            for change, sign in row.loud:
+                yield state + change + self._moments(memory, sign, seen) - memory
+            for change, shifts, sends, sender, signs in row.casts:
                 if shifts is not known:
                     known, total = shifts, 0
                     for where, count in present:
@@ -174,11 +175,11 @@ class Observer:
                             shift = network.shift_of(where, sends, sender)
                         total += count * shift
                 after = state + change + total - shifts[place]
-                for each in moves:
+                for each in signs:
                     if each is None:
                         yield after + silent
                     else:
-                        yield after + self._moments(memory, place, each, seen) - memory
+                        yield after + self._moments(memory, each, seen) - memory
 
     def is_busy(self, state: int) -> bool:
         """Return True if something happens in a state, even if it leads back to it."""
@@ -193,8 +194,8 @@ class Observer:
         network = self.network
         losses: dict[int, None] = {}
         plain: dict[int, None] = {}
-        loud: dict[tuple[int, tuple[int, ...]], Move] = {}
-        casts: dict[tuple[int, tuple[int, ...]], dict[tuple[int, ...] | None, Move | None]] = {}
+        loud: dict[tuple[int, int], None] = {}
+        casts: dict[tuple[int, tuple[int, ...]], dict[int | None, None]] = {}
         group = self.network.places[place].group
         for step in network.row(place):
             change = network.ones[step.target] - network.ones[place]
@@ -203,71 +204,45 @@ class Observer:
             if move is None:
                 losses[change] = None
                 continue
-            silent = self._is_silent(place, move)
-            facts = None if silent else tuple(m.holding for m in move.moments)
+            sign = None if self._is_silent(place, move) else self._truths.sign(place, move)
             if heard:
-                casts.setdefault((change, heard), {}).setdefault(facts, None if silent else move)
-            elif facts is None:
+                casts.setdefault((change, heard), {})[sign] = None
+            elif sign is None:
                 plain[change] = None
             else:
-                loud.setdefault((change, facts), move)
+                loud[change, sign] = None
         return _Row(
             list(losses),
             list(plain),
-            [(change, move) for (change, _), move in loud.items()],
+            list(loud),
             [
-                (change, network.shifts(sends, group), sends, group, list(moves.values()))
-                for (change, sends), moves in casts.items()
+                (change, network.shifts(sends, group), sends, group, list(signs))
+                for (change, sends), signs in casts.items()
             ],
         )
 
-    def counts(self, present: Sequence[tuple[int, int]]) -> tuple[list[int], list[int]]:
-        """Return for how many robots each fact holds, and if it does for me."""
-        counts = [0] * len(self.terms)
-        mine = [0] * len(self.terms)
-        for place, count in present:
-            group = self.network.places[place].group
-            for term in range(len(self.terms)):
-                holds = self.terms.holds(term, group, self._lasting(place))
-                counts[term] += holds * count
-                if group == self._me:
-                    mine[term] = holds
-        return counts, mine
-
-    def _lasting(self, place: int) -> int:
-        group, state, _ = self.network.places[place]
-        return self.network.groups[group].automaton.look(state).holding
-
-    def _moments(self, memory: int, place: int, move: Move, seen: _Sight) -> int:
+    def _moments(self, memory: int, sign: int, seen: Sight) -> int:
         """Return the memory of the monitor after the moments of a move."""
-        passed = self._memories(memory, place, move, seen)
-        return passed[-1] if passed else memory
+        for truths in self._truths.after(sign, seen):
+            memory = self.table.step(memory, truths)
+        return memory
 
-    def _memories(self, memory: int, place: int, move: Move, seen: _Sight) -> list[int]:
+    def _memories(self, memory: int, place: int, move: Move, seen: Sight) -> list[int]:
         """Return the memories of the monitor at the moments of a move."""
-        counts, mine = seen.counts
-        group = self.network.places[place].group
-        before = self._lasting(place)
-        terms = range(len(self.terms))
-        others = [counts[t] - self.terms.holds(t, group, before) for t in terms]
         passed = []
-        for moment in move.moments:
-            now = [self.terms.holds(t, group, moment.holding) for t in terms]
-            total = [others[t] + now[t] for t in terms]
-            me = now if group == self._me else mine
-            truths = tuple(bool(each(total, me)) for each in self._claims)
+        for truths in self._truths.after(self._truths.sign(place, move), seen):
             memory = self.table.step(memory, truths)
             passed.append(memory)
         return passed
 
-    def _silence(self, memory: int, seen: _Sight) -> int:
+    def _silence(self, memory: int, seen: Sight) -> int:
         """Return the memory of the monitor after a move that changes no fact.
 
         It differs only after a fact that held for a moment: this is over then.
         """
         if not self.forgets:
             return memory
-        return self.table.step(memory, tuple(bool(each(*seen.counts)) for each in self._claims))
+        return self.table.step(memory, self._truths.now(seen))
 
     def _is_silent(self, place: int, move: Move) -> bool:
         group, state, _ = self.network.places[place]
@@ -275,25 +250,15 @@ class Observer:
 
 
 class _Row(NamedTuple):
-    """Steps of a place: lost messages and silent moves as differences, loud ones, and sends."""
+    """Steps of a place: lost messages and silent moves as differences, loud ones, and sends.
+
+    Loud ones have the number of what they show.
+    """
 
     losses: list[int]
     plain: list[int]
-    loud: list[tuple[int, Move]]
-    casts: list[tuple[int, dict[int, int], tuple[int, ...], int, list[Move | None]]]
-
-
-class _Sight:
-    """The truth of the facts in a state, computed when it is asked for."""
-
-    def __init__(self, observer: Observer, present: Sequence[tuple[int, int]]) -> None:
-        self._observer = observer
-        self._present = present
-
-    @cached_property
-    def counts(self) -> tuple[list[int], list[int]]:
-        """For how many robots each fact holds, and if it does for me."""
-        return self._observer.counts(self._present)
+    loud: list[tuple[int, int]]
+    casts: list[tuple[int, dict[int, int], tuple[int, ...], int, list[int | None]]]
 
 
 def is_silent(automaton: Local, state: int, move: Move) -> bool:

@@ -36,6 +36,7 @@ class TimedNetwork(Network):
             _in_ticks(timing.message(repeats=each.repeats), tick) for each in alphabet.messages
         ]
         self._later: dict[int, int | None] = {}
+        self._last: tuple[int, list[tuple[int, int]]] = (-1, [])
 
     def after(self, state: int, step: Step) -> int:
         """Return the state after a step or a tick."""
@@ -44,6 +45,13 @@ class TimedNetwork(Network):
         later = self.later(state)
         assert later is not None
         return later
+
+    def present(self, state: int) -> list[tuple[int, int]]:
+        """Return the places that are not empty, each with its number of robots."""
+        # Steps and ticks ask for those of the same state.
+        if self._last[0] != state:
+            self._last = state, super().present(state)
+        return self._last[1]
 
     def followers(self, state: int) -> Iterator[tuple[int, Step]]:
         """Yield the states after one step or a tick, each with the step."""
