@@ -79,7 +79,7 @@ def _as_table(items: list[object]) -> Iterator[str]:
     rows = list(filter(None, map(_row, items)))
     if not rows:
         return
-    heads = {ir.Function: ("function", "called as", "params", "")}
+    heads = {ir.Function: ("function", "called as", "params", "model in space", "")}
     head = heads.get(type(items[0]), (_KINDS.get(type(items[0]), "interface"), "", ""))
     yield from (f"| {' | '.join(head)} |", f"|{'---|' * len(head)}")
     yield from (f"| {' | '.join(row)} |" for row in rows)
@@ -98,9 +98,10 @@ _KINDS: Mapping[type, str] = {
 
 def _row(item: object) -> tuple[str, ...] | None:
     match item:
-        case ir.Function(name=name, communication=call, params=params, doc=doc):
+        case ir.Function(name=name, communication=call, params=params, model=model, doc=doc):
             called = f"{call.paradigm} `{call.name}`, `{call.type}`"
-            return f"`{name}`", called, _params(params), _short(doc)
+            in_space = f"`{model.name}`" if model is not None else ""
+            return f"`{name}`", called, _params(params), in_space, _short(doc)
         case ir.StateMachine(name=name, params=params, doc=doc):
             return f"`{name}`", _params(params), _short(doc)
         case ir.Event(name=name, type=type_, doc=doc):

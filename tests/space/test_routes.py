@@ -83,3 +83,29 @@ def test_among_obstacles_every_place_that_is_free_is_reached(seed):
     assert outcome == ["succeeded"]
     assert math.dist((2, 2), (97, 97)) - 0.2 < way < 1.3 * math.dist((2, 2), (97, 97))
     assert _went((2, 2), (97, 97), **around) == (outcome, way)
+
+
+def test_home_is_where_a_robot_started_unless_it_is_told():
+    play = Play(stage(units(2, starts=[(10, 10), (40, 40)]), edges=wall((20, 0), (20, 60))))
+    play.start("go_to", [0, 1], to=(30.0, 10.0, 0.0)).run(200)
+    play.start("go_home", [0], to=(0.0, 0.0, 0.0)).start("go_home", [1], to=(35.0, 5.0, 0.0))
+    on = play.run(200).stage
+    assert play.outcomes() == ["succeeded", "succeeded"]
+    assert (*on.x, *on.y) == pytest.approx((10, 35, 10, 5), abs=0.2)
+
+
+def test_what_flies_home_can_land_there():
+    play = Play(stage(units(1, FLYER, starts=[(10, 10)])))
+    play.start("go_to", [0], to=(30.0, 10.0, 8.0)).run(60)
+    on = play.start("go_home", [0], end=0.0).run(60).stage
+    assert play.outcomes() == ["succeeded"]
+    assert (on.x[0], on.y[0], on.z[0]) == pytest.approx((10, 10, 0), abs=0.2)
+
+
+def test_the_nearest_robot_gets_a_task_and_each_task_is_given_once():
+    play = Play(stage(units(3, starts=[(10, 10), (40, 40), (80, 80)])))
+    bid = {"task": "person", "to": (35.0, 35.0, 0.0)}
+    play.start("bid", [0, 1, 2], **bid).run(5)
+    assert play.outcomes() == ["aborted", "succeeded", "aborted"]
+    play.start("bid", [0], **bid).start("bid", [2], **{**bid, "task": "other"}).run(5)
+    assert play.outcomes() == ["aborted", "succeeded", "succeeded"]

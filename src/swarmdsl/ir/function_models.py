@@ -28,6 +28,8 @@ a `text` are strings: the name of an area, a kind of target or the name of one, 
 
 NAMES: tuple[ArgumentKind, ...] = ("area", "target", "text")
 """Kinds of arguments that are strings."""
+ANY_TARGET = "any"
+"""Name of all targets, of any kind."""
 MOST = 1e9
 """Greatest value of an argument that is a number, in its unit; a time has no greatest one."""
 _LEAST = {"length": 0.0, "speed": 0.001, "time": 0.0, "share": 0.0}
@@ -110,12 +112,23 @@ MODELS: Mapping[str, FunctionModel] = {
             ),
         ),
         FunctionModel(
+            "go_home",
+            "Go to where the robot started, around what is in the way.",
+            (
+                Argument("to", "place", None, "another home; that in the goal, unless all is 0"),
+                Argument("end", "length", None, "height in the end; that of the way without it"),
+                _HEIGHT,
+                _SPEED,
+                _TOLERANCE,
+            ),
+        ),
+        FunctionModel(
             "random_walk",
             "Go straight on, and in another direction after a distance or a contact.",
             (
                 Argument("leg", "length", 10.0, "mean distance between two turns", least=0.01),
                 Argument("turn", "angle", math.tau, "width of the interval of a turn"),
-                Argument("target", "target", None, "target that ends it; without it, none"),
+                Argument("target", "target", None, "target that ends it, or any; without it, none"),
                 _WHICH,
                 Argument("time", "time", None, "time after which it ends; without it, never"),
                 _HEIGHT,
@@ -286,6 +299,15 @@ MODELS: Mapping[str, FunctionModel] = {
             ),
         ),
         FunctionModel("refill", "Fill the tank.", (_time(60, "time that it takes"),)),
+        FunctionModel(
+            "bid",
+            "Bid for a task: the nearest robot of a role gets it; aborted for the others.",
+            (
+                Argument("task", "text", None, "name of the task, which is given away once"),
+                Argument("to", "place", None, "where the task is; without it, that in the goal"),
+                _time(2, "time for bids of others"),
+            ),
+        ),
         FunctionModel(
             "sense",
             "Stay and look for a target; aborted when a time is over.",

@@ -12,7 +12,7 @@ from swarmdsl.analysis.resolve.space import areas_of, target_counts
 from swarmdsl.analysis.space_shapes import number_of
 from swarmdsl.analysis.types.space_types import argument_type
 from swarmdsl.base.suggest import suggest
-from swarmdsl.ir.function_models import MODELS, Argument
+from swarmdsl.ir.function_models import ANY_TARGET, MODELS, Argument
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import Environment, Expression, Function, ModelUse, nodes_of
 from swarmdsl.syntax.types import Named
@@ -102,6 +102,8 @@ def _check_name(value: Expression, kind: str, known: Collection[str], context: C
     if not known or not isinstance(name, str) or not name or name in known:
         return
     one = re.fullmatch(r"(\w+)\[([0-9]{1,9})\]", name)
+    if kind == "target" and name == ANY_TARGET:
+        return
     if one is not None and isinstance(known, Counter) and int(one[2]) < known[one[1]]:
         return  # one target of a kind: `person[0]`
     report_missing(kind, name, value.span, known, context.report)

@@ -22,13 +22,16 @@ _ABSTRACT = "leave `--world` out"
 
 
 def has_geometry(subject: Subject, scenario: Scenario) -> bool:
-    """Return True if a model or a scenario says where something is, or how robots move or see."""
+    """Return True if a model or a scenario says where something is, or how robots move or see.
+
+    That functions of a library have models says only what they do where there are places.
+    """
     system, swarm = subject.system, subject.swarm
     if system is None:
         return False
     if any("model" in said for said in scenario.functions.values()):
         return True
-    if any(function.model is not None for function in system.functions):
+    if any(each.model is not None and not each.in_library for each in system.functions):
         return True
     if swarm is None:
         return False

@@ -10,7 +10,7 @@ from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.space import Place
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir import Communication
-from swarmdsl.ir.function_models import MODELS, Argument
+from swarmdsl.ir.function_models import ANY_TARGET, MODELS, Argument
 from swarmdsl.ir.space import target_names
 
 _ENDS = ("duration", "aborted", "preempted", "never")
@@ -61,7 +61,7 @@ def _value(table: Table, argument: Argument, subject: Subject) -> Any:
         case "area":
             return _area(table, key, subject)
         case "target":
-            return "" if value == "" else _target(table, key, subject)
+            return str(value) if value in ("", ANY_TARGET) else _target(table, key, subject)
         case "text" if argument.choices:
             return table.name(key, argument.choices, argument.name)
         case "text":

@@ -10,11 +10,11 @@ from typing import Any
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.default_values import default_value, result_fields
 from swarmdsl.ir import Function, Message, Named, Primitive, System, Type
-from swarmdsl.syntax.types import FLOATS
+from swarmdsl.syntax.types import FLOATS, INTEGERS
 
 Place = tuple[float, float, float]
 _HEADER = Named("std_msgs", "Header")
-_POINT, _QUATERNION = {"x", "y", "z"}, {"x", "y", "z", "w"}
+_FLAT, _POINT, _QUATERNION = {"x", "y"}, {"x", "y", "z"}, {"x", "y", "z", "w"}
 _DISTANCES = ("distance", "range")
 _CHARGES = ("percentage", "charge", "state_of_charge", "soc")
 FRAME = "map"
@@ -76,6 +76,8 @@ class Messages:
                 return lambda facts: 0 if facts.distance is None else facts.distance
             case Primitive() if _is_float(type_) and name in _CHARGES:
                 return lambda facts: 0 if facts.charge is None else facts.charge
+            case Primitive(enum=None) if type_.name in INTEGERS and name in _CHARGES:
+                return lambda facts: 0 if facts.charge is None else int(100 * facts.charge)
             case Named():
                 message = system.known_interface(type_)
                 if isinstance(message, Message):
@@ -89,6 +91,8 @@ class Messages:
         names = {field.name for field in message.fields}
         if names == _POINT:
             return lambda facts: dict(zip("xyz", facts.place or (0, 0, 0), strict=True))
+        if names == _FLAT and all(_is_float(field.type) for field in message.fields):
+            return lambda facts: dict(zip("xy", (facts.place or (0, 0))[:2], strict=True))
         if names == _QUATERNION:
             return lambda facts: _orientation(*(facts.heading or (1.0, 0.0)))
         # sensor_msgs/BatteryState has a percentage, and a charge in ampere hours.
@@ -135,7 +139,7 @@ def is_of_battery(type_: Type, system: System) -> bool:
     """Return True for a message that tells the charge of a battery."""
     message = system.known_interface(type_)
     fields = message.fields if isinstance(message, Message) else ()
-    return any(field.name in _CHARGES and _is_float(field.type) for field in fields)
+    return any(field.name in _CHARGES and _is_number(field.type) for field in fields)
 
 
 def _orientation(cosine: float, sine: float) -> dict[str, float]:
@@ -147,6 +151,12 @@ def _orientation(cosine: float, sine: float) -> dict[str, float]:
         "z": z if sine >= 0 else -z,
         "w": math.sqrt(max((1 + cosine) / 2, 0.0)),
     }
+
+
+def _is_number(type_: Type) -> bool:
+    return _is_float(type_) or (
+        isinstance(type_, Primitive) and type_.name in INTEGERS and type_.enum is None
+    )
 
 
 def _is_float(type_: Type) -> bool:

@@ -69,6 +69,8 @@ class Robots:
         self.flies: Flags = self.climb > 0
         self.any_flies = bool(self.flies.any())
         self.x, self.y = self._starts()
+        self.home_x, self.home_y = self.x.copy(), self.y.copy()
+        """Place where each robot has started."""
         self.z: Floats = np.zeros(self.rows)
         self.vx: Floats = np.zeros(self.rows)
         self.vy: Floats = np.zeros(self.rows)

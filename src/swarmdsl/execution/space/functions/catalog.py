@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from swarmdsl.execution.space.functions.aggregate import Aggregate
 from swarmdsl.execution.space.functions.avoid import Avoid
 from swarmdsl.execution.space.functions.base import Model
+from swarmdsl.execution.space.functions.bid import Bid
 from swarmdsl.execution.space.functions.carry import Carry
 from swarmdsl.execution.space.functions.charge import Charge
 from swarmdsl.execution.space.functions.coverage import Coverage
@@ -15,6 +16,7 @@ from swarmdsl.execution.space.functions.dock import Dock
 from swarmdsl.execution.space.functions.flock import Flock
 from swarmdsl.execution.space.functions.follow_path import FollowPath
 from swarmdsl.execution.space.functions.form_up import FormUp
+from swarmdsl.execution.space.functions.go_home import GoHome
 from swarmdsl.execution.space.functions.go_to import GoTo
 from swarmdsl.execution.space.functions.grasp import Grasp
 from swarmdsl.execution.space.functions.hover import Hover
@@ -30,6 +32,7 @@ from swarmdsl.execution.space.functions.track import Track
 CLASSES: Mapping[str, type[Model]] = {
     "aggregate": Aggregate,
     "avoid": Avoid,
+    "bid": Bid,
     "carry": Carry,
     "charge": Charge,
     "coverage": Coverage,
@@ -38,6 +41,7 @@ CLASSES: Mapping[str, type[Model]] = {
     "flock": Flock,
     "follow_path": FollowPath,
     "form_up": FormUp,
+    "go_home": GoHome,
     "go_to": GoTo,
     "grasp": Grasp,
     "hover": Hover,

@@ -7,6 +7,7 @@ import numpy as np
 from swarmdsl.execution.space.arrays import Flags, Floats, Rows, Whole
 from swarmdsl.execution.space.functions.base import Finding
 from swarmdsl.execution.space.stage import Stage
+from swarmdsl.ir.function_models import ANY_TARGET
 
 ANY = -1
 """Any target of any kind."""
@@ -35,12 +36,17 @@ class Choice:
         self._kind[who] = self._one[who] = ANY
         if word and word in targets.names:
             self._one[who] = targets.names.index(word)
-        elif word:
+        elif word and (word != ANY_TARGET or word in targets.kinds):
             self._kind[who] = targets.kinds.index(word) if word in targets.kinds else NONE
 
     def is_there(self, word: str) -> bool:
-        """Return True for a kind or the name of a target of the environment."""
-        return word in self._stage.targets.kinds or word in self._stage.targets.names
+        """Return True for a kind or the name of a target of the environment, or any."""
+        targets = self._stage.targets
+        return (
+            word in targets.kinds
+            or word in targets.names
+            or (word == ANY_TARGET and bool(targets.kinds))
+        )
 
     def fits(self, who: Rows, targets: Whole) -> Flags:
         """Return which targets of all runs are chosen, one for each robot; -1 is no target."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -34,11 +35,11 @@ class GoTo(Model):
         if height is None and to is not None and to[2] > 0:
             height = to[2]
         self._speed[who] = self.speed(who, arguments)
-        self._tolerance[who] = arguments["tolerance"]
         stage = self.stage
         for row in who.tolist():
             here = float(stage.x[row]), float(stage.y[row]), float(stage.z[row])
             x, y = here[:2] if to is None else to[:2]
+            x, y, self._tolerance[row] = self._inside(row, x, y, arguments["tolerance"])
             z = here[2] if height is None or not stage.flies[row] else height
             self._way[row] = stage.router.plan(here, (x, y, z), float(stage.radius[row]))
             self._go_on(row)
@@ -60,6 +61,21 @@ class GoTo(Model):
         """Forget the ways."""
         for row in who.tolist():
             self._way.pop(row, None)
+
+    def _inside(self, row: int, x: float, y: float, tolerance: float) -> Place:
+        """Return a place where the body has room, and the tolerance that is left.
+
+        It is the nearest one to a place at the edge of the environment, if that is near enough.
+        """
+        if self.stage.bounds is None:
+            return x, y, tolerance
+        low_x, low_y, high_x, high_y = self.stage.bounds
+        radius = float(self.stage.radius[row])
+        inner_x = min(max(x, low_x + radius), high_x - radius)
+        inner_y = min(max(y, low_y + radius), high_y - radius)
+        dx, dy = inner_x - x, inner_y - y
+        aside = math.sqrt(dx * dx + dy * dy)
+        return (inner_x, inner_y, tolerance - aside) if aside <= tolerance else (x, y, tolerance)
 
     def _go_on(self, row: int) -> None:
         """Go to the next place of the way."""
