@@ -36,8 +36,9 @@ demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	find build/demo -type f | LC_ALL=C sort
 	$(BIN)/swarmc simulate examples/search_and_rescue \
 		--scenario examples/search_and_rescue/mission.toml --trace none --timeline build/demo/mission.svg
-	$(BIN)/swarmc simulate examples/meadow --scenario examples/meadow/mission.toml --trace none --map build/demo/map.svg
-	@echo "build/demo/mission.svg shows the mission, build/demo/map.svg one with places. Next: . $(BIN)/activate, and docs/tutorial.md; make help lists the rest."
+	$(BIN)/swarmc simulate examples/search_and_rescue \
+		--scenario examples/search_and_rescue/flat.toml --trace none --map build/demo/map.svg
+	@echo "build/demo/mission.svg shows the mission, build/demo/map.svg where robots searched in the flat world. Next: . $(BIN)/activate, and docs/tutorial.md; make help lists the rest."
 
 help: ## List what can be made.
 	@sed -n 's/^\([a-z0-9-]*\):.*## /\1: /p' Makefile

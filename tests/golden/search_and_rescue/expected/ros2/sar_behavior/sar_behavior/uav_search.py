@@ -248,19 +248,19 @@ FUNCTIONS = {
     # functions.swarm:7
     # Send takeoff command
     'uav_mavros_takeoff': Action(uav_mavros_takeoff.action.TakeOff, 'cmd/takeoff'),
-    # functions.swarm:25
-    # Sweep the whole area
+    # functions.swarm:27
+    # Sweep the whole area, in lanes that are wider the higher the UAV flies
     'uav_coverage': Action(cpswarm_msgs.action.Coverage, 'uav_coverage'),
-    # functions.swarm:40
+    # functions.swarm:45
     # Assign a task in a specific position to another CPS
     'auction_action': Action(cpswarm_msgs.action.TaskAllocation, 'cmd/task_allocation_auction'),
-    # functions.swarm:35
+    # functions.swarm:39
     # Stay above the target
     'uav_tracking': Action(cpswarm_msgs.action.Tracking, 'uav_tracking'),
-    # functions.swarm:30
+    # functions.swarm:33
     # Sweep around the place where the target was lost
     'uav_local_coverage': Action(cpswarm_msgs.action.Coverage, 'uav_local_coverage'),
-    # functions.swarm:20
+    # functions.swarm:21
     # Send land command
     'uav_mavros_land': Service(std_srvs.srv.Empty, 'cmd/land'),
 }

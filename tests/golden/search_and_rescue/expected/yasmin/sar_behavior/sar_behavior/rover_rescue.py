@@ -159,10 +159,10 @@ TOPICS = (
 )
 
 FUNCTIONS = {
-    # functions.swarm:47
+    # functions.swarm:52
     # Offer to take a task
     'bid_action': Action(cpswarm_msgs.action.TaskAllocation, 'cmd/task_allocation_bid'),
-    # functions.swarm:52
+    # functions.swarm:58
     # Drive to a place
     'ugv_move_to': Action(cpswarm_msgs.action.MoveTo, 'cmd/moveto'),
 }
