@@ -30,7 +30,7 @@ def test_a_package_shows_what_it_does(target: str, tmp_path: Path) -> None:
         "title: endless statemachine UavSearch",
         "title: statemachine RoverRescue",
     ]
-    assert '  swarm ---|"rover [1..5]"| role_rover\n' in blocks[0]
+    assert '  swarm ---|"rover [1..5] in base"| role_rover\n' in blocks[0]
     assert "  Mission_Idle --> Mission_TakeOff : MissionStart\n" in blocks[1]
     heads = [
         content.content

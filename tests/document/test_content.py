@@ -99,9 +99,9 @@ def test_every_table_has_as_many_cells_as_columns(page: Page) -> None:
 
 def test_a_swarm_and_its_members(sar: Page) -> None:
     assert sar.table("SearchAndRescue", "Roles") == [
-        ["role", "member", "multiplicity"],
-        ["uav", "Uav", "3"],
-        ["rover", "Rover", "1 to 5"],
+        ["role", "member", "multiplicity", "values"],
+        ["uav", "Uav", "3", "in base"],
+        ["rover", "Rover", "1 to 5", "in base"],
     ]
     assert sar.fact("SearchAndRescue", "environment") == "Field"
     assert sar.fact("Field", "size") == "100 m x 100 m"

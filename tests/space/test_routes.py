@@ -104,8 +104,8 @@ def test_what_flies_home_can_land_there():
 
 def test_the_nearest_robot_gets_a_task_and_each_task_is_given_once():
     play = Play(stage(units(3, starts=[(10, 10), (40, 40), (80, 80)])))
-    bid = {"task": "person", "to": (35.0, 35.0, 0.0)}
+    bid = {"task_id": "person", "to": (35.0, 35.0, 0.0)}
     play.start("bid", [0, 1, 2], **bid).run(5)
     assert play.outcomes() == ["aborted", "succeeded", "aborted"]
-    play.start("bid", [0], **bid).start("bid", [2], **{**bid, "task": "other"}).run(5)
+    play.start("bid", [0], **bid).start("bid", [2], **{**bid, "task_id": "other"}).run(5)
     assert play.outcomes() == ["aborted", "succeeded", "succeeded"]

@@ -141,6 +141,9 @@ MODELS: Mapping[str, FunctionModel] = {
             (
                 Argument("width", "length", 5.0, "distance between two lanes", least=0.01),
                 Argument("area", "area", None, "name of the area; without it, the environment"),
+                Argument(
+                    "view", "angle", None, "angle seen from above, which makes the lanes: no width"
+                ),
                 _HEIGHT,
                 _SPEED,
                 Argument("target", "target", None, "kind of target that ends it; without it, any"),
@@ -303,7 +306,7 @@ MODELS: Mapping[str, FunctionModel] = {
             "bid",
             "Bid for a task: the nearest robot of a role gets it; aborted for the others.",
             (
-                Argument("task", "text", None, "name of the task, which is given away once"),
+                Argument("task_id", "text", None, "name of the task, which is given away once"),
                 Argument("to", "place", None, "where the task is; without it, that in the goal"),
                 _time(2, "time for bids of others"),
             ),

@@ -28,7 +28,7 @@ class Bid(Model):
 
     def start(self, who: Rows, arguments: Arguments) -> None:
         """Note the task, and how far it is."""
-        stage, task = self.stage, arguments["task"] or ""
+        stage, task = self.stage, arguments["task_id"] or ""
         self._left[who] = arguments["time"]
         for row in who.tolist():
             here = float(stage.x[row]), float(stage.y[row])

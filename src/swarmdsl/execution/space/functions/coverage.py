@@ -9,9 +9,14 @@ import numpy as np
 from swarmdsl.execution.space.arrays import Rows, Small
 from swarmdsl.execution.space.functions.base import Arguments, Finding, Model, statuses
 from swarmdsl.execution.space.functions.choice import Choice
+from swarmdsl.execution.space.sensing import tangent_of
 
 if TYPE_CHECKING:
     from swarmdsl.execution.space.stage import Stage
+
+
+_LEAST_WIDTH = 0.1
+"""Minimum width in metres of a lane that follows from the height of flight."""
 
 
 class Coverage(Model):
@@ -45,11 +50,14 @@ class Coverage(Model):
         self._low_y[who] = low_y if long_x else first
         self._wide[who] = share if long_x else high_x - low_x
         self._deep[who] = high_y - low_y if long_x else share
-        self._width[who] = arguments["width"]
         anew = who[~self._goes_on[who]] if arguments["which"] == "new" else who
         self._lane[anew], self._end[anew] = 0, 0
         self._goes_on[who] = False
         self._height[who] = self.height(who, arguments)
+        self._width[who] = arguments["width"]
+        if arguments["view"] is not None:
+            seen = 2 * tangent_of(arguments["view"]) * self._height[who]
+            self._width[who] = np.maximum(seen, _LEAST_WIDTH)
         self._speed[who] = self.speed(who, arguments)
         target, kinds = arguments["target"], stage.targets.kinds
         self._searches[who] = bool(kinds) if target is None else self._choice.is_there(target)
