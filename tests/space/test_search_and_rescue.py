@@ -21,9 +21,9 @@ SEEDS = (1, 2, 3, 4)
 def fitness(tmp_path_factory):
     scenario = tmp_path_factory.mktemp("rescue") / "scenario.toml"
 
-    def fitness(rovers=3, altitude=2.5, watt_hours=60.0, lost=()):
+    def fitness(until="150 s", rovers=3, altitude=2.5, watt_hours=60.0, lost=()):
         text = (EXAMPLE / "flat.toml").read_text(encoding="utf-8")
-        text = text.replace('until = "15 min"', 'until = "150 s"')
+        text = text.replace('until = "15 min"', f'until = "{until}"')
         text = text.replace("rover = 2", f"rover = {rovers}")
         text += f"\n[params.uav]\naltitude = {altitude}\ncapacity = {watt_hours * 3600}\n"
         for robot in lost:
@@ -56,7 +56,8 @@ def _is_better(more, less):
 
 def test_more_robots_rescue_more(fitness, usual):
     assert _is_better(usual, fitness(lost=("uav[1]", "uav[2]")))
-    assert _is_better(fitness(rovers=5), fitness(rovers=1))
+    soon = {"until": "75 s", "altitude": 6.0}
+    assert _is_better(fitness(**soon, rovers=5), fitness(**soon, rovers=1))
 
 
 def test_a_higher_flight_sees_more_in_the_same_time(usual, higher):
