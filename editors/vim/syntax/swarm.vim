@@ -103,6 +103,7 @@ syn match swarmDeclaration #\<some\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<starts\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<step\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmStatement #\<subject\>\ze[ \t]*\%(to\)\>#
 syn match swarmDeclaration #\<sum\>\ze[ \t]*\%(each\)\>#
 syn match swarmDeclaration #\<target\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<then\>\ze[ \t]*[*A-Za-z_0-9"]#

@@ -48,7 +48,8 @@ _MOST_SEEDS = 100_000
     "properties",
     metavar="NAME",
     multiple=True,
-    help="A property that no run of a candidate may violate; may be repeated.",
+    help="A property that no run of a candidate may violate, beside those of `optimize`; may be "
+    "repeated.",
 )
 @click.option(
     "--method",

@@ -71,6 +71,7 @@ if TYPE_CHECKING:
         OPERATIONS,
     )
     from swarmdsl.ir.optimization import (
+        Constraint,
         CountRange,
         Fitness,
         FitnessInput,
@@ -163,7 +164,9 @@ else:
                 "Interface Message Param Service"
             ),
             "swarmdsl.ir.operations": "OPERATIONS",
-            "swarmdsl.ir.optimization": "CountRange Fitness FitnessInput Optimization ParamRange",
+            "swarmdsl.ir.optimization": (
+                "Constraint CountRange Fitness FitnessInput Optimization ParamRange"
+            ),
             "swarmdsl.ir.properties": (
                 "Chance Claim Count Fact Junction Measure Property Robots Scope"
             ),
@@ -211,6 +214,7 @@ __all__ = [
     "Component",
     "Connector",
     "Constant",
+    "Constraint",
     "Construction",
     "Count",
     "CountRange",

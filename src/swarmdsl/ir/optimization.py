@@ -69,6 +69,15 @@ class CountRange:
 
 
 @dataclass(frozen=True, slots=True)
+class Constraint:
+    """Property that no run of a candidate may violate."""
+
+    property: str
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Optimization:
     """Search for the best swarm.
 
@@ -83,3 +92,4 @@ class Optimization:
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+    constraints: tuple[Constraint, ...] = ()

@@ -17,6 +17,7 @@ from swarmdsl.syntax.ast import (
     ParamRange,
     Setting,
     SpaceMeasure,
+    SubjectTo,
 )
 
 
@@ -91,6 +92,11 @@ def lower_optimization(optimization: Optimization, context: Context) -> ir.Optim
         doc=optimization.doc,
         docs=lower_docs(optimization.items),
         origin=optimization.swarm.span,
+        constraints=tuple(
+            ir.Constraint(context.name(item.property), item.doc, item.span)
+            for item in optimization.items
+            if isinstance(item, SubjectTo)
+        ),
     )
 
 

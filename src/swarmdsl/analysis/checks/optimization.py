@@ -19,6 +19,7 @@ from swarmdsl.syntax.ast import (
     Param,
     ParamRange,
     Setting,
+    SubjectTo,
     Swarm,
 )
 from swarmdsl.syntax.types import INT, Type
@@ -58,6 +59,7 @@ def check_optimization(optimization: Optimization, context: Context) -> None:
     _check_worth(optimization, context)
     _check_settings(optimization, context)
     _check_ranges(optimization, context)
+    _check_constraints(optimization, context)
 
 
 def _check_worth(optimization: Optimization, context: Context) -> None:
@@ -94,6 +96,34 @@ def _check_settings(optimization: Optimization, context: Context) -> None:
             context.report.report(
                 "impossible-setting", setting.value.span, name=setting.name, least=least
             )
+
+
+def _check_constraints(optimization: Optimization, context: Context) -> None:
+    """Check that one run of the swarm can violate the properties that candidates must keep."""
+    places: dict[str, list[Span]] = {}
+    for item in optimization.items:
+        found = item.property.target if isinstance(item, SubjectTo) else None
+        if not isinstance(item, SubjectTo) or found is None:
+            continue
+        places.setdefault(f"constraint `{found.name}`", []).append(item.property.span)
+        swarm, help_ = optimization.swarm.target, None
+        if found.about is not None and swarm is not None and found.about is not swarm:
+            fault = f"is about `{found.about.name}`, not about `{swarm.name}`"
+        elif found.chance is not None:
+            fault = "has a chance, which is about many runs"
+            help_ = "name a property without `at least` or `at most` and a probability"
+        else:
+            continue
+        context.report.report(
+            "unfit-constraint",
+            item.property.span,
+            name=found.name,
+            fault=fault,
+            related=(Label(found.name.span, "declared here"),),
+            help=help_,
+        )
+    for what, spans in places.items():
+        context.check_single(spans, what)
 
 
 def _check_ranges(optimization: Optimization, context: Context) -> None:

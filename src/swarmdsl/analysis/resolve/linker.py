@@ -68,7 +68,9 @@ from swarmdsl.syntax.ast import (
 
 _TOP_LEVEL: dict[str, type[Any]] = {
     kind.__name__: kind
-    for kind in (StateMachine, Component, Member, Environment, Event, Function, Fitness, Swarm)
+    for kind in (
+        *(StateMachine, Component, Member, Environment, Event, Function, Fitness, Swarm, Property),
+    )
 }
 
 K = TypeVar("K", Param, Variable, Part, Port, Operation, Role)

@@ -208,6 +208,7 @@ def _optimizations(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[str, ..
         for count in each.counts:
             span = f"{expression(with_names(count.lower))} .. {expression(with_names(count.upper))}"
             lines.append(f"count of {count.role} in {span}")
+        lines += (f"subject to {kept.property}" for kept in each.constraints)
         yield ("«optimize»", *lines)
 
 

@@ -35,6 +35,10 @@ def search_parameters(
     optimization: Optimization, system: System, package: str, target: str, report: Diagnostics
 ) -> Iterator[SearchParameter]:
     """Return the parameters that can be expressed; report the others."""
+    for kept in optimization.constraints:
+        what = f"the constraint `{kept.property}`"
+        note = "the search does not know of properties"
+        report.report("no-place", kept.origin, target=target, what=what, notes=(note,))
     package = behaviour_package(system, package)
     owners: dict[str, str] = {}
     for range_ in optimization.params:

@@ -106,6 +106,8 @@ def print_optimization(optimization: Optimization) -> list[str]:
     lines = []
     for name, value in optimization.settings:
         lines += documented(doc_of(optimization.docs, name), [f"{name} {expression(value)}"])
+    for kept in optimization.constraints:
+        lines += documented(kept.doc, [f"subject to {kept.property}"])
     for count in optimization.counts:
         lines += documented(count.doc, [f"count of {count.role} {_range(count)}"])
     for param in optimization.params:

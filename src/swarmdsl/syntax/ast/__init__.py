@@ -53,7 +53,6 @@ from swarmdsl.syntax.ast.behaviour import (
 from swarmdsl.syntax.ast.composition import (
     Claim,
     Conjunction,
-    CountRange,
     Each,
     Environment,
     EnvironmentUse,
@@ -65,11 +64,8 @@ from swarmdsl.syntax.ast.composition import (
     Measure,
     Multiplicity,
     Objective,
-    Optimization,
-    ParamRange,
     RobotValues,
     Role,
-    Setting,
     Size,
     SpaceMeasure,
     Swarm,
@@ -110,6 +106,13 @@ from swarmdsl.syntax.ast.nodes import (
     TopLevel,
     TypeRef,
     Word,
+)
+from swarmdsl.syntax.ast.optimization import (
+    CountRange,
+    Optimization,
+    ParamRange,
+    Setting,
+    SubjectTo,
 )
 from swarmdsl.syntax.ast.properties import (
     Chance,
@@ -291,6 +294,7 @@ __all__ = [
     "StateMachine",
     "Store",
     "StructType",
+    "SubjectTo",
     "Swarm",
     "Targets",
     "Term",

@@ -1,4 +1,4 @@
-"""Nodes of composition.tx: swarms, environments, fitness, optimizations, and facts."""
+"""Nodes of composition.tx: swarms, environments, fitness, and facts."""
 
 from __future__ import annotations
 
@@ -183,42 +183,6 @@ class Fitness(TopLevel):
     subject: Ref[Swarm] | None
     items: list[FitnessInput | Param | Objective]
     about: Swarm | None = field(default=None, init=False, metadata={"elsewhere": True})
-
-
-@dataclass(slots=True, eq=False)
-class Setting(Documented):
-    """`steps 1000`, `evaluations 50` or `seed 42`."""
-
-    name: Literal["steps", "evaluations", "seed"]
-    value: Expression
-
-
-@dataclass(slots=True, eq=False)
-class CountRange(Documented):
-    """`count of role in lower .. upper`."""
-
-    role: Ref[Role]
-    lower: Expression
-    upper: Expression
-
-
-@dataclass(slots=True, eq=False)
-class ParamRange(Documented):
-    """`role.param in lower .. upper step step`."""
-
-    role: Ref[Role]
-    param: Ref[Param]
-    lower: Expression
-    upper: Expression
-    step: Expression | None
-
-
-@dataclass(slots=True, eq=False)
-class Optimization(TopLevel):
-    """`optimize Swarm { ... }`."""
-
-    swarm: Ref[Swarm]
-    items: list[Setting | CountRange | ParamRange]
 
 
 @dataclass(slots=True, eq=False)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.syntax.ast.architecture import Component, Member
 from swarmdsl.syntax.ast.behaviour import StateMachine
-from swarmdsl.syntax.ast.composition import Environment, Fitness, Optimization, Swarm
+from swarmdsl.syntax.ast.composition import Environment, Fitness, Swarm
 from swarmdsl.syntax.ast.interfaces import (
     ActionType,
     AliasType,
@@ -18,6 +18,7 @@ from swarmdsl.syntax.ast.interfaces import (
     StructType,
 )
 from swarmdsl.syntax.ast.nodes import Documented, Node, Word
+from swarmdsl.syntax.ast.optimization import Optimization
 from swarmdsl.syntax.ast.properties import Property
 from swarmdsl.syntax.ast.values import Constant, EnumType
 

@@ -17,6 +17,7 @@ from swarmdsl.syntax.ast import (
     file,
     interfaces,
     nodes,
+    optimization,
     properties,
     space,
     values,
@@ -32,6 +33,7 @@ _MODULES = (
     behaviour,
     architecture,
     composition,
+    optimization,
     properties,
     file,
 )

@@ -82,6 +82,7 @@ CONTEXTUAL = {
     'starts': '[A-Za-z_]',
     'step': '[A-Za-z_0-9"-]',
     'steps': '[A-Za-z_0-9"-]',
+    'subject': '(?:to)\\b',
     'sum': '(?:each)\\b',
     'target': '[A-Za-z_]',
     'then': '[*A-Za-z_0-9"]',
@@ -110,7 +111,7 @@ FIRST = {
     'MachineItem': frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'param', 'state', 'var']),
     'MemberItem': frozenset(['battery', 'behavior', 'body', 'communication', 'connect', 'in', 'inout', 'out', 'param', 'radio']),
     'Optimization': frozenset(['optimize']),
-    'OptimizationItem': frozenset(['count', 'evaluations', 'seed', 'steps']),
+    'OptimizationItem': frozenset(['count', 'evaluations', 'seed', 'steps', 'subject']),
     'Package': frozenset(['package']),
     'ParallelItem': frozenset(['after', 'defer', 'entry', 'exit', 'internal', 'monitor', 'on', 'region', 'var']),
     'PropertySubject': frozenset(['endless', 'statemachine', 'swarm']),
@@ -145,7 +146,7 @@ NAMING = frozenset(['actuator', 'choice', 'communication', 'const', 'controller'
 # Keywords by what they are for, where that is more special than a declaration.
 GROUPS = {
     'include': frozenset(['import', 'package', 'ros']),
-    'statement': frozenset(['after', 'as', 'best', 'by', 'count', 'deadline', 'do', 'done', 'effort', 'else', 'evaluations', 'gives', 'in', 'internal', 'keep', 'latest', 'lifespan', 'maximize', 'minimize', 'monitor', 'of', 'on', 'reliable', 'seed', 'send', 'size', 'step', 'steps', 'to', 'world', 'x']),
+    'statement': frozenset(['after', 'as', 'best', 'by', 'count', 'deadline', 'do', 'done', 'effort', 'else', 'evaluations', 'gives', 'in', 'internal', 'keep', 'latest', 'lifespan', 'maximize', 'minimize', 'monitor', 'of', 'on', 'reliable', 'seed', 'send', 'size', 'step', 'steps', 'subject', 'to', 'world', 'x']),
     'outcome': frozenset(['aborted', 'preempted', 'succeeded']),
     'operator': frozenset(['and', 'not', 'or']),
     'boolean': frozenset(['false', 'true']),

@@ -81,7 +81,7 @@ _GROUPS = {
     "include": ("Package", "ImportRos", "ImportFile", "ImportLibrary"),
     "statement": (
         *("Transition", "Branch", "Activity", "Send", "Objective", "Goal", "Setting"),
-        *("SettingName", "CountRange", "ParamRange", "World", "Size"),
+        *("SettingName", "SubjectTo", "CountRange", "ParamRange", "World", "Size"),
         *("DoneTrigger", "TimeTrigger", "MonitorTrigger"),
         *("DeliverySetting", "DeliveryFlag", "BestEffort", "DeliveryLimit"),
     ),

@@ -415,6 +415,12 @@ def _optimization(search: Optimization) -> Element:
         )
         for each in search.counts
     )
+    ranges += (
+        with_doc(
+            Element("constraint", (Ref("property", each.property),), origin=each.origin), each.doc
+        )
+        for each in search.constraints
+    )
     settings = tuple((name, expression_value(value)) for name, value in search.settings)
     element = Element(
         "optimization", (Ref("swarm", search.swarm),), settings, tuple(ranges), None, search.origin

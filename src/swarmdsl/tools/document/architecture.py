@@ -33,6 +33,7 @@ from swarmdsl.syntax.ast import (
     Role,
     Setting,
     Size,
+    SubjectTo,
     Swarm,
     World,
 )
@@ -199,6 +200,10 @@ def optimization(element: Element, builder: EntryBuilder) -> Entry:
         doc: Cell = (Prose(item.doc),) if item.doc else ()
         if isinstance(item, Setting):
             facts.append((item.name, (*builder.code(item.value, element), *doc)))
+            continue
+        if isinstance(item, SubjectTo):
+            kept = _target(builder, item.property.target, item.property.name)
+            facts.append(("subject to", (*kept, *doc)))
             continue
         first, step = builder.code(item.lower, element), None
         if isinstance(item, CountRange):

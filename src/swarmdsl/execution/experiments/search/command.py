@@ -13,7 +13,7 @@ import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.read_files import MOST_RECORDED, read_file
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.suggest import suggest
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.codegen.exchange.search_space import number
@@ -226,7 +226,7 @@ def _apply(request: Request, problem: _Problem, found: Found, report: Diagnostic
 
 def _problem(request: Request, report: Diagnostics) -> _Problem | None:
     """Load the model, and find out what is to be optimized."""
-    conditions = Conditions(request.until, request.world, request.properties)
+    conditions = Conditions(request.until, request.world, ())
     packed = pack(request.paths, request.swarm, request.scenarios, report, conditions)
     if packed is None:
         return None
@@ -261,11 +261,14 @@ def _problem(request: Request, report: Diagnostics) -> _Problem | None:
             report.report("unresolved-name", kind=kind, name=name, help=help_)
     if report.has_errors:
         return None
+    kept = dict.fromkeys(each.property for each in optimization.constraints)
+    properties = tuple({**kept, **dict.fromkeys(request.properties)})
+    shipment = replace(shipment, conditions=replace(conditions, properties=properties))
     given = {name: int(number(value)) for name, value in optimization.settings}
     seed = request.seed if request.seed is not None else given.get("seed", 0)
     plan = Plan(
         space,
-        Aim(fitness.goal, request.together, request.properties),
+        Aim(fitness.goal, request.together, properties),
         tuple(map(str, request.scenarios)) or (NO_SCENARIO,),
         request.method,
         request.evaluations or given.get("evaluations", 200),

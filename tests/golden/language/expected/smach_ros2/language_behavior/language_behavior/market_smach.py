@@ -21,13 +21,13 @@ def build():
     """Build state machine Market."""
     machine = Machine(CHART, ['Gone', 'preempted'])
     with machine:
-        # model.swarm:167
+        # model.swarm:169
         StateMachine.add(
             'Open',
             State(CHART, 'Open', ['F', 'preempted']),
             transitions={'F': 'Shut', 'preempted': 'preempted'},
         )
-        # model.swarm:174
+        # model.swarm:176
         StateMachine.add(
             'Shut',
             State(CHART, 'Shut', ['Gone', 'F', 'preempted']),

@@ -18,7 +18,7 @@ CHART = Chart(
 
 
 class Open(State):
-    # model.swarm:167
+    # model.swarm:169
     """Waits for a transition."""
 
     chart = CHART
@@ -27,7 +27,7 @@ class Open(State):
 
 
 class Shut(State):
-    # model.swarm:174
+    # model.swarm:176
     """Waits for a transition."""
 
     chart = CHART
@@ -38,9 +38,9 @@ class Shut(State):
 def build():
     """Build state machine Market."""
     machine = StateMachine({'Gone', 'canceled'})
-    # model.swarm:167
+    # model.swarm:169
     machine.add_state('Open', Open(), {'F': 'Shut', 'canceled': 'canceled'})
-    # model.swarm:174
+    # model.swarm:176
     machine.add_state('Shut', Shut(), {'Gone': 'Gone', 'F': 'Open', 'canceled': 'canceled'})
     machine.set_start_state('Open')
     machine.set_name('Market')
