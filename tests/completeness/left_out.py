@@ -30,7 +30,8 @@ _REASONS: dict[str, dict[str, str]] = {
         "comments are not drawn": (
             "Action.doc Communication.doc CommunicationSettings.doc "
             "CommunicationSettings.docs Component.doc Component.docs Connector.doc "
-            "Constant.doc CountRange.doc Environment.doc Environment.docs Event.doc Field.doc "
+            "Constant.doc Constraint.doc CountRange.doc Environment.doc Environment.docs "
+            "Event.doc Field.doc "
             "Fitness.doc Fitness.docs Function.doc FunctionPort.doc Heartbeat.doc "
             "Member.doc Member.docs "
             "Message.doc Optimization.doc Optimization.docs Param.doc ParamRange.doc Part.doc "

@@ -92,8 +92,8 @@ CODES: dict[str, Code] = {
     "missing-speed": Code(
         "SW0317", "error", "member `{member}` has no speed, but model `{model}` moves it"
     ),
-    "unfit-constraint": Code("SW0321", "error", "property `{name}` {fault}"),
     "early-loss": Code("SW0320", "error", "a robot would be lost before its next heartbeat"),
+    "unfit-constraint": Code("SW0321", "error", "property `{name}` {fault}"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
     "port-type-mismatch": Code(

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 from swarmdsl import __version__
+from swarmdsl.base.read_files import exists
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.task import Candidate, Row, Task, canonical, row_of
@@ -61,10 +62,10 @@ class Store:
 
     def __init__(self, path: Path, *, is_new: bool = True) -> None:
         self.path = path
-        if is_new and path.exists():
+        if is_new and exists(path):
             help_ = "add `--resume` to go on with them, or name another folder"
             raise StoppedError("runs-there", help_, path=path)
-        if not is_new and not path.exists():
+        if not is_new and not exists(path):
             help_ = "leave `--resume` out to begin"
             raise StoppedError("no-store", help_, path=path, reason="there is no such file")
         self._database = self._try(lambda: self._open(path))
