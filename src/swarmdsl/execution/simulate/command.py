@@ -7,12 +7,10 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
-from functools import partial
 from itertools import chain
 from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
-from typing import TextIO
 
 import click
 
@@ -20,7 +18,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.read_files import MOST_RECORDED, lines_of
-from swarmdsl.base.write_stream import report_unwritten, write_stream
+from swarmdsl.base.write_stream import report_unwritten
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import PropertyResult, Verdict, ViolatedError
 from swarmdsl.execution.simulate.actors import Actor
@@ -33,17 +31,16 @@ from swarmdsl.execution.simulate.measures import (
     fitness_of,
     measures_of,
 )
-from swarmdsl.execution.simulate.moved_lines import MovedLines
 from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Prepared, Request, prepare
 from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.replay import replay
 from swarmdsl.execution.simulate.reporter import observe
 from swarmdsl.execution.simulate.results import as_document
 from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
-from swarmdsl.execution.simulate.space import ModelError, NoPictureError
+from swarmdsl.execution.simulate.run_outputs import Outputs
+from swarmdsl.execution.simulate.space import ModelError
 from swarmdsl.execution.simulate.summary import Summary, measure_table, property_table
-from swarmdsl.execution.simulate.timeline import Timeline
-from swarmdsl.execution.simulate.trace import Line, as_json, as_text
+from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.verdicts import Recording, report_violations
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.project.read_source import read_source
@@ -113,10 +110,8 @@ class _Play:
         self._cast = cast
         self._inputs = inputs
         self._wrong = False
-        self._written: list[Path] = []
         self._until = request.until if request.until is not None else scenario.until
         self._seed = request.seed if request.seed is not None else scenario.seed
-        self._is_flat = prepared.spaces.is_flat
         self._watched = [each for each in watchable(subject) if request.watches(each.name)]
         self._fitness = fitness_of(subject)
         self._listeners: list[Callable[[Line], None]] = []
@@ -128,6 +123,9 @@ class _Play:
             self._listeners,
             subject.heartbeat,
             prepared.spaces.alone(self._seed),
+        )
+        self._outputs = Outputs(
+            request, subject, cast, self._world, self._listeners, is_flat=prepared.spaces.is_flat
         )
 
     def replay(self, tell: Tell) -> bool:
@@ -187,17 +185,17 @@ class _Play:
         )
         try:
             with ExitStack() as stack:
-                stream = self._stream(stack, report)
-                picture = self._picture(history, stack, report)
-                maps = self._maps(stack, report)
+                stream = self._outputs.trace(stack, report)
+                picture = self._outputs.timeline(history, stack, report)
+                maps = self._outputs.maps(stack, report)
                 if report.has_errors:
                     tell(report)
                     return False
                 if stream is not None:
-                    self._listeners.append(self._writer(stream))
+                    self._listeners.append(self._outputs.writer(stream))
                 if stream is None or not stream.isatty():
                     self._show_board(stack)
-                last = self._live(stack)
+                last = self._outputs.live(stack)
                 watched = bool(self._watched) or self._fitness is not None
                 if watched and self._listeners:
                     self._listeners.append(monitors.see)  # the last one: it can end the run
@@ -228,7 +226,7 @@ class _Play:
                 if picture is not None:
                     picture({each.property.name: each.remark for each in results})
                 maps()
-                self._draw_robots(stack, report)
+                self._outputs.draw_robots(stack, report)
                 last()
         except OSError as error:
             if error.filename is None:
@@ -247,8 +245,8 @@ class _Play:
         if unplayed and ending == _ENDINGS["quiet"] and (awaited := summary.awaited):
             start = request.paths[0] if request.paths else Path()
             click.echo(f"\n{deadlock_hint(awaited, self._subject, start)}", err=True)
-        if self._written:
-            names = [printable(str(path)) for path in self._written]
+        if self._outputs.written:
+            names = [printable(str(path)) for path in self._outputs.written]
             click.echo(f"\nwritten: {', '.join(names)}", err=True)
         return None if interrupted else not (report.has_errors or self._wrong)
 
@@ -276,7 +274,7 @@ class _Play:
         head = {"subject": self._subject.name, **conditions}
         try:
             with ExitStack() as stack:
-                stream = self._write_to(path, stack, report)
+                stream = self._outputs.write_to(path, stack, report)
                 if stream is not None:
                     stream.write(as_document(head, results, fitness))
         except OSError as error:
@@ -332,102 +330,6 @@ class _Play:
             if each is not None:
                 arrivals.put(each)
         arrivals.put(None)
-
-    def _stream(self, stack: ExitStack, report: Diagnostics) -> TextIO | None:
-        """Return the stream for the trace."""
-        path = self._request.trace_file
-        if self._request.trace == "none":
-            return None
-        if path is None:
-            # A person watches the live table or types events instead.
-            watched = sys.stdout.isatty() and self._request.events != STANDARD_INPUT
-            return None if watched and self._request.trace is None else sys.stdout
-        return self._write_to(path, stack, report)
-
-    def _picture(
-        self,
-        history: Mapping[str, Sequence[tuple[int, Verdict]]],
-        stack: ExitStack,
-        report: Diagnostics,
-    ) -> Callable[[Mapping[str, str]], object] | None:
-        """Prepare drawing the timeline with remarks on properties, if requested."""
-        if self._request.timeline is None:
-            return None
-        stream = self._write_to(self._request.timeline, stack, report)
-        if stream is None:
-            return None
-        timeline = Timeline(self._subject.name, self._cast)
-        self._listeners.append(timeline.note)
-        self._world.network.transmitted = timeline.transmitted
-        return lambda remarks: stream.write(timeline.svg(self._world.clock.now, history, remarks))
-
-    def _maps(self, stack: ExitStack, report: Diagnostics) -> Callable[[], None]:
-        """Prepare drawing the map and the animation, as far as they are requested."""
-        if self._request.map is None and self._request.animation is None:
-            return lambda: None
-        from swarmdsl.execution.simulate.run_map import Maps
-
-        maps = Maps(self._request.map, self._request.animation)
-        streams = [self._write_to(path, stack, report) for path in maps.paths]
-        recorded = maps.record(self._subject, self._world)
-        self._listeners.append(recorded.stepped)
-
-        def draw() -> None:
-            for stream, picture in zip(streams, maps.drawn(recorded), strict=True):
-                assert stream is not None
-                stream.write(picture)
-
-        return draw
-
-    def _draw_robots(self, stack: ExitStack, report: Diagnostics) -> None:
-        """Write a picture of the robots at the end, if requested."""
-        path = self._request.picture
-        if path is None:
-            return
-        try:
-            picture = self._world.space.picture()
-        except NoPictureError as error:
-            report.report("no-picture", reason=str(error), help="use `--map` instead")
-            return
-        stream = self._write_to(path, stack, report)
-        if stream is not None and picture is not None:
-            stream.buffer.write(picture)
-
-    def _live(self, stack: ExitStack) -> Callable[[], None]:
-        """Open the page that shows the run, if requested; return what draws the end."""
-        if self._request.live is None:
-            return lambda: None
-        from swarmdsl.execution.simulate.live import show
-
-        page, draw = show(
-            self._request.live, self._subject, self._world, is_flat=self._is_flat, stack=stack
-        )
-        self._listeners.append(lambda line: page.step(as_json(line)))
-        return draw
-
-    def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
-        try:
-            stream = stack.enter_context(write_stream(path))
-        except OSError as error:
-            report_unwritten(path, error, report)
-            return None
-        self._written.append(path)
-        return stream
-
-    def _writer(self, stream: TextIO) -> Callable[[Line], None]:
-        kind = self._request.trace or ("json" if self._request.trace_file is not None else "text")
-        width = max(len(actor.name or "") for actor in self._cast)
-        form = as_json if kind == "json" else partial(as_text, width=width)
-        at_once = self._request.real_time or self._request.events == STANDARD_INPUT
-        if kind == "json" and self._request.trace_file is not None:
-            self._world.space.viewers += (MovedLines(self._world, stream),)
-
-        def write(line: Line) -> None:
-            stream.write(f"{form(line)}\n")
-            if at_once:
-                stream.flush()
-
-        return write
 
     def _report_loop(self, error: LoopError, report: Diagnostics) -> None:
         """Report an endless loop, with the states in it."""

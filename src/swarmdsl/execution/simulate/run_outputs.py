@@ -1,0 +1,143 @@
+"""Outputs of a run: its trace, pictures of it, and a page that shows it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from typing import TextIO
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.write_stream import report_unwritten, write_stream
+from swarmdsl.execution.monitor import Verdict
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.moved_lines import MovedLines
+from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Request
+from swarmdsl.execution.simulate.space import NoPictureError
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.timeline import Timeline
+from swarmdsl.execution.simulate.trace import Line, as_json, as_text
+from swarmdsl.execution.simulate.world import World
+
+
+class Outputs:
+    """Requested outputs of a run; `listeners` of its world get those that follow it."""
+
+    def __init__(
+        self,
+        request: Request,
+        subject: Subject,
+        cast: Sequence[Actor],
+        world: World,
+        listeners: list[Callable[[Line], None]],
+        *,
+        is_flat: bool,
+    ) -> None:
+        self.written: list[Path] = []
+        """Files that have been opened."""
+        self._request = request
+        self._subject = subject
+        self._cast = cast
+        self._world = world
+        self._listeners = listeners
+        self._is_flat = is_flat
+
+    def trace(self, stack: ExitStack, report: Diagnostics) -> TextIO | None:
+        """Return the stream for the trace."""
+        path = self._request.trace_file
+        if self._request.trace == "none":
+            return None
+        if path is None:
+            # A person watches the live table or types events instead.
+            watched = sys.stdout.isatty() and self._request.events != STANDARD_INPUT
+            return None if watched and self._request.trace is None else sys.stdout
+        return self.write_to(path, stack, report)
+
+    def timeline(
+        self,
+        history: Mapping[str, Sequence[tuple[int, Verdict]]],
+        stack: ExitStack,
+        report: Diagnostics,
+    ) -> Callable[[Mapping[str, str]], object] | None:
+        """Prepare drawing the timeline with remarks on properties, if requested."""
+        if self._request.timeline is None:
+            return None
+        stream = self.write_to(self._request.timeline, stack, report)
+        if stream is None:
+            return None
+        timeline = Timeline(self._subject.name, self._cast)
+        self._listeners.append(timeline.note)
+        self._world.network.transmitted = timeline.transmitted
+        return lambda remarks: stream.write(timeline.svg(self._world.clock.now, history, remarks))
+
+    def maps(self, stack: ExitStack, report: Diagnostics) -> Callable[[], None]:
+        """Prepare drawing the map and the animation, as far as they are requested."""
+        if self._request.map is None and self._request.animation is None:
+            return lambda: None
+        from swarmdsl.execution.simulate.run_map import Maps
+
+        maps = Maps(self._request.map, self._request.animation)
+        streams = [self.write_to(path, stack, report) for path in maps.paths]
+        recorded = maps.record(self._subject, self._world)
+        self._listeners.append(recorded.stepped)
+
+        def draw() -> None:
+            for stream, picture in zip(streams, maps.drawn(recorded), strict=True):
+                assert stream is not None
+                stream.write(picture)
+
+        return draw
+
+    def draw_robots(self, stack: ExitStack, report: Diagnostics) -> None:
+        """Write a picture of the robots at the end, if requested."""
+        path = self._request.picture
+        if path is None:
+            return
+        try:
+            picture = self._world.space.picture()
+        except NoPictureError as error:
+            report.report("no-picture", reason=str(error), help="use `--map` instead")
+            return
+        stream = self.write_to(path, stack, report)
+        if stream is not None and picture is not None:
+            stream.buffer.write(picture)
+
+    def live(self, stack: ExitStack) -> Callable[[], None]:
+        """Open the page that shows the run, if requested; return what draws the end."""
+        if self._request.live is None:
+            return lambda: None
+        from swarmdsl.execution.simulate.live import show
+
+        page, draw = show(
+            self._request.live, self._subject, self._world, is_flat=self._is_flat, stack=stack
+        )
+        self._listeners.append(lambda line: page.step(as_json(line)))
+        return draw
+
+    def write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
+        """Open a file for as long as the stack lasts; report one that cannot be written."""
+        try:
+            stream = stack.enter_context(write_stream(path))
+        except OSError as error:
+            report_unwritten(path, error, report)
+            return None
+        self.written.append(path)
+        return stream
+
+    def writer(self, stream: TextIO) -> Callable[[Line], None]:
+        """Return what writes each line of the trace."""
+        kind = self._request.trace or ("json" if self._request.trace_file is not None else "text")
+        width = max(len(actor.name or "") for actor in self._cast)
+        form = as_json if kind == "json" else partial(as_text, width=width)
+        at_once = self._request.real_time or self._request.events == STANDARD_INPUT
+        if kind == "json" and self._request.trace_file is not None:
+            self._world.space.viewers += (MovedLines(self._world, stream),)
+
+        def write(line: Line) -> None:
+            stream.write(f"{form(line)}\n")
+            if at_once:
+                stream.flush()
+
+        return write
