@@ -146,7 +146,7 @@ def main() -> None:
                 original = Original(EXAMPLES / name, swarm.name, number)
                 alarms += len(original.alarms)
                 for code, message in sorted(original.alarms):
-                    _say(f"{name} {swarm.name}: false alarm {code}: {message}")
+                    _say(f"{name} {swarm.name}: of the example itself, {code}: {message}")
                 count: Counter[str] = Counter()
                 for mutant in original.mutants():
                     case = original.judge(mutant, Path(temporary) / name)
@@ -162,7 +162,7 @@ def main() -> None:
                 total += count
                 _say(f"{name} {swarm.name}: {_summary(count)}")
     _say(f"\nmutants that {number:,} random walks tell from the original: {_summary(total)}")
-    _say(f"false alarms: {alarms}")
+    _say(f"reported about the examples themselves: {alarms}")
 
 
 def _say(line: str) -> None:
