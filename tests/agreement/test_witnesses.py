@@ -25,6 +25,8 @@ SOURCES = {
 }
 FEW = ("minimal", "operations")
 """Models that are compared also if only few swarms are."""
+MOST = {name: 300_000 for name in SOURCES if (ROOT / "examples" / name).is_dir()}
+"""Numbers of states up to which examples are compared."""
 MANY = 10
 """Number of random swarms from which on all models are compared, too."""
 Witnessed = Callable[[str, str, Callable[[], Compared]], Compared]
@@ -83,7 +85,10 @@ def test_random_swarms(seeds: range, target: str, tmp_path: Path, witnessed: Wit
 @pytest.mark.timeout(3000)
 @pytest.mark.parametrize("target", WITNESSES)
 def test_models(name: str, target: str, tmp_path: Path, witnessed: Witnessed) -> None:
-    found = witnessed(name, target, lambda: compare([Case(SOURCES[name])], target, tmp_path))
+    case = Case(SOURCES[name])
+    case = case._replace(most=MOST.get(name, case.most))
+
+    found = witnessed(name, target, lambda: compare([case], target, tmp_path))
 
     # Others may have too many states.
     assert found.counts or name not in FEW

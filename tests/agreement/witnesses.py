@@ -111,11 +111,15 @@ def check(target: str, models: Sequence[Path], folder: Path) -> list[Found]:
 
 
 class Case(NamedTuple):
-    """A model to compare, with numbers of members and conditions."""
+    """A model to compare, with numbers of members and conditions.
+
+    Swarms are compared if they have fewer than `most` states, with equal robots told apart.
+    """
 
     source: Path
     counts: Mapping[str, int] = {}
     options: Options = Options()
+    most: int = MOST
 
 
 def compare(cases: Sequence[Case], target: str, folder: Path) -> Compared:
@@ -175,9 +179,9 @@ def _parts(case: Case, target: str, out: Path) -> Iterator[_Part]:
         network = Network(
             model.groups(thorough=True), model.alphabet, options.capacity, lossy=options.lossy
         )
-        graph = explore(network, Budget(Limits(states=MOST)))
-        every = sum(_alike(graph)) if graph.complete else MOST
-        if every >= MOST:
+        graph = explore(network, Budget(Limits(states=case.most)))
+        every = sum(_alike(graph)) if graph.complete else case.most
+        if every >= case.most:
             continue
         suffix = next(iter(files)).suffix if files else ""
         yield _Part(
