@@ -17,7 +17,8 @@ from swarmdsl.execution.verify.alphabet import Alphabet
 from swarmdsl.execution.verify.body import Body
 from swarmdsl.execution.verify.holding import Holding
 from swarmdsl.execution.verify.kind import Kind
-from swarmdsl.execution.verify.moves import Look, Moment, Move, Slot
+from swarmdsl.execution.verify.moments import moments_of
+from swarmdsl.execution.verify.moves import Look, Move, Slot
 from swarmdsl.execution.verify.slots import Occupied, carried, occupied
 from swarmdsl.execution.verify.state_key import StateKey
 from swarmdsl.execution.verify.tasks import Input, Task
@@ -300,21 +301,7 @@ class Automaton:
         act()
         left = {id(each) for _, each in body.tasks()}
         ended = frozenset(task for task, each in before if id(each) not in left)
-        last = len(shown) - 1
-        moments = tuple(
-            Moment(
-                actor,
-                line.event,
-                tuple(dict.fromkeys(map(line.actor.machine.called, line.taken))),
-                holding,
-                line.ignored and not line.taken,
-                tuple(line.started),
-                tuple(line.sent),
-                tuple(body.failures) if number == last else (),
-                body.loop is not None and number == last,
-            )
-            for number, (line, (actor, holding)) in enumerate(zip(body.lines, shown, strict=True))
-        )
+        moments = moments_of(body, shown)
         sends = tuple(map(self.alphabet.number, body.sent))
         origin = None if source is None else (source, given)
         after = occupied(body, self._key.waiting)
