@@ -7,6 +7,8 @@ import json
 import os
 import shlex
 import subprocess
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +17,10 @@ import tomli
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
+from swarmdsl.execution.experiments.running import Progress
+from swarmdsl.execution.experiments.study import command
 from swarmdsl.execution.experiments.study.command import Request, run_study
+from swarmdsl.execution.experiments.task import Row
 from swarmdsl.execution.experiments.toml_text import toml_text
 
 from .conftest import MODEL, SCENARIO
@@ -114,6 +119,47 @@ def test_worst_runs_play_with_the_command_in_the_report(
     assert run([*words[1:], "--trace", "none", "--results", "one.json"]) in (0, 1)
     capsys.readouterr()
     assert json.loads(Path("one.json").read_text())["fitness"]["value"] == value
+
+
+def test_ctrl_c_tells_what_the_runs_that_are_done_show(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Interrupting(Progress):
+        left = 3
+
+        def add(self, rows: Sequence[Row]) -> None:
+            self.left -= 1
+            if not self.left:
+                raise KeyboardInterrupt
+
+    @contextmanager
+    def interrupting(*_: object) -> Iterator[Progress]:
+        yield Interrupting()
+
+    Path("study.toml").write_text(STUDY, encoding="utf-8")
+    words = ["experiment", "study.toml", "-o", "out", "--jobs", "1"]
+    with monkeypatch.context() as patched:
+        patched.setattr(command, "shown", interrupting)
+        assert run(words) == 130
+    text = capsys.readouterr().out
+    assert "interrupted: what follows is about the runs that are done" in text
+    assert "the best point is" in text
+    assert run([*words, "--resume", "--json"]) == 0
+    resumed = json.loads(capsys.readouterr().out)
+    assert resumed == ran(STUDY, output="new")
+
+
+def test_runs_without_a_value_are_told(folder: Path) -> None:
+    """The model of each run fails, which is an error and no answer."""
+    endless = MODEL.replace("after patience -> Try", "[patience > 0 s] -> Turn").replace(
+        "  final Good", "  state Turn { [patience > 0 s] -> Wait }\n  final Good"
+    )
+    Path("model.swarm").write_text(endless, encoding="utf-8")
+    text = ran("repetitions = 1\n[factors]\ncount.robot = [1]", as_json=False)
+    assert "no run has a value" in text
+    assert "0 of 1" in text
+    # The command that plays such a run is there.
+    assert "swarmc simulate . --scenario out/runs/1.toml --seed 1" in text
 
 
 @pytest.mark.parametrize("design", ["latin", "sobol"])

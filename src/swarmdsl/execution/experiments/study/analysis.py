@@ -140,9 +140,10 @@ def _mean(result: Result) -> float:
 
 
 def point_text(study: Study, point: Point) -> str:
-    """Return the settings of a point for people."""
-    pairs = zip(study.factors, point, strict=True)
-    return ", ".join(f"{each.name} {each.text(value)}" for each, value in pairs)
+    """Return the settings of a point for people, without those that all points have."""
+    pairs = list(zip(study.factors, point, strict=True))
+    varied = [(each, value) for each, value in pairs if len(each.factor.levels) != 1]
+    return ", ".join(f"{each.name} {each.text(value)}" for each, value in varied or pairs)
 
 
 def _point_answers(found: Analysis) -> Iterator[Answer]:

@@ -61,7 +61,8 @@ class Varied:
     def text(self, value: Value) -> str:
         """Return a value for people."""
         if self.is_time and isinstance(value, (int, float)):
-            return format_duration(round(value * SECOND))
+            text = format_duration(round(value * SECOND))
+            return text.removesuffix(" 0 s").removesuffix(" 0 min")
         return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
