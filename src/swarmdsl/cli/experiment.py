@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 
 
-@click.command(epilog="Example: swarmc experiment examples/agriculture/fleet.toml")
+@click.command(epilog="Example: swarmc experiment examples/agriculture/resilience.toml")
 @click.argument("file", metavar="FILE", type=options.PLACE)
 @click.option(
     "-o",

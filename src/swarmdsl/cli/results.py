@@ -36,7 +36,7 @@ def _conditions(
     return tuple(found)
 
 
-@click.command(epilog='Example: swarmc results fleet-results --where "count of scout >= 4"')
+@click.command(epilog='Example: swarmc results resilience-results --where "scenario network.loss > 0"')
 @click.argument("folder", metavar="FOLDER", type=options.PLACE)
 @click.option(
     "--where",
