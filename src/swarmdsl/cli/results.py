@@ -36,7 +36,9 @@ def _conditions(
     return tuple(found)
 
 
-@click.command(epilog='Example: swarmc results resilience-results --where "scenario network.loss > 0"')
+@click.command(
+    epilog='Example: swarmc results resilience-results --where "scenario network.loss > 0"'
+)
 @click.argument("folder", metavar="FOLDER", type=options.PLACE)
 @click.option(
     "--where",
