@@ -11,6 +11,7 @@ from swarmdsl.codegen.api import Support
 from swarmdsl.codegen.emit import Request
 from swarmdsl.codegen.registry import load
 from swarmdsl.driver import pipeline
+from swarmdsl.execution.verify import model as models
 
 from ..agreement.witnesses import MISSING, check
 
@@ -85,7 +86,8 @@ def test_properties_that_are_left_out(made: Path, sentence: str, reason: str) ->
     assert [path.name for path in made.parent.glob("out/promela/*")] == ["S.pml"]
 
 
-def test_a_robot_with_too_many_states(made: Path) -> None:
+def test_a_robot_with_too_many_states(made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(models, "MOST_STATES", 50)
     machine = """statemachine M {
   var n : uint32
   initial X
