@@ -280,6 +280,10 @@ model = ["HEAD:model.swarm", "model.swarm"]
     assert run(["results", "out"]) == 0
     shown = capsys.readouterr().out
     assert "HEAD:model.swarm" in shown
+    Path("study.toml").write_text('model = "HEAD:model.swarm"\n[factors]\ncount.robot = [1]')
+    assert run(["experiment", "study.toml", "-o", "old", "--jobs", "1"]) == 0
+    played = "# at HEAD: swarmc simulate model.swarm --scenario old/runs/1.toml --seed"
+    assert played in capsys.readouterr().out
     # The model as it is, is the first one: its runs are the same.
     assert "12 runs in 2 groups" in shown
 

@@ -111,9 +111,7 @@ def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _D
 
 def _name_models(folder: Path, study: Study, setting: Setting) -> None:
     """Write which digest in the store is which model. Raises StoppedError."""
-    models = {
-        each.shipment.digest: str(each.name or ", ".join(each.shown)) for each in setting.models
-    }
+    models = {each.shipment.digest: each.title for each in setting.models}
     about = {
         "experiment": str(study.path),
         "measure": study.measure or FITNESS,

@@ -35,8 +35,15 @@ class Model:
     name: Value
     shipment: Shipment
     subject: Subject
-    shown: tuple[str, ...]
-    """Paths as a command can name them."""
+    places: tuple[tuple[str, str], ...]
+    """Revisions of git, empty for a file on disk, with the paths in them."""
+
+    @property
+    def title(self) -> str:
+        """Name for people."""
+        return str(self.name) or ", ".join(
+            f"{rev}:{path}" if rev else path for rev, path in self.places
+        )
 
 
 class Setting:
@@ -119,7 +126,7 @@ def open_study(study: Study, open_model: OpenModel, report: Diagnostics) -> Sett
             _placed(each, swarm if each.name == "unresolved-name" else place) for each in found
         )
         if packed is not None:
-            models.append(Model(name, *packed, _shown(texts, study.folder)))
+            models.append(Model(name, *packed, _places(texts, study.folder)))
     if report.has_errors:
         return None
     setting = Setting(study, tuple(models))
@@ -128,11 +135,15 @@ def open_study(study: Study, open_model: OpenModel, report: Diagnostics) -> Sett
     return None if report.has_errors else setting
 
 
-def _shown(texts: tuple[str, ...], folder: Path) -> tuple[str, ...]:
-    """Return the paths of models; a revision is named as git does."""
-    return tuple(
-        str(folder / text) if ":" not in text or exists(folder / text) else text for text in texts
-    )
+def _places(texts: tuple[str, ...], folder: Path) -> tuple[tuple[str, str], ...]:
+    """Return the revision and the path of each file of a model."""
+    found = []
+    for text in texts:
+        revision, colon, path = text.partition(":")
+        # One letter before a colon is a drive of Windows.
+        on_disk = exists(folder / text) or not colon or len(revision) < 2
+        found.append(("", str(folder / text)) if on_disk else (revision, str(folder / path)))
+    return tuple(found)
 
 
 def _models(study: Study) -> Iterator[tuple[Value, tuple[str, ...], Span | None]]:

@@ -83,7 +83,7 @@ def _chosen(found: Analysis) -> Iterator[tuple[str, Result, Row]]:
 def _command(setting: Setting, result: Result, scenario: Path, seed: int) -> str:
     """Return the command that plays a run."""
     study, model = setting.study, setting.model(result.point)
-    words = ["swarmc", "simulate", *map(str, model.shown)]
+    words = ["swarmc", "simulate", *(path for _, path in model.places)]
     until = written_duration(study.until) if study.until is not None else None
     given = (
         ("--swarm", study.swarm),
@@ -95,4 +95,6 @@ def _command(setting: Setting, result: Result, scenario: Path, seed: int) -> str
     for option, value in given:
         if value is not None:
             words += [option, str(value)]
-    return shlex.join(words)
+    revisions = " ".join(dict.fromkeys(revision for revision, _ in model.places if revision))
+    # Only a working tree of the revision has its files.
+    return f"# at {revisions}: {shlex.join(words)}" if revisions else shlex.join(words)
