@@ -100,16 +100,6 @@ def verdicts_as_in_all_runs(
 
 
 @pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
 def test_verdicts_are_those_of_all_runs(seeds: Sequence[int], tmp_path: Path) -> None:
     found: Counter[str] = Counter()
     for seed in seeds:

@@ -54,16 +54,6 @@ def _length(bounds: Bounds) -> Fixed | Uniform:
 
 
 @pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
-@pytest.mark.timeout(3000)
 def test_verdicts_with_clocks_are_those_of_all_runs(seeds: Sequence[int], tmp_path: Path) -> None:
     found: Counter[str] = Counter()
     for seed in seeds:
