@@ -76,6 +76,8 @@ class RunMap:
         self._absences: dict[Robot, list[tuple[int, int | None]]] = {
             each: [] for each in world.robots
         }
+        self._gone: set[Robot] = set()
+        """Robots that are lost now."""
         self._carried: dict[str, list[tuple[int, Place]]] = {}
         """Places of each target, when it was moved."""
         self._found: dict[str, int] = {}
@@ -159,14 +161,16 @@ class RunMap:
             self._note_targets(now)
 
     def _note_absences(self, now: int) -> None:
-        for robot, absences in self._absences.items():
-            was = bool(absences) and absences[-1][1] is None
-            if self._is_gone(robot) == was:
-                continue
-            if was:
-                absences[-1] = (absences[-1][0], now)
-            else:
+        gone = self._world.network.gone
+        if gone == self._gone:
+            return
+        for robot in gone ^ self._gone:
+            absences = self._absences[robot]
+            if robot in gone:
                 absences.append((now, None))
+            else:
+                absences[-1] = (absences[-1][0], now)
+        self._gone = set(gone)
 
     def _note_links(self, now: int) -> None:
         pairs = set(self._pairs()) if len(self._trails) <= _MOST_LINKED else set()
