@@ -81,7 +81,7 @@ class Constraint:
 class Optimization:
     """Search for the best swarm.
 
-    `settings` are the number of steps of a run, the number of runs (`evaluations`) and the
+    `settings` are the number of steps of a run, that of candidates (`evaluations`) and the
     random seed, as far as they are given.
     """
 

@@ -18,7 +18,7 @@ _WEIGHT = 0.3
 
 
 class Pace:
-    """How long runs take, and how many go best together, by kind of runs."""
+    """Time of a run, and the number that go best together, by kind of runs."""
 
     def __init__(self) -> None:
         self._seconds: dict[str, float] = {}

@@ -23,7 +23,7 @@ _MOST_MORE = 1_000_000
 
 @dataclass(frozen=True)
 class Comparison:
-    """How much greater a measure is in A than in B, and what follows.
+    """Difference of a measure between A and B, positive where it is greater in A.
 
     `answer` is about "A is better than B": "no" says that B is better, "not yet" that the interval
     of the difference contains 0. `size` is the difference by the deviation of one run (J. Cohen's

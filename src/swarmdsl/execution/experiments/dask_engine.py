@@ -13,7 +13,7 @@ from swarmdsl.base.errors import describe_exception
 from swarmdsl.execution.experiments.failures import StoppedError
 
 _RETRIES = 5
-"""How often the scheduler may give a task to another worker, after errors of the network."""
+"""Times that the scheduler gives a task to another worker, after errors of the network."""
 
 
 class DaskExecutor(Executor):

@@ -22,6 +22,8 @@ from swarmdsl.execution.experiments.failures import StoppedError
 
 GROUP = "swarmdsl.executors"
 _DASK = ("tcp", "tls", "ucx")
+_FOREIGN_WORKERS = 8
+"""Tasks at a time, for executors that do not have a number of `workers`."""
 _WAIT = 10
 """Seconds to look for a scheduler and for a worker."""
 
@@ -82,7 +84,7 @@ def cluster(address: str) -> Engine:
     kind, _, rest = address.partition("://")
     points = {point.name: point for point in entry_points(group=GROUP)}
     if kind in points:
-        return Engine(address, lambda: _foreign(points[kind].load(), address, rest), 8)
+        return Engine(address, lambda: _foreign(points[kind].load(), address, rest), _FOREIGN_WORKERS)
     if not rest or kind not in _DASK:
         help_ = suggest(kind, (*_DASK, *points), "kinds")
         reason = "it begins with no kind of engine"

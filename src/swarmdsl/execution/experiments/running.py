@@ -24,13 +24,13 @@ from swarmdsl.execution.experiments.task import Row, Task, row_of
 from swarmdsl.execution.experiments.worker import work
 
 _MOST_LOSSES = 3
-"""How often workers may be lost, one time after the other, without a result between."""
+"""Losses of workers, one after the other without a result between, before the runs end."""
 _AHEAD = 2
 """Tasks that wait for each worker, so that none of them waits for this process."""
 
 
 class Progress:
-    """What a user sees of the runs; this one shows nothing."""
+    """Progress of the runs as a user sees it; this one shows nothing."""
 
     def begin(self, runs: int, known: int) -> None:
         """Begin so many runs, of which some are known."""

@@ -64,7 +64,7 @@ _lock = Lock()
 
 
 class _Kept(OrderedDict[str, _T]):
-    """What was used last, up to a number."""
+    """Values that were used last, up to a number."""
 
     def __init__(self, most: int) -> None:
         super().__init__()

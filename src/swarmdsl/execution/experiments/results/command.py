@@ -179,7 +179,7 @@ def _lines(head: tuple[str, ...], rows: Sequence[tuple[Any, ...]]) -> Iterator[s
     texts = [
         tuple(number(cell) if type(cell) is float else shown(cell) for cell in row) for row in rows
     ]
-    # Columns without a text, and those that are the same in all rows, only take room.
+    # Columns without a text only take room.
     kept = [at for at in range(len(head)) if any(row[at] for row in texts)]
     cells = [tuple(row[at] for at in kept) for row in texts]
     yield from format_table(tuple(head[at] for at in kept), cells, 0)

@@ -21,7 +21,7 @@ FIXED = ("group", "model", "scenario", "seed", "fitness", "failure", "seconds")
 
 @dataclass(frozen=True)
 class About:
-    """What a folder is about: names of models by digest, what is measured, and its goal."""
+    """Subject of a folder: names of models by digest, the measure and its goal."""
 
     models: Mapping[str, str]
     measure: str = "fitness"

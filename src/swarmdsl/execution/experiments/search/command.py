@@ -69,7 +69,7 @@ class Request:
 
 @dataclass(frozen=True)
 class _Problem:
-    """What is optimized."""
+    """The model with its optimization, and the plan of the search."""
 
     subject: Subject
     system: System

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any, Literal
 
 from swarmdsl.base.diagnostics.render import counted
@@ -16,7 +16,7 @@ Together = Literal["mean", "worst"]
 
 @dataclass(frozen=True)
 class Aim:
-    """What is searched for: the goal, how scenarios count together, and properties to keep."""
+    """Goal of a search, the value of several scenarios together, and properties to keep."""
 
     goal: Goal
     together: Together = "mean"
@@ -44,12 +44,16 @@ class Evaluation:
         return math.fsum(self.values.values()) / len(self.values)
 
     @property
+    def fault(self) -> str:
+        """Most frequent fault, empty if there is none."""
+        return max(self.broken, key=lambda each: (self.broken[each], each), default="")
+
+    @property
     def reason(self) -> str:
         """Say why it is out, empty if it is not."""
         if not self.broken:
             return ""
-        what = max(self.broken, key=lambda each: (self.broken[each], each))
-        return f"{what} in {self.broken[what]} of {counted(self.runs, 'run')}"
+        return f"{self.fault} in {self.broken[self.fault]} of {counted(self.runs, 'run')}"
 
     def add(self, rows: Sequence[Sequence[Row]], aim: Aim) -> None:
         """Add rows of the same seeds in each scenario."""
@@ -78,7 +82,12 @@ def _fault(row: Row, aim: Aim) -> str:
     if row.failure is not None:
         return row.failure
     broken = next((each for each in aim.properties if row.verdicts[each] == "false"), None)
-    return f"`{broken}` is violated" if broken is not None else ""
+    return violation(broken) if broken is not None else ""
+
+
+def violation(name: str) -> str:
+    """Return the fault of a run that violates a property."""
+    return f"`{name}` is violated"
 
 
 def _together(values: Iterable[float | None], aim: Aim) -> float:
@@ -110,8 +119,7 @@ def ranked(found: Iterable[Evaluation], aim: Aim) -> list[Evaluation]:
     return sorted(possible, key=lambda each: aim.loss(each.mean or 0.0))
 
 
-def values_of(a: Evaluation, b: Evaluation) -> tuple[Mapping[int, float], list[float], list[float]]:
-    """Return the seeds that both have, with the values of each."""
+def values_of(a: Evaluation, b: Evaluation) -> tuple[list[float], list[float]]:
+    """Return the values of each with the seeds that both have."""
     common = sorted(a.values.keys() & b.values.keys())
-    seeds = {seed: a.values[seed] for seed in common}
-    return seeds, [a.values[seed] for seed in common], [b.values[seed] for seed in common]
+    return [a.values[seed] for seed in common], [b.values[seed] for seed in common]

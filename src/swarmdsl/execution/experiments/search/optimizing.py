@@ -23,11 +23,12 @@ from swarmdsl.execution.experiments.search.evaluation import (
     losses,
     ranked,
     values_of,
+    violation,
 )
 from swarmdsl.execution.experiments.search.methods import Name, is_small, method_of
 from swarmdsl.execution.experiments.search.race import race, rounds_of
 from swarmdsl.execution.experiments.search.space import Point, SearchSpace
-from swarmdsl.execution.experiments.task import Candidate, Task
+from swarmdsl.execution.experiments.task import NO_SCENARIO, Candidate, Task
 
 SEARCH_SEEDS, FINALISTS = 10, 10
 """Seeds of each candidate that a method proposes, and how many of the best race."""
@@ -39,7 +40,7 @@ _ERROR = 0.05
 
 @dataclass(frozen=True)
 class Plan:
-    """What is searched, and how long.
+    """Space, aim and length of a search.
 
     `evaluations` is the number of candidates that are tried, `seeds` the most seeds of one in the
     race, `fresh` the seeds of the winner and of today's model, `seed` the first one.
@@ -141,7 +142,7 @@ class Search:
             method.tell(points, values)
         best = ranked(tried.values(), self._plan.aim)[:FINALISTS]
         if not best:
-            raise _none_possible(list(tried.values()))
+            raise self._none_possible(list(tried.values()))
         return [each.candidate for each in best]
 
     def _generations(self) -> Iterator[tuple[list[Point], Any]]:
@@ -169,7 +170,7 @@ class Search:
             survivors = each.survivors
             self._note(survivors)
         if not survivors:
-            raise _none_possible(found)
+            raise self._none_possible(found)
         # Of equal ones, the best is that which changes less of the model.
         space, aim = self._plan.space, self._plan.aim
 
@@ -192,11 +193,11 @@ class Search:
             if winner.mean is not None:
                 break
         else:
-            raise _none_possible([winner])
+            raise self._none_possible([winner])
         self.best = winner
         comparison = None
         if today.mean is not None:
-            _, left, right = values_of(winner, today)
+            left, right = values_of(winner, today)
             comparison = compare_paired(left, right, plan.aim.goal, plan.level)
         ordered = [each for each in finals if each.candidate == winner.candidate]
         ordered += [each for each in finals if each.candidate != winner.candidate]
@@ -220,9 +221,14 @@ class Search:
     def _say(self, stage: str, found: Evaluation, **more: Any) -> None:
         self._tell({"stage": stage, **more, **found.as_data()})
 
-
-def _none_possible(found: Sequence[Evaluation]) -> StoppedError:
-    reasons = [each.reason for each in found if each.reason]
-    help_ = "widen the ranges of `optimize`, or ask for less"
-    reason = max(set(reasons), key=lambda each: (reasons.count(each), each))
-    return StoppedError("no-candidate", help_, reason=reason)
+    def _none_possible(self, found: Sequence[Evaluation]) -> StoppedError:
+        faults = [each.fault for each in found if each.fault]
+        fault = max(set(faults), key=lambda each: (faults.count(each), each))
+        reason = next(each.reason for each in found if each.fault == fault)
+        if fault in map(violation, self._plan.aim.properties):
+            help_ = "widen the ranges of `optimize`, or ask for less"
+        elif self._plan.scenarios == (NO_SCENARIO,):
+            help_ = "add `--scenario FILE`: without one, functions succeed and nothing else happens"
+        else:
+            help_ = "`swarmc simulate` plays a candidate of `history.jsonl` in the folder of `-o`"
+        return StoppedError("no-candidate", help_, reason=reason)

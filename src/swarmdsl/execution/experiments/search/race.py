@@ -77,7 +77,7 @@ def _survivors(possible: Sequence[Evaluation], aim: Aim, error: float) -> list[E
 
 
 def _test(each: Evaluation, best: Evaluation, aim: Aim, error: float) -> Comparison | None:
-    _, left, right = values_of(each, best)
+    left, right = values_of(each, best)
     return compare_paired(left, right, aim.goal, 1 - error) if left else None
 
 

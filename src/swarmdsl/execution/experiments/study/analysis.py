@@ -1,4 +1,4 @@
-"""What follows from the runs of a study: means of points, effects, comparisons, sensitivity."""
+"""Analysis of the runs of a study: means of points, effects, comparisons, sensitivity."""
 
 from __future__ import annotations
 
