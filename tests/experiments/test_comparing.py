@@ -56,6 +56,15 @@ def test_equal_differences_need_as_many_runs_as_the_sign_test(count: int, answer
     assert found.more == (None if count == 6 else 6 - count)
 
 
+@pytest.mark.parametrize(("count", "answer"), [(1, "not yet"), (3, "not yet"), (4, "no")])
+def test_independent_runs_that_do_not_vary_need_as_many_as_the_rank_test(
+    count: int, answer: str
+) -> None:
+    """Four values are below four others by chance in 1 of 35 cases, three in 1 of 10."""
+    found = compare_unpaired([0.1] * count, [0.3] * count, "maximize", 0.95)
+    assert (found.answer, found.more) == (answer, None)
+
+
 def test_no_difference_is_never_decided() -> None:
     found = compare_paired([3.0] * 50, [3.0] * 50, "maximize", 0.95)
     assert (found.answer, found.more, found.superiority) == ("not yet", None, 0.5)

@@ -2,7 +2,8 @@
 
 Runs with the same seeds are compared pair by pair (Student, 1908), because chance is the same in
 both of a pair; others by the test of B. Welch, 1947. Where all differences are equal, there is
-nothing to estimate a deviation from, and the sign test decides.
+nothing to estimate a deviation from, and the sign test decides; for independent runs, the rank
+test.
 """
 
 from __future__ import annotations
@@ -45,11 +46,13 @@ class Comparison:
     def more(self) -> int | None:
         """Number of further runs that would decide, if mean and deviation stayed as they are.
 
-        None if it is decided, or would need more than a million.
+        None if it is decided, would need more than a million, or if independent runs do not vary.
         """
         if self.answer != "not yet" or self.difference == 0:
             return None
         if _is_constant(self.difference, self.deviation):
+            if not self.is_paired:
+                return None
             return math.ceil(1 - math.log2(1 - self.level)) - self.runs
         # Student's distribution has longer tails than the normal one: it needs a few runs more.
         width = NormalDist().inv_cdf((1 + self.level) / 2) * self.deviation / abs(self.difference)
@@ -98,7 +101,12 @@ def compare_unpaired(
     errors = [each.deviation**2 / each.count for each in (first, second)]
     error = math.sqrt(sum(errors))
     interval = None
-    if min(first.count, second.count) >= 2 and error > 0:
+    if _is_constant(difference, error):
+        # All values of one are above those of the other.
+        arrangements = math.comb(first.count + second.count, first.count)
+        if difference and 2 / arrangements <= 1 - level:
+            interval = Interval(difference, difference)
+    elif min(first.count, second.count) >= 2:
         # The formula of Welch and Satterthwaite.
         parts = (
             each**2 / (sample.count - 1)

@@ -106,7 +106,9 @@ def analyse(study: Study, goal: Goal, results: Sequence[Result], today: Result |
     measure = study.measure or FITNESS
     choose = max if goal == "maximize" else min
     valued = [each for each in results if each.sample is not None]
-    best = choose(valued, key=_mean) if valued else None
+    # The mean of the runs that are left is no mean of all.
+    complete = [each for each in valued if not each.failures]
+    best = choose(complete or valued, key=_mean) if valued else None
     found = Analysis(study, measure, goal, results, best, today)
     table = {each.point: each.values for each in results}
     factors, level = study.plain_factors, study.confidence
@@ -156,7 +158,7 @@ def _point_answers(found: Analysis) -> Iterator[Answer]:
         return
     sign = -1 if found.goal == "maximize" else 1
     others = [each for each in found.results if each is not best and each.sample is not None]
-    others.sort(key=lambda each: sign * _mean(each))
+    others.sort(key=lambda each: (bool(each.failures), sign * _mean(each)))
     count = len(others) + 1
     today = [found.today] if found.today is not None and found.today.values else []
     pairs = math.comb(count + len(today), 2)

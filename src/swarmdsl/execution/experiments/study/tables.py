@@ -153,10 +153,12 @@ def _points(found: Analysis) -> Grid:
     return Grid("Points, the best first", head, rows, len(names))
 
 
-def _rank(found: Analysis, result: Result) -> float:
+def _rank(found: Analysis, result: Result) -> tuple[bool, float]:
+    """Return the key of a point: those with failed runs are last."""
     if result.sample is None:
-        return float("inf")
-    return -result.sample.mean if found.goal == "maximize" else result.sample.mean
+        return True, float("inf")
+    mean = result.sample.mean
+    return bool(result.failures), -mean if found.goal == "maximize" else mean
 
 
 def _summary(result: Result) -> tuple[str, ...]:
