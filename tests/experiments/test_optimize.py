@@ -92,6 +92,25 @@ def test_the_best_candidate_wins_and_is_measured_with_fresh_seeds(searched: Path
     ]
 
 
+def test_kept_runs_are_about_the_goal_of_the_search(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    model = MODEL.replace("maximize good - ", "minimize ")
+    optimize = "optimize Crew { robot.patience in 5 s .. 9 s step 4 s }"
+    words = [*write(tmp_path, optimize, model), "--jobs", "1", "-o", "out"]
+    assert run(words) == 0
+    assert "winner: robot.patience = 5s" in capsys.readouterr().out
+
+    assert run(["results", "out"]) == 0
+    groups = capsys.readouterr().out.splitlines()
+    (best,) = (line.split()[0] for line in groups if "5s" in line)
+    (worst,) = (line.split()[0] for line in groups if "9s" in line)
+    assert run(["results", "out", "--compare", best, worst]) == 0
+    said = capsys.readouterr().out
+    assert f"fitness, to minimize: {best} is better than {worst}: yes" in said
+
+
 def test_a_search_that_is_killed_goes_on_to_the_same_bytes(
     searched: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -129,3 +129,12 @@ def test_csv_has_all_runs_and_no_formula(run: Run) -> None:
 
 def test_a_folder_without_runs_is_told(run: Run) -> None:
     assert run_command(["results", "nowhere"]) == 1
+
+
+def test_a_folder_that_others_wrote_is_told(run: Run) -> None:
+    with Store(Path("out", FILE), is_new=False) as store:
+        store._database.execute("update runs set row = '[]' where seed = 3")
+        store._database.commit()
+    code, text = run()
+    assert code == 1
+    assert "error[SW1802]: cannot read runs in `out/runs.sqlite`" in text

@@ -95,9 +95,12 @@ def test_what_the_store_has_is_not_run_again(packed: Packed, tmp_path: Path) -> 
         with Store(path, is_new=False) as store:
             runs = runs_of(shipment, store, engine)
             again = runs.run([task, task])
-            # Two reading connections see what is there while it is written.
-            with Store(path, is_new=False) as reader:
+            # Others see what is there while it is written, and cannot write.
+            with Store(path, is_read_only=True) as reader:
                 assert len(list(reader.all())) == len(SEEDS)
+            with pytest.raises(StoppedError, match="no-store") as stopped:
+                Store(path, is_new=False)
+            assert "another search" in stopped.value.fields["reason"]
             other = replace(shipment, scenarios={"scenario.toml": "until = '10 s'"})
             afresh = runs_of(other, store, engine)
             afresh.run([task])
@@ -111,6 +114,18 @@ def test_what_the_store_has_is_not_run_again(packed: Packed, tmp_path: Path) -> 
         Store(path)
     with pytest.raises(StoppedError, match="no-store"):
         Store(tmp_path / "none.sqlite", is_new=False)
+    other_file = tmp_path / "a %20?#" / "runs.sqlite"
+    other_file.parent.mkdir()
+    other_file.write_text("no database, but long enough to look like one")
+    for use in (True, False):
+        with pytest.raises(StoppedError, match="no-store") as stopped:
+            Store(other_file, is_new=False, is_read_only=use)
+        assert stopped.value.fields["reason"] == "file is not a database"
+        assert "folder" in (stopped.value.help or "")
+    other_file.unlink()
+    with Store(other_file) as store:
+        assert list(store.all()) == []
+    assert other_file.exists()
 
 
 def test_a_full_disk_is_a_plain_word(packed: Packed, tmp_path: Path) -> None:

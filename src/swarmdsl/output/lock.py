@@ -1,11 +1,11 @@
-"""Lock an output folder against concurrent builds."""
+"""Lock a folder against processes that write there at the same time."""
 
 from __future__ import annotations
 
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -24,14 +24,28 @@ def locked(folder: Path) -> Iterator[None]:
             os.close(handle)
 
 
-def _locked(folder: Path) -> int | None:
+def lock_now(folder: Path) -> int | None:
+    """Lock a folder; return a file descriptor that holds the lock until it is closed.
+
+    None if nothing can be locked there. Raises BlockingIOError if another holds the lock.
+    """
+    return _locked(folder, is_patient=False)
+
+
+def _locked(folder: Path, *, is_patient: bool = True) -> int | None:
     if sys.platform == "win32":
         return None
     import fcntl
 
-    with suppress(OSError):
+    try:
         handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-        with suppress(OSError):  # unsupported by some network file systems
-            fcntl.flock(handle, fcntl.LOCK_EX)
-        return handle
-    return None
+    except OSError:
+        return None
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX if is_patient else fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        os.close(handle)
+        raise
+    except OSError:
+        pass  # unsupported by some network file systems
+    return handle

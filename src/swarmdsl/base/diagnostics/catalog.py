@@ -409,7 +409,7 @@ CODES: dict[str, Code] = {
     "endless-answers": Code("SW1710", "warning", "robots can answer `{name}` without end"),
     # ---- experiments
     "runs-there": Code("SW1801", "error", "`{path}` has runs already"),
-    "no-store": Code("SW1802", "error", "cannot keep runs in `{path}`: {reason}"),
+    "no-store": Code("SW1802", "error", "cannot {use} runs in `{path}`: {reason}"),
     "no-engine": Code("SW1803", "error", "cannot run on `{address}`: {reason}"),
     "worker-refuses": Code("SW1804", "error", "a worker refuses the runs: {reason}"),
     "lost-workers": Code("SW1805", "error", "workers were lost {times} times: {reason}"),

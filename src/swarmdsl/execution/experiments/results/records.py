@@ -6,15 +6,19 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
+from swarmdsl.base.errors import describe_exception
 from swarmdsl.base.read_files import read_text
+from swarmdsl.base.write_stream import write_stream
 from swarmdsl.execution.experiments.designs.factors import Value
+from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.store import FILE, Store
 
 NAMES = "experiment.json"
-"""File of a results folder that says what its runs are about."""
+"""File of a results folder with the subject of its runs."""
 FIXED = ("group", "model", "scenario", "seed", "fitness", "failure", "seconds")
 """Names that every record has."""
 
@@ -26,6 +30,18 @@ class About:
     models: Mapping[str, str]
     measure: str = "fitness"
     goal: str = "maximize"
+
+    def write(self, folder: Path) -> None:
+        """Write it to a folder, for `read_about`. Raises StoppedError."""
+        path = folder / NAMES
+        found = {"measure": self.measure, "goal": self.goal, "models": dict(self.models)}
+        try:
+            with write_stream(path) as stream:
+                stream.write(f"{json.dumps(found, indent=2)}\n")
+        except OSError as error:
+            help_ = "name another folder with `-o`, or make room"
+            reason = error.strerror or str(error)
+            raise StoppedError("no-store", help_, use="keep", path=path, reason=reason) from error
 
 
 @dataclass(frozen=True)
@@ -54,7 +70,7 @@ class Record:
 
 
 def read_about(folder: Path) -> About:
-    """Return what a folder says about itself; a folder of a search may say nothing."""
+    """Return what a folder says about itself; a folder without the file says nothing."""
     found: Any = {}
     with suppress(OSError, ValueError):
         found = json.loads(read_text(folder / NAMES))
@@ -72,8 +88,14 @@ def read_about(folder: Path) -> About:
 
 def read_records(folder: Path, about: About) -> list[Record]:
     """Return all runs of a folder. Raises StoppedError."""
-    with Store(folder / FILE, is_new=False) as store:
-        return list(_records(store, about))
+    path = folder / FILE
+    with Store(path, is_read_only=True) as store:
+        try:
+            return list(_records(store, about))
+        except (KeyError, TypeError, ValueError) as error:
+            reason = describe_exception("a run in it", error)
+            help_ = "its runs are not those of a search or an experiment"
+            raise StoppedError("no-store", help_, use="read", path=path, reason=reason) from error
 
 
 def _records(store: Store, about: About) -> Iterator[Record]:
@@ -99,21 +121,9 @@ def names_of(records: Sequence[Record]) -> tuple[list[str], list[str], list[str]
     """Return the names of settings, measures and properties, in order of appearance."""
     settings, measures, properties = (
         list(dict.fromkeys(name for record in records for name in values(record)))
-        for values in (_settings, _measures, _verdicts)
+        for values in map(attrgetter, ("settings", "measures", "verdicts"))
     )
     return sorted(settings), measures, properties
-
-
-def _settings(record: Record) -> Mapping[str, Any]:
-    return record.settings
-
-
-def _measures(record: Record) -> Mapping[str, Any]:
-    return record.measures
-
-
-def _verdicts(record: Record) -> Mapping[str, Any]:
-    return record.verdicts
 
 
 def grouped(records: Sequence[Record]) -> dict[int, list[Record]]:

@@ -21,6 +21,7 @@ from swarmdsl.execution.experiments.applying import apply_to_model
 from swarmdsl.execution.experiments.engines import Engine, cluster, local
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.progress_bar import Feed, shown
+from swarmdsl.execution.experiments.results.records import NAMES, About
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.search.evaluation import Aim, Together
 from swarmdsl.execution.experiments.search.files import files_of
@@ -119,6 +120,7 @@ def _search(request: Request, problem: _Problem, searches: list[Search], stack: 
     if folder is None:
         folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="swarmdsl-")))
     store = stack.enter_context(Store(folder / FILE, is_new=not request.resume))
+    About({digest: problem.subject.name}, goal=plan.aim.goal).write(folder)
     history = stack.enter_context(write_stream(folder / HISTORY))
     stream = stack.enter_context(write_stream(request.feed)) if request.feed is not None else None
     engine = stack.enter_context(_engine(request))
@@ -169,7 +171,7 @@ def _conclude(request: Request, problem: _Problem, found: Found, report: Diagnos
         for path, text in {**_below(request.output, texts), **scenarios}.items():
             with _written(path, report) as stream:
                 stream.write(text)
-        click.echo(f"\nwritten: {FILE}, {HISTORY}, {', '.join(texts)}", err=True)
+        click.echo(f"\nwritten: {FILE}, {NAMES}, {HISTORY}, {', '.join(texts)}", err=True)
     if request.apply:
         _apply(request, problem, found, report)
 

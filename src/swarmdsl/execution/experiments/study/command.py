@@ -15,7 +15,7 @@ from swarmdsl.execution.experiments.engines import Engine, cluster, local
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.progress_bar import shown
 from swarmdsl.execution.experiments.report.page import html
-from swarmdsl.execution.experiments.results.records import NAMES
+from swarmdsl.execution.experiments.results.records import About
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.study.analysis import Analysis, Result, analyse, result_of
@@ -98,7 +98,8 @@ def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _D
     shipments = {each.shipment.digest: each.shipment for each in setting.models}
     with ExitStack() as stack:
         store = stack.enter_context(Store(request.folder / FILE, is_new=not request.resume))
-        _name_models(request.folder, study, setting)
+        models = {each.shipment.digest: each.title for each in setting.models}
+        About(models, study.measure or FITNESS, goal_of(setting)).write(request.folder)
         stack.enter_context(engine)
         bar = stack.enter_context(shown(len(tasks) * study.repetitions, engine.name, str))
         runs = Runs(shipments, engine, store, bar)
@@ -107,27 +108,6 @@ def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _D
         except KeyboardInterrupt:
             engine.stop(is_hurried=True)
             return _Done(dict(zip(tasks, runs.known(tasks), strict=True)), runs.ran, True)
-
-
-def _name_models(folder: Path, study: Study, setting: Setting) -> None:
-    """Write which digest in the store is which model. Raises StoppedError."""
-    models = {each.shipment.digest: each.title for each in setting.models}
-    about = {
-        "experiment": str(study.path),
-        "measure": study.measure or FITNESS,
-        "goal": goal_of(setting),
-        "models": models,
-    }
-    text = json.dumps(about, indent=2)
-    path = folder / NAMES
-    try:
-        with write_stream(path) as stream:
-            stream.write(f"{text}\n")
-    except OSError as error:
-        help_ = "name another folder with `-o`, or make room"
-        raise StoppedError(
-            "no-store", help_, path=path, reason=error.strerror or str(error)
-        ) from error
 
 
 def _analysis(study: Study, setting: Setting, rows: dict[Task, Sequence[Row]]) -> Analysis:
