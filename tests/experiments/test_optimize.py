@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import html
 import json
-import math
 import os
 import re
 import shlex
@@ -20,9 +19,6 @@ from typing import Any
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.experiments.search.evaluation import Aim, Evaluation
-from swarmdsl.execution.experiments.search.race import race, rounds_of
-from swarmdsl.execution.experiments.task import Candidate, Row
 
 from .conftest import MODEL, SCENARIO
 
@@ -187,62 +183,6 @@ def test_properties_are_kept_or_there_is_no_winner(
     assert "winner: count of robot = 3, robot.patience = 5s" in capsys.readouterr().out
 
 
-def test_the_winner_is_written_into_the_model(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    optimize = "optimize Crew { robot.patience in 4 s .. 6 s step 1 s; count of robot in 1 .. 2 }"
-
-    assert run([*write(tmp_path, optimize), "--jobs", "1", "--apply"]) == 0
-    text = (tmp_path / "model.swarm").read_text(encoding="utf-8")
-    assert "param patience : duration = 5 s" in text
-    assert "robot : Robot[2..6];" in text
-    assert "+swarm Crew { robot : Robot[2..6]; fitness Worth }" in capsys.readouterr().err
-
-    # Another swarm has the same members, so that the role gets the value.
-    # A param without an effect stays as it is.
-    shared = MODEL.replace(": duration = 8 s", ": duration = 8 s; param up : float64 in m = 2 m")
-    shared += "swarm Others { robot : Robot }\n"
-    up = optimize.replace("}", "; robot.up in 1 m .. 3 m step 1 m }")
-    words = [*write(tmp_path, up, shared), "--swarm", "Crew", "--jobs", "1", "--apply"]
-    assert run(words) == 0
-    text = (tmp_path / "model.swarm").read_text(encoding="utf-8")
-    assert "param patience : duration = 8 s" in text
-    assert "robot : Robot[2..6] { patience = 5 s };" in text
-    assert run(["check", "model.swarm"]) == 0
-    # Now the role has one, which is replaced.
-    given = text.replace("patience = 5 s", "patience = 6 s")
-    (tmp_path / "model.swarm").write_text(given, encoding="utf-8")
-    assert run([*words[:1], "model.swarm", *words[2:]]) == 0
-    assert "{ patience = 5 s }" in (tmp_path / "model.swarm").read_text(encoding="utf-8")
-
-    # Values keep their unit.
-    only = "optimize Crew { robot.up in 3 m .. 5 m step 1 m }"
-    assert run([*write(tmp_path, only, shared), "--swarm", "Crew", "--jobs", "1", "--apply"]) == 0
-    assert "{ up = 3.0 m }" in (tmp_path / "model.swarm").read_text(encoding="utf-8")
-
-    own = MODEL.replace("robot : Robot[1..6];", "robot : Robot[1..6]; robot[0] { patience = 9 s };")
-    assert run([*write(tmp_path, optimize, own), "--jobs", "1", "--apply"]) == 1
-    said = capsys.readouterr().err
-    assert "error[SW1808]" in said
-    assert "`robot[0]` has a value of its own for `patience`" in said
-    assert (tmp_path / "model.swarm").read_text(encoding="utf-8") == own + optimize
-
-
-def test_a_model_that_is_better_is_not_changed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    optimize = "optimize Crew { robot.patience in 1 s .. 2 s step 1 s }"
-    model = MODEL.replace("= 8 s", "= 5 s")
-
-    assert run([*write(tmp_path, optimize, model), "--jobs", "1", "--apply"]) == 0
-    said = capsys.readouterr()
-    assert "with 95% confidence: today's model is better" in said.out
-    assert "warning[SW1809]" in said.err
-    assert (tmp_path / "model.swarm").read_text(encoding="utf-8") == model + optimize
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -325,34 +265,6 @@ def test_ctrl_c_ends_with_what_there_is(
     os.chdir(searched)
     assert run([*write(searched), "--jobs", "1", "-o", "cut", "--resume"]) == 0
     assert kept(searched / "cut") == kept(searched / "one")
-
-
-def test_a_race_keeps_the_best_on_the_same_chance() -> None:
-    """Candidates differ by 0.1, chance by 3 between seeds: only pairs can tell."""
-    found = [Evaluation(Candidate.of({"x": x})) for x in range(8)]
-    aim = Aim("maximize")
-
-    def add(running: Any, seeds: range) -> None:
-        for each in running:
-            (x,) = each.candidate.values.values()
-            rows = [
-                Row(
-                    each.candidate,
-                    "",
-                    seed,
-                    {},
-                    -0.1 * abs(x - 5) + 3 * math.sin(9.7 * seed) + 0.01 * math.sin(seed * (x + 2)),
-                    {},
-                )
-                for seed in seeds
-            ]
-            each.add([rows], aim)
-
-    rounds = list(race(found, add, aim, rounds_of(0, 40), 0.05))
-
-    assert [each.candidate.values for each in rounds[-1].survivors] == [{"x": 5}]
-    assert len(rounds) <= 2
-    assert rounds_of(3, 12) == [range(3, 8), range(8, 13), range(13, 15)]
 
 
 def test_the_page_shows_the_search_and_plays_its_worst_runs(

@@ -16,16 +16,11 @@ import pytest
 import tomli
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.source import Source, Span
 from swarmdsl.cli import run
-from swarmdsl.execution.experiments.designs.factors import Factor
 from swarmdsl.execution.experiments.running import Progress
 from swarmdsl.execution.experiments.study import command
-from swarmdsl.execution.experiments.study.analysis import Result, analyse, result_of
 from swarmdsl.execution.experiments.study.command import Request, run_study
-from swarmdsl.execution.experiments.study.plan import Study, Varied
-from swarmdsl.execution.experiments.study.tables import grids
-from swarmdsl.execution.experiments.task import Candidate, Row, Task
+from swarmdsl.execution.experiments.task import Row
 from swarmdsl.execution.experiments.toml_text import toml_text
 
 from .conftest import MODEL, SCENARIO
@@ -165,27 +160,6 @@ def test_runs_without_a_value_are_told(folder: Path) -> None:
     assert "0 of 1" in text
     # The command that plays such a run is there.
     assert "swarmc simulate . --scenario out/runs/1.toml --seed 1" in text
-
-
-def test_a_point_with_lucky_runs_only_is_not_the_best() -> None:
-    place = Span(Source("study.toml", ""), 0, 0)
-    factor = Varied(Factor("x", (1, 2)), "setting", place)
-    study = Study(Path("study.toml"), (factor,), ("model.swarm",), repetitions=3)
-
-    def point(x: int, values: Sequence[float | None]) -> Result:
-        candidate = Candidate.of({"x": x})
-        rows = [
-            Row(candidate, "", seed, {}, value, failure=None if value is not None else "it fails")
-            for seed, value in enumerate(values)
-        ]
-        return result_of((x,), Task("", "", candidate, (0, 1, 2)), rows, "fitness", 0.95)
-
-    results = [point(1, [9.0, None, None]), point(2, [1.0, 2.0, 3.0])]
-    found = analyse(study, "maximize", results, None)
-    assert found.best is results[1]
-    points = next(grids(found))
-    assert [row[0] for row in points.rows] == ["2", "1"]
-    assert analyse(study, "maximize", results[:1], None).best is results[0]
 
 
 @pytest.mark.parametrize("design", ["latin", "sobol"])

@@ -29,7 +29,7 @@ from swarmdsl.execution.experiments.search.methods import Name
 from swarmdsl.execution.experiments.search.optimizing import Found, Plan, Search
 from swarmdsl.execution.experiments.search.page import search_page, worst_runs
 from swarmdsl.execution.experiments.search.report import as_data, as_text, settings_text
-from swarmdsl.execution.experiments.search.space import space_of
+from swarmdsl.execution.experiments.search.space import report_narrowed, space_of
 from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.task import NO_SCENARIO, canonical
@@ -252,6 +252,7 @@ def _problem(request: Request, report: Diagnostics) -> _Problem | None:
         reason = "no range in its `optimize`"
         report.report("nothing-to-optimize", name=subject.name, reason=reason, help=help_)
         return None
+    report_narrowed(optimization, system, space, report)
     known = [each.name for each in system.properties if each.subject == subject.name]
     chances = [each.name for each in system.properties if each.chance is not None]
     for name in request.properties:

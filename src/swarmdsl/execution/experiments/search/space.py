@@ -12,6 +12,7 @@ from fractions import Fraction
 from itertools import islice, product
 from typing import Literal
 
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.exchange.search_space import number
 from swarmdsl.codegen.shared.constants import constant
@@ -114,7 +115,10 @@ class SearchSpace:
 
 
 def space_of(optimization: Optimization, system: System) -> SearchSpace:
-    """Return the search space of an optimization; the ranges are known and not empty."""
+    """Return the search space of an optimization, whose ranges are known and not empty.
+
+    A range of counts that has nothing in common with the multiplicity ends below its start.
+    """
     swarm = next(each for each in system.swarms if each.name == optimization.swarm)
     roles = {each.name: each for each in swarm.roles}
     counts = (_count(each, roles[each.role]) for each in optimization.counts)
@@ -126,9 +130,42 @@ _ONE = Fraction(1)
 
 
 def _count(range_: CountRange, role: Role) -> Dimension:
-    today = Fraction(max(role.multiplicity.lower, 1))
-    name = f"{COUNT}{range_.role}"
-    return Dimension(name, "whole", _exact(range_.lower), _exact(range_.upper), _ONE, today)
+    """Return the numbers that are in the range and in the multiplicity."""
+    allowed = role.multiplicity
+    lower = max(_exact(range_.lower), Fraction(allowed.lower))
+    upper = _exact(range_.upper)
+    if allowed.upper is not None:
+        upper = min(upper, Fraction(allowed.upper))
+    today = Fraction(max(allowed.lower, 1))
+    return Dimension(f"{COUNT}{range_.role}", "whole", lower, upper, _ONE, today)
+
+
+def report_narrowed(
+    optimization: Optimization, system: System, space: SearchSpace, report: Diagnostics
+) -> None:
+    """Report ranges of counts with numbers that the multiplicity of the role does not allow."""
+    swarm = next(each for each in system.swarms if each.name == optimization.swarm)
+    roles = {each.name: each for each in swarm.roles}
+    found = {each.name: each for each in space.dimensions}
+    for range_ in optimization.counts:
+        dimension, role = found[f"{COUNT}{range_.role}"], roles[range_.role]
+        lower, upper = _exact(range_.lower), _exact(range_.upper)
+        allowed, whole = f"`{role.member}[{role.multiplicity}]`", f"{lower} .. {upper}"
+        help_ = f"`{role.member}[{lower}..{upper}]` allows all of them"
+        if dimension.lower > dimension.upper:
+            reason = f"{allowed} as `{role.name}`, and none of {whole} in its `optimize`"
+            name = optimization.swarm
+            report.report("nothing-to-optimize", name=name, reason=reason, help=help_)
+        elif (dimension.lower, dimension.upper) != (lower, upper):
+            taken = f"{dimension.lower} .. {dimension.upper}"
+            report.report(
+                "narrowed-range",
+                name=dimension.name,
+                range=whole,
+                taken=taken,
+                allowed=allowed,
+                help=help_,
+            )
 
 
 def _dimension(range_: ParamRange, role: Role, system: System) -> Dimension:
