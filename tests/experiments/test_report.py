@@ -13,7 +13,7 @@ import pytest
 from swarmdsl.execution.estimation.intervals import Interval
 from swarmdsl.execution.experiments.report.canvas import ticks
 from swarmdsl.execution.experiments.report.charts import Mean, convergence, main_effect
-from swarmdsl.execution.experiments.report.coordinates import Scored, draw_candidates
+from swarmdsl.execution.experiments.report.coordinates import Scored, caption_of, draw_candidates
 from swarmdsl.execution.experiments.report.page import Page, Section, Table, html
 from swarmdsl.execution.experiments.report.search import Search, Worst, search_sections
 
@@ -112,6 +112,10 @@ def test_parallel_coordinates_mark_the_best_and_leave_out_what_does_not_vary() -
     kinds = [each.attrib["class"] for each in drawn.iter(f"{SVG}polyline")]
     assert kinds == ["path today", "path best"]
     assert draw_candidates(candidates[:1], "maximize", "f") is None
+    many = [Scored({"x": x}, float(x)) for x in range(500)]
+    assert str(draw_candidates(many, "maximize", "f")).count("<polyline") == 400
+    assert "The best 400 of 500 are drawn." in caption_of(many, "candidate")
+    assert "400" not in caption_of(many[:400], "candidate")
 
 
 def test_main_effects_share_one_scale() -> None:

@@ -77,6 +77,8 @@ def test_rows_are_the_same_for_processes_one_of_which_is_killed(
     # What was done before and after: all runs are in the store, of several processes.
     assert len(kept) == 3 * len(SEEDS)
     assert len({each.worker for each in kept}) > 1
+    # This process does not wait for the others to begin.
+    assert str(os.getpid()) in {each.worker for each in kept}
     waited = [rows[0].measures["waited"] for rows in one]
     assert waited == [3.0, 8.0, 8.0]
     assert {row.measures["good"] for row in one[2]} == {0}

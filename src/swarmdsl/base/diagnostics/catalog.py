@@ -419,7 +419,9 @@ CODES: dict[str, Code] = {
     "not-applied": Code("SW1809", "warning", "`{name}` is not changed: it is better as it is"),
     "missing-package": Code("SW1810", "error", "`{what}` needs package `{package}`"),
     "narrowed-range": Code(
-        "SW1811", "warning", "`{name}` is searched in {taken}, not in {range}: the role is {allowed}"
+        "SW1811",
+        "warning",
+        "`{name}` is searched in {taken}, not in {range}: the role is {allowed}",
     ),
     "no-factors": Code("SW1821", "error", "the experiment varies nothing"),
     "no-levels": Code("SW1822", "error", "factor `{name}` has no levels to combine"),

@@ -31,8 +31,12 @@ _WAIT = 10
 class Engine:
     """An executor that is started when it is needed, and again after its processes were lost."""
 
-    def __init__(self, name: str, start: Callable[[], Executor], workers: int) -> None:
+    def __init__(
+        self, name: str, start: Callable[[], Executor], workers: int, *, is_slow: bool = False
+    ) -> None:
         self.name = name
+        self.is_slow = is_slow
+        """True if this process could do some tasks before the workers have begun."""
         self._start = start
         self._workers = workers
         self._executor: Executor | None = None
@@ -76,6 +80,7 @@ def local(jobs: int) -> Engine:
         f"{jobs} processes",
         lambda: ProcessPoolExecutor(jobs, get_context("spawn"), _begin_worker),
         jobs,
+        is_slow=True,
     )
 
 
@@ -84,7 +89,9 @@ def cluster(address: str) -> Engine:
     kind, _, rest = address.partition("://")
     points = {point.name: point for point in entry_points(group=GROUP)}
     if kind in points:
-        return Engine(address, lambda: _foreign(points[kind].load(), address, rest), _FOREIGN_WORKERS)
+        return Engine(
+            address, lambda: _foreign(points[kind].load(), address, rest), _FOREIGN_WORKERS
+        )
     if not rest or kind not in _DASK:
         help_ = suggest(kind, (*_DASK, *points), "kinds")
         reason = "it begins with no kind of engine"

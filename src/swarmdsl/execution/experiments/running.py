@@ -68,6 +68,7 @@ class Runs:
         self._progress = progress or Progress()
         self._limit = limit
         self._pace = Pace()
+        self._is_beginning = engine.is_slow
         self.ran = 0
         """Number of runs that were not in the store."""
 
@@ -109,7 +110,8 @@ class Runs:
         workers = self._engine.workers
         left, losses = total, 0
         while waiting or again or running:
-            while (waiting or again) and len(running) < workers * (1 + _AHEAD):
+            ahead = 0 if self._is_beginning else _AHEAD
+            while (waiting or again) and len(running) < workers * (1 + ahead):
                 block = again.popleft() if again else self._next(tasks, waiting, left, workers)
                 left -= len(block.seeds)
                 try:
@@ -117,6 +119,13 @@ class Runs:
                 except BrokenExecutor:
                     again.appendleft(block)
                     break
+            # Workers take a while to begin; first results are here sooner.
+            while self._is_beginning and waiting and not any(each.done() for each in running):
+                block = self._next(tasks, waiting, left, workers)
+                left -= len(block.seeds)
+                task = tasks[block.number]
+                yield task, self._rows(task, work(*self._work_of(task, block.seeds)))
+            self._is_beginning = False
             done, _ = wait(running, return_when=FIRST_COMPLETED)
             is_lost = not running
             for future in sorted(done, key=lambda each: running[each]):
@@ -155,6 +164,10 @@ class Runs:
         return _Block(number, first)
 
     def _submit(self, task: Task, seeds: Sequence[int]) -> Future[Any]:
+        return self._engine.executor.submit(work, *self._work_of(task, seeds))
+
+    def _work_of(self, task: Task, seeds: Sequence[int]) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Return the arguments of `work`."""
         data: dict[str, Any] = {
             "scenario": task.scenario,
             "candidate": task.candidate.values,
@@ -162,7 +175,7 @@ class Runs:
         }
         if self._limit is not None:
             data["limit"] = self._limit
-        return self._engine.executor.submit(work, self._shipments[task.digest], data)
+        return self._shipments[task.digest], data
 
     def _rows(self, task: Task, answer: Mapping[str, Any]) -> list[Row]:
         """Keep the rows of an answer, and return them."""

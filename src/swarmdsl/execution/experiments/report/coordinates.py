@@ -60,6 +60,13 @@ def draw_candidates(candidates: Sequence[Scored], goal: str, name: str) -> str |
     return parallel_coordinates([*axes, Axis(name, values.labels)], ways)
 
 
+def caption_of(candidates: Sequence[Scored], what: str) -> str:
+    """Return the caption of the drawing; `what` names a candidate."""
+    said = f"Each line is a {what}; strong lines are good ones. Point at one for its values."
+    count = sum(each.value is not None for each in candidates)
+    return f"{said} The best {_MOST_WAYS} of {count} are drawn." if count > _MOST_WAYS else said
+
+
 class _Column:
     """Values of a setting on an axis: numbers by their size, names in their order."""
 

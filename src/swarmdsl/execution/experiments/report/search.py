@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from swarmdsl.execution.estimation.sample import summarize
 from swarmdsl.execution.experiments.report.canvas import short
 from swarmdsl.execution.experiments.report.charts import convergence, distributions
-from swarmdsl.execution.experiments.report.coordinates import Scored, draw_candidates
+from swarmdsl.execution.experiments.report.coordinates import Scored, caption_of, draw_candidates
 from swarmdsl.execution.experiments.report.page import Figure, Section, Table, text_table
 
 _FEWEST = 2
@@ -49,9 +49,7 @@ def search_sections(search: Search) -> Iterator[Section]:
         yield Section("Convergence", [Figure(curve, caption)])
     drawn = draw_candidates(search.candidates, search.goal, search.name)
     if drawn is not None:
-        caption = (
-            "Each line is a candidate; strong lines are good ones. Point at one for its values."
-        )
+        caption = caption_of(search.candidates, "candidate")
         yield Section("Candidates", [Figure(drawn, caption)])
     groups = [("the winner", search.winner), ("the model as it is", search.today)]
     groups = [(name, values) for name, values in groups if values]

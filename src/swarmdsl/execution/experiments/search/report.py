@@ -39,6 +39,8 @@ def as_text(found: Found, plan: Plan, subject: str, fitness: str) -> Iterator[st
         (settings_text(each.candidate), str(len(each.values)), _number(each.mean), each.reason)
         for each in found.finals[:_SHOWN]
     ]
+    if len(found.finals) > _SHOWN:
+        rows.append((f"and {len(found.finals) - _SHOWN} more", "", "", ""))
     yield from format_table(("race", "seeds", fitness, ""), rows)
     named = (("winner", found.winner), ("today", found.today))
     measured = [_measured(name, each, found, plan) for name, each in named]

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from swarmdsl.execution.estimation.intervals import Interval
 from swarmdsl.execution.experiments.effects import Effects
 from swarmdsl.execution.experiments.report.charts import Mean, distributions, main_effect
-from swarmdsl.execution.experiments.report.coordinates import Scored, draw_candidates
+from swarmdsl.execution.experiments.report.coordinates import Scored, caption_of, draw_candidates
 from swarmdsl.execution.experiments.report.page import Figure, Page, Section, Table
 from swarmdsl.execution.experiments.report.search import Worst, worst_runs
 from swarmdsl.execution.experiments.study.analysis import Analysis
@@ -35,8 +35,7 @@ def _sections(found: Analysis, worst: Sequence[Worst]) -> Iterator[Section]:
     ]
     drawn = draw_candidates(scored, found.goal, found.measure)
     if drawn is not None:
-        caption = "Each line is a point; strong lines are good ones. Point at one for its values."
-        figures.append(Figure(drawn, caption))
+        figures.append(Figure(drawn, caption_of(scored, "point")))
     yield Section(points.title, [*figures, _table(points)])
     for grid in others:
         charts = list(_main_effects(found, found.effects)) if found.effects is not None else []
