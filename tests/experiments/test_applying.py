@@ -60,6 +60,17 @@ def test_the_winner_is_written_into_the_model(
     assert run([*write(tmp_path, only, shared), "--swarm", "Crew", "--jobs", "1", "--apply"]) == 0
     assert "{ up = 3.0 m }" in (tmp_path / "model.swarm").read_text(encoding="utf-8")
 
+    # A scenario with a value of its own would hide what is written, or no longer fit.
+    words = [*write(tmp_path, "optimize Crew { count of robot in 2 .. 3 }"), "--jobs", "1"]
+    with Path("scenario.toml").open("a", encoding="utf-8") as file:
+        file.write("[count]\nrobot = 1\n")
+    before = (tmp_path / "model.swarm").read_text(encoding="utf-8")
+    assert run([*words, "--apply"]) == 1
+    said = capsys.readouterr().err
+    assert "error[SW1808]" in said
+    assert "`scenario.toml` says `count.robot` itself" in said
+    assert (tmp_path / "model.swarm").read_text(encoding="utf-8") == before
+
     own = MODEL.replace("robot : Robot[1..6];", "robot : Robot[1..6]; robot[0] { patience = 9 s };")
     assert run([*write(tmp_path, optimize, own), "--jobs", "1", "--apply"]) == 1
     said = capsys.readouterr().err

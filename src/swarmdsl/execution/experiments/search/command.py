@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, TextIO
 
 import click
+import tomli
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.read_files import MOST_RECORDED, read_file
@@ -30,9 +31,10 @@ from swarmdsl.execution.experiments.search.optimizing import Found, Plan, Search
 from swarmdsl.execution.experiments.search.page import search_page, worst_runs
 from swarmdsl.execution.experiments.search.report import as_data, as_text, settings_text
 from swarmdsl.execution.experiments.search.space import report_narrowed, space_of
+from swarmdsl.execution.experiments.settings import keys_of
 from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
 from swarmdsl.execution.experiments.store import FILE, Store
-from swarmdsl.execution.experiments.task import NO_SCENARIO, canonical
+from swarmdsl.execution.experiments.task import NO_SCENARIO, Candidate, canonical
 from swarmdsl.execution.simulate.durations import written_duration
 from swarmdsl.execution.simulate.measures import fitness_of
 from swarmdsl.execution.simulate.subject import Subject
@@ -215,6 +217,7 @@ def _apply(request: Request, problem: _Problem, found: Found, report: Diagnostic
         report.report("not-applied", help="the model is as it was", name=problem.subject.name)
         return
     try:
+        _require_free(found.winner.candidate, problem)
         changed = problem.plan.space.changed(found.winner.candidate)
         layouts = apply_to_model(request.paths, problem.subject.name, changed, report)
     except StoppedError as stopped:
@@ -224,6 +227,20 @@ def _apply(request: Request, problem: _Problem, found: Found, report: Diagnostic
         click.echo(layout.diff(), nl=False, err=True)
     if not layouts and not report.has_errors:
         click.echo("the model has these values already", err=True)
+
+
+def _require_free(winner: Candidate, problem: _Problem) -> None:
+    """Raise StoppedError if a scenario has its own value of a setting, which the model has not."""
+    for path, text in problem.shipment.scenarios.items():
+        for name, value in winner.settings:
+            given: Any = tomli.loads(text)
+            for key in keys_of(name):
+                given = given.get(key) if isinstance(given, dict) else None
+            if given is not None and given != value:
+                key = ".".join(keys_of(name))
+                help_ = f"remove `{key}` there, or write {value} there"
+                reason = f"`{path}` says `{key}` itself, for all runs with it"
+                raise StoppedError("cannot-apply", help_, name=problem.subject.name, reason=reason)
 
 
 def _problem(request: Request, report: Diagnostics) -> _Problem | None:
