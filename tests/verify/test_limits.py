@@ -11,6 +11,7 @@ from swarmdsl.execution.verify import model as models
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.prove import prove
+from swarmdsl.execution.verify.verdict import unfinished
 
 COUNTING = """package test
 message Job { number : uint32 }
@@ -73,3 +74,27 @@ def test_the_limit_that_ended_a_search_is_told(
 
     assert verdict.outcome == "up to"
     assert verdict.reason.startswith(f"the search came to its limit of {reached}: ")
+
+
+def test_states_of_lost_robots_are_not_named(
+    modelled: Callable[..., Model], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(models, "MOST_STATES", 3)
+    text = """
+event Go : std_msgs/Empty
+endless statemachine Move {
+  initial A
+  state A { on Go -> B }
+  state B { on Go -> C }
+  state C { on Go -> D }
+  state D { on Go -> A }
+}
+member Rover { behavior Move }
+swarm S { rover : Rover[2] }
+property P of S : never some rover in D
+"""
+    model = modelled(text, faults=1)
+
+    reason = unfinished(model, Budget(Limits()))
+
+    assert reason == "a `rover` has too many states: 3 combinations of active states"

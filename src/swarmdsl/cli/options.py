@@ -81,7 +81,20 @@ diagnostics_format = option(FORMAT)
 
 # Suffixes of formats that cannot be written.
 _PICTURES = frozenset(
-    (".bmp", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".tif", ".tiff", ".webp")
+    (
+        ".bmp",
+        ".eps",
+        ".gif",
+        ".jpeg",
+        ".jpg",
+        ".pdf",
+        ".png",
+        ".ps",
+        ".svg",
+        ".tif",
+        ".tiff",
+        ".webp",
+    )
 )
 
 

@@ -134,12 +134,12 @@ class Automaton:
         }
 
     def configurations(self) -> Iterator[Any]:
-        """Yield for each state which states of its machines are active."""
-        yield from (tuple(each[:3] for each in machines) for (machines, *_), _ in self._keys)
+        """Yield for each state which states of its machines are active, unless it is lost."""
+        yield from (tuple(each[:3] for each in key[0]) for key, _ in self._keys if key != LOST)
 
     def waiting(self) -> Iterator[Any]:
-        """Yield for each state the deferred events."""
-        yield from (tuple(each[4] for each in machines) for (machines, *_), _ in self._keys)
+        """Yield for each state the deferred events, unless it is lost."""
+        yield from (tuple(each[4] for each in key[0]) for key, _ in self._keys if key != LOST)
 
     @property
     def is_complete(self) -> bool:
