@@ -9,9 +9,11 @@ import subprocess
 import sysconfig
 from collections.abc import Callable
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import pytest
+from tests.preview.test_live_run import Browser
 
 from swarmdsl.cli import run
 
@@ -195,12 +197,23 @@ def test_nodes_fly_as_the_simulation(ros: Any, patrol: Path) -> None:
         model,
         *until,
         *("--real-time-factor", "4", "--results", str(results), "--trace-file", str(trace)),
+        "--live",
     )
+    assert world.stderr is not None
+    browser, address = Browser(), world.stderr.readline().split()[1]
+    page = Thread(target=browser.look, args=(address,), daemon=True)
+    page.start()
     for member in MEMBERS:
         start(ros, member)
     _, said = world.communicate(timeout=PATIENCE)
+    page.join(PATIENCE)
 
     assert results.exists(), said
+    told = [browser.told.get() for _ in range(browser.told.qsize())]
+    drawn = [each["redrawn"]["svg"] for each in told if "redrawn" in each]
+    assert "after 16 s, 1 of 1 targets found" in drawn[-1]
+    active = {who: states for each in told for who, states in each.get("active", {}).items()}
+    assert active == {"scout[0]": ["Met"], "scout[1]": ["Met"], "post[0]": ["Listen"]}
     found = json.loads(results.read_text())
     flown = read(trace)
     agree(lines, flown, said)
