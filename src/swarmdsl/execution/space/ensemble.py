@@ -8,12 +8,12 @@ import numpy as np
 
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.space.arrays import Whole
-from swarmdsl.execution.space.common import Common, Key
 from swarmdsl.execution.space.flat import NOTHING, FlatSpace, Happened
 from swarmdsl.execution.space.setting import Setting
+from swarmdsl.execution.space.shared_stage import Key, SharedStage
 
 
-class Ensemble(Common):
+class Ensemble(SharedStage):
     """Spaces of some runs with the same setting.
 
     Alone, a space moves on when its time has come. Together, it is `due` then, and waits until

@@ -12,11 +12,11 @@ from swarmdsl.execution.engine import ExecutionError, LoopError, Run
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.space import Ended, ModelError, Place, Space, Surroundings
 from swarmdsl.execution.space.arrays import Whole
-from swarmdsl.execution.space.common import Common, Key
 from swarmdsl.execution.space.functions.base import OUTCOMES, Finding
 from swarmdsl.execution.space.gauges import Gauges
 from swarmdsl.execution.space.messages import Facts
 from swarmdsl.execution.space.sensing import Sighting
+from swarmdsl.execution.space.shared_stage import Key, SharedStage
 
 EMPTY = "battery empty"
 """Reason of the loss of a robot."""
@@ -36,7 +36,9 @@ NOTHING = Happened([], [], [])
 class FlatSpace(Space):
     """Flat space of one run."""
 
-    def __init__(self, common: Common, number: int, advance: Callable[[], None] | None) -> None:
+    def __init__(
+        self, shared: SharedStage, number: int, advance: Callable[[], None] | None
+    ) -> None:
         self._advance = advance
         """Called when it is due; None if somebody waits for all that are."""
         self.number = number
@@ -45,9 +47,9 @@ class FlatSpace(Space):
         self.step_number = 0
         self.failure: LoopError | None = None
         """Failure of the world of this space alone, when it moved on with others."""
-        self.has_radio = common.links.is_needed
-        self._common = common
-        self._stage = common.stage
+        self.has_radio = shared.links.is_needed
+        self._shared = shared
+        self._stage = shared.stage
         self._places = {
             unit.robot.name: place for place, unit in enumerate(self._stage.layout.units)
         }
@@ -78,7 +80,7 @@ class FlatSpace(Space):
         self._gauges = Gauges(self._stage, self._first, self._robots)
         self.follows_links = self.has_radio and world.minds_links
         if self.follows_links:
-            self._reached = self._own(self._common.links.within())
+            self._reached = self._own(self._shared.links.within())
             world.links_changed(
                 (one, other)
                 for one in world.robots
@@ -89,7 +91,7 @@ class FlatSpace(Space):
 
     def start(self, run: Run, robot: Robot) -> bool:
         """Start a function if it has a model, unless its arguments have no value."""
-        use = self._common.setting.use(run.activity.name, robot)
+        use = self._shared.setting.use(run.activity.name, robot)
         if use is None:
             return False
         row = self._first + self._places[robot.name]
@@ -100,7 +102,7 @@ class FlatSpace(Space):
             self._world.failed(run.instance, error)
             self._world.clock.schedule(0, lambda: self._ended(run, "aborted", {}))
             return True
-        running = self._common.running(use)
+        running = self._shared.running(use)
         if running.active[row]:
             running.stop(row)
         running.start(row, arguments)
@@ -120,7 +122,7 @@ class FlatSpace(Space):
         if not runs:
             del self._runs[place]
         if was_last:
-            self._common.functions[place[1]].stop(place[0])
+            self._shared.functions[place[1]].stop(place[0])
 
     def lose(self, robot: Robot) -> None:
         """Let a robot lie where it is; one that flies falls."""
@@ -146,12 +148,12 @@ class FlatSpace(Space):
         if not self.has_radio or one is other:
             return True
         places = self._places[one.name], self._places[other.name]
-        return self._common.links.reaches(self.number, *places)
+        return self._shared.links.reaches(self.number, *places)
 
     def loss(self, one: Robot, other: Robot) -> float:
         """Return the probability that an event gets lost on its way."""
         places = self._places[one.name], self._places[other.name]
-        return self._common.links.loss(self.number, *places)
+        return self._shared.links.loss(self.number, *places)
 
     def neighbors(self, robot: Robot, distance: float) -> int:
         """Return the number of other robots within a distance, that are there."""
@@ -243,11 +245,11 @@ class FlatSpace(Space):
             self._tell(sighting)
         for row, key, status in happened.ended:
             runs = self._runs.get((row, key))
-            if runs and self._common.functions[key].active[row]:
+            if runs and self._shared.functions[key].active[row]:
                 self._end(row, key, status, runs[-1])
         if stage.ticks[self.number] % self._gauges.every == 0:
             for robot, topic, type_, facts in self._gauges.read(world, world.clock.now):
-                world.publish(robot, topic, self._common.messages.message(type_, facts))
+                world.publish(robot, topic, self._shared.messages.message(type_, facts))
         self._wake()
         world.flush()
 
@@ -321,21 +323,21 @@ class FlatSpace(Space):
         here = self.at(robot)
         distance = float(np.sqrt(sum((a - b) * (a - b) for a, b in zip(place, here, strict=True))))
         facts = Facts(world.clock.now, place, id=name, distance=distance)
-        world.publish(robot, eye.topic, self._common.messages.message(eye.type, facts))
+        world.publish(robot, eye.topic, self._shared.messages.message(eye.type, facts))
 
     def _end(self, row: int, key: Key, status: int, run: Run) -> None:
         outcome = OUTCOMES.get(status)
         if outcome is None:
             raise ModelError(key[0], f"`step` returns status {status}, which is none")
         fields: dict[str, Any] = {}
-        system = self._common.setting.system
+        system = self._shared.setting.system
         if outcome == "succeeded":
-            found = self._common.functions[key].result(row)
+            found = self._shared.functions[key].result(row)
             if isinstance(found, Finding):
                 facts = Facts(
                     self._world.clock.now, found.place, found.heading, found.id, found.distance
                 )
-                fields = self._common.messages.result(system.function(key[0]), facts)
+                fields = self._shared.messages.result(system.function(key[0]), facts)
             else:
                 fields = dict(found)
         self._ended(run, outcome, fields)

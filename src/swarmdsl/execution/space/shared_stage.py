@@ -1,4 +1,4 @@
-"""Parts that the spaces of some runs have in common."""
+"""Stage, radio links and functions that the spaces of some runs share."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Key = tuple[str, str]
 """Function and its model."""
 
 
-class Common:
+class SharedStage:
     """Stage of some runs with the same setting, radio links, and the functions in its robots."""
 
     def __init__(self, setting: Setting, seeds: Sequence[int]) -> None:
