@@ -16,7 +16,7 @@ from swarmdsl.execution.verify.verdict import INTERRUPTED
 
 @dataclass(frozen=True)
 class Search:
-    """What was looked at: a survey for each size, and the number of `left` sizes."""
+    """Surveys of the sizes that were looked at, and the number of `left` sizes."""
 
     surveys: tuple[Survey, ...]
     left: int

@@ -19,7 +19,7 @@ class Input(NamedTuple):
     name: str
     choice: Any = None
     near: tuple[int, ...] = ()
-    """How many robots are near, in the order in which the machines ask."""
+    """Numbers of robots that are near, in the order in which the machines ask."""
 
 
 Task = tuple[str, int, str | int]

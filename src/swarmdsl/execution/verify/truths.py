@@ -9,7 +9,7 @@ from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.terms import Terms, Truth
 
 _Sign = tuple[int, int, tuple[int, ...]]
-"""What a move shows: the group of the robot, its facts before, and at each moment."""
+"""Facts of a move: the group of the robot, its facts before, and at each moment."""
 
 
 class Sight:
