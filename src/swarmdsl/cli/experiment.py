@@ -15,6 +15,7 @@ import click
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.base.read_files import exists
 from swarmdsl.cli import options
+from swarmdsl.cli.engine_options import engine
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 
 if TYPE_CHECKING:
@@ -30,17 +31,7 @@ if TYPE_CHECKING:
     type=click.Path(path_type=Path),
     help="Folder for the runs and the results.  [default: NAME-results for NAME.toml]",
 )
-@click.option(
-    "--jobs",
-    type=options.Integer(1, 256),
-    metavar="J",
-    help="Number of processes.  [default: one for each processor]",
-)
-@click.option(
-    "--cluster",
-    metavar="ADDRESS",
-    help="Run on a cluster, such as one of Dask: `tcp://host:8786`.",
-)
+@engine
 @click.option("--resume", is_flag=True, help="Go on with the runs in the folder.")
 @click.option("--json", "is_json", is_flag=True, help="Print the results as JSON.")
 @options.diagnostics_format

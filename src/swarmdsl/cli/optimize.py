@@ -11,6 +11,7 @@ import click
 
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.cli import options
+from swarmdsl.cli.engine_options import engine
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 from swarmdsl.cli.simulate import parse_duration
 from swarmdsl.cli.suggestions import Choice
@@ -102,17 +103,7 @@ _MOST_SEEDS = 100_000
     metavar="SECONDS",
     help="A run that takes longer makes its candidate impossible.  [default: 60]",
 )
-@click.option(
-    "--jobs",
-    type=options.Integer(1, 256),
-    metavar="J",
-    help="Number of processes.  [default: one for each processor]",
-)
-@click.option(
-    "--cluster",
-    metavar="ADDRESS",
-    help="Run on a Dask cluster, such as `tcp://host:8786`, or on an installed kind of engine.",
-)
+@engine
 @click.option(
     "-o",
     "--output",

@@ -1,0 +1,32 @@
+"""Options of commands that run many candidates: `--jobs` and `--cluster`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import reduce
+from typing import Any, TypeVar
+
+import click
+
+from swarmdsl.cli import options
+
+_Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
+
+_OPTIONS = (
+    click.option(
+        "--jobs",
+        type=options.Integer(1, 256),
+        metavar="J",
+        help="Number of processes.  [default: one for each processor]",
+    ),
+    click.option(
+        "--cluster",
+        metavar="ADDRESS",
+        help="Run on a Dask cluster, such as `tcp://host:8786`, or on an installed kind of engine.",
+    ),
+)
+
+
+def engine(function: _Decorated) -> _Decorated:
+    """Add the options for the processes that do the runs."""
+    return reduce(lambda inner, add: add(inner), reversed(_OPTIONS), function)
