@@ -12,13 +12,14 @@ from xml.etree import ElementTree
 import pytest
 from rich.console import Console
 
-from swarmdsl.execution.engine import Machine, State
+from swarmdsl.execution.engine import Activity, Kind, Machine, State, Transition
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import SECOND, duration, format_duration
 from swarmdsl.execution.simulate.live_table import Board
 from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.execution.simulate.timeline import Timeline, nth_colour
+from swarmdsl.execution.simulate.state_colours import Meaning, nth_colour, state_colours
+from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line
 
 from .conftest import Simulate
@@ -208,23 +209,44 @@ def seen(colour: str, sight: str) -> tuple[float, float, float]:
     return 116 * b - 16, 500 * (a - b), 200 * (b - c)
 
 
+@pytest.mark.parametrize("meaning", [Meaning.WORKS, Meaning.WAITS])
 @pytest.mark.parametrize("sight", SIGHTS)
-def test_states_are_told_apart_by_their_colours(sight: str) -> None:
-    first = [seen(nth_colour(number), sight) for number in range(8)]
+def test_states_are_told_apart_by_their_colours(sight: str, meaning: Meaning) -> None:
+    first = [seen(nth_colour(number, meaning), sight) for number in range(8)]
+    least = 10 if meaning is Meaning.WORKS else 6  # pale colours are nearer to each other
 
-    assert min(math.dist(a, b) for a, b in itertools.combinations(first, 2)) > 10
+    assert min(math.dist(a, b) for a, b in itertools.combinations(first, 2)) > least
 
 
 def test_letters_can_be_read_on_all_colours() -> None:
-    colours = [nth_colour(number) for number in range(24)]
+    colours = [nth_colour(number, meaning) for meaning in Meaning for number in range(24)]
     weights = (0.2126, 0.7152, 0.0722)
 
     def brightness(colour: str) -> float:
         return sum(a * b for a, b in zip(weights, light(colour), strict=True)) + 0.05
 
-    assert len(set(colours)) == 24
+    assert len(set(colours)) == 24 + 24 + 3
     # Of WCAG 2.2, level AA.
     assert min(map(brightness, colours)) / brightness("#1f2430") > 4.5
+
+
+def test_the_colour_of_a_state_has_a_meaning() -> None:
+    """A strong colour for one with an activity, a pale one without, and grey for a final one."""
+    go = Activity("go", "go", {})
+    recall = Transition((), ("m.w",))
+    inside = (
+        State("m.w"),
+        State("m.h", Kind.HISTORY, transitions=(recall,)),
+        State("m.e", Kind.FINAL),
+    )
+    states = [State("a"), State("b", activity=go), State("m", states=inside), State("c")]
+    colours = state_colours(Machine("M", states))
+
+    assert list(colours) == ["a", "b", "m.w", "m.e", "c"]
+    assert colours["a"] == nth_colour(0, Meaning.WAITS)
+    assert colours["b"] == nth_colour(1, Meaning.WORKS) == "#ee8866"
+    assert colours["c"] == nth_colour(3, Meaning.WAITS)
+    assert colours["m.e"] == nth_colour(0, Meaning.ENDED)
 
 
 def test_names_in_a_timeline_are_text_and_nothing_else() -> None:

@@ -12,6 +12,7 @@ from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.packets import Transmission
 from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.state_colours import state_colours
 from swarmdsl.execution.simulate.svg import Drawing
 from swarmdsl.execution.simulate.trace import Line
 
@@ -25,11 +26,6 @@ _LETTER = 6.2
 _NARROWEST = 0.6
 """Minimum width of a bar; narrower ones are merged."""
 _MOST_ARROWS = 2000
-# Colour scheme "light" for areas below dark text, distinguishable by colour-blind people: Paul
-# Tol, Colour Schemes, SRON/EPS/TN/09-002, issue 3.2. Neighbours differ.
-_COLOURS = ("77aadd", "ee8866", "eedd88", "44bb99", "ffaabb", "99ddff", "bbcc33", "aaaa00")
-# Mix with this level of grey, by this share.
-_TONES = ((255, 0.0), (255, 0.55), (0, 0.12))
 _STEPS = tuple(
     SECOND * each
     for each in (
@@ -58,7 +54,7 @@ _TICKS = 12
 
 Verdicts = Mapping[str, Sequence[tuple[int, str]]]
 """Verdicts so far of properties by name, each with the time from which on it held."""
-# Green, amber and red: Paul Tol, Colour Schemes, as above.
+# Green, amber and red: Paul Tol, Colour Schemes, as for states.
 _VERDICTS = {"true": "#44bb99", "open": "#eedd88", "false": "#ee8866"}
 
 
@@ -142,12 +138,10 @@ class _Picture:
         self.robots: dict[Robot, Actor] = {}
         for actor in lines:
             self.robots.setdefault(actor.robot, actor)
-        self.colours: dict[tuple[Machine, str], str] = {}
-        for actor in lines:
-            for state in actor.machine.states[1:]:
-                if not state.states:
-                    key = (actor.machine, state.id)
-                    self.colours.setdefault(key, nth_colour(len(self.colours)))
+        self.colours = {
+            machine: state_colours(machine)
+            for machine in dict.fromkeys(actor.machine for actor in lines)
+        }
 
     def draw(self) -> str:
         drawing = Drawing(self.left + _WIDTH + 24, self.bottom + 40 + self.legend_height())
@@ -244,7 +238,7 @@ class _Picture:
         """Draw one interval in a state."""
         x, width = self.x(stay.start), self.x(stay.end) - self.x(stay.start)
         lost = stay.state == LOST
-        colour = "url(#lost)" if lost else self.colours[actor.machine, stay.state]
+        colour = "url(#lost)" if lost else self.colours[actor.machine][stay.state]
         state = "lost" if lost else stay.state
         title = f"{_name(actor)}: {state}\n{_between(stay.start, stay.end)}"
         drawing.bar(x, top, width, height, colour, title)
@@ -283,7 +277,7 @@ class _Picture:
             if state is None:
                 drawing.text(16, y + 10, machine.name, "machine")
                 continue
-            drawing.bar(x, y, 11, 11, self.colours[machine, state], state)
+            drawing.bar(x, y, 11, 11, self.colours[machine][state], state)
             drawing.text(x + 16, y + 10, state, "legend")
 
     def legend_items(self) -> list[tuple[float, float, Machine, str | None]]:
@@ -294,15 +288,14 @@ class _Picture:
             for line in lines
             for state in line.configuration
         }
-        machines = dict.fromkeys(actor.machine for actor in self.lines)
-        indent = 32 + 1.15 * _LETTER * max((len(machine.name) for machine in machines), default=0)
+        indent = 32 + 1.15 * _LETTER * max((len(of.name) for of in self.colours), default=0)
         found: list[tuple[float, float, Machine, str | None]] = []
         y = self.bottom + 32
-        for machine in machines:
+        for machine in self.colours:
             found.append((16, y, machine, None))
             x = indent
-            for of, state in self.colours:
-                if of is not machine or (of, state) not in seen:
+            for state in self.colours[machine]:
+                if (machine, state) not in seen:
                     continue
                 width = 34 + _LETTER * len(state)
                 if x + width > self.left + _WIDTH and x > indent:
@@ -319,13 +312,6 @@ class _Picture:
 
 def _name(actor: Actor) -> str:
     return actor.name or actor.machine.name
-
-
-def nth_colour(number: int) -> str:
-    """Return a colour; repeats in lighter and darker tones."""
-    parts = (int(_COLOURS[number % len(_COLOURS)][at : at + 2], 16) for at in (0, 2, 4))
-    towards, share = _TONES[number // len(_COLOURS) % len(_TONES)]
-    return "#" + "".join(f"{round(part + (towards - part) * share):02x}" for part in parts)
 
 
 def _shortened(state: str, width: float) -> str:
