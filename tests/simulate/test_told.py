@@ -17,6 +17,7 @@ from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import SECOND, duration, format_duration
 from swarmdsl.execution.simulate.live_table import Board
+from swarmdsl.execution.simulate.packets import Transmission
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.state_colours import Meaning, nth_colour, state_colours
 from swarmdsl.execution.simulate.timeline import Timeline
@@ -168,8 +169,45 @@ def test_the_timeline(simulate: Simulate) -> None:
     assert [t for t, _, _ in bars(svg) if t.startswith("uav[1]: lost")] == [
         "uav[1]: lost\n9 s to 10 s: 1 s"
     ]
-    arrows = [line for line in ElementTree.fromstring(svg).iter(f"{SVG}line") if line[:]]
-    assert [arrow[0].text for arrow in arrows] == ["Found: uav[0] -> uav[1], 6 s"]
+    root = ElementTree.fromstring(svg)
+    titles = [line.findtext(f"{SVG}title") or "" for line in root.iter(f"{SVG}line")]
+    assert [title for title in titles if "uav" in title] == ["Found: uav[0] -> uav[1], 6 s"]
+    assert root.findtext(f"{SVG}desc") == "scenario scenario.toml, seed 0"
+    words = [text.text for text in root.iter(f"{SVG}text")]
+    assert "scenario scenario.toml, seed 0, 10 s, 2 members" in words
+    legend = words[words.index("works") :]
+    assert legend[:3] == ["works", "waits", "lost member"]
+    assert legend[legend.index("Work") + 1] == "Wait"
+
+
+def test_many_arrows_are_bundled() -> None:
+    """One line with a mark for each receiver and fate, and the numbers in its tooltip."""
+    robots = [Robot(f"r[{number}]") for number in range(3)]
+    cast = [Actor(each.name, each, Machine("M", [State("a")])) for each in robots]
+    timeline = Timeline("M", cast)
+    for actor in cast:
+        timeline.note(Line(0, actor, None, ["a"]))
+    first, second, third = robots
+    for number in range(276):
+        sent = 50 * SECOND + number * SECOND // 1000
+        for target in (second, third):
+            arrives = number % 3 > 0 or target is second
+            timeline.transmitted(Transmission("Offer", first, target, sent, sent + 1, arrives))
+        timeline.note(Line(sent + 1, cast[1], "Offer", ["a"], ignored=True))
+    timeline.transmitted(Transmission("Far", third, first, 0, 40 * SECOND, arrives=False))
+    root = ElementTree.fromstring(timeline.svg(100 * SECOND))
+
+    (comb,) = (g for g in root.iter(f"{SVG}g") if g.get("class") == "comb" and len(g) > 3)
+    assert (comb[0].text or "").split("\n") == [
+        "552 swarm events of r[0], 50 s to 50.27 s",
+        "Offer -> r[1] \N{MULTIPLICATION SIGN}276, ignored",
+        "Offer -> r[2] \N{MULTIPLICATION SIGN}92, lost",
+        "Offer -> r[2] \N{MULTIPLICATION SIGN}184",
+    ]
+    marks = [path.get("class") for path in comb.iter(f"{SVG}path")]
+    assert marks == ["spine", "ring", "head", "cross"]
+    titles = [line.findtext(f"{SVG}title") for line in root.iter(f"{SVG}line")]
+    assert "Far: r[2] -> r[0], 0 ms, lost" in titles
 
 
 # What people see of red, green and blue who lack the receptors for red, or for green: Machado,

@@ -124,9 +124,7 @@ class _Play:
             subject.heartbeat,
             prepared.spaces.alone(self._seed),
         )
-        self._outputs = Outputs(
-            request, subject, cast, self._world, self._listeners, is_flat=prepared.spaces.is_flat
-        )
+        self._outputs = Outputs(request, prepared, cast, self._world, self._listeners, self._seed)
 
     def replay(self, tell: Tell) -> bool:
         """Compare each trace with the model; return True if all conform."""

@@ -21,10 +21,10 @@ def histograms(estimates: Estimates) -> str:
     values = [each for each in estimates.values if each.by_seed]
     each_height = _HEAD + _HEIGHT + _FOOT
     height = max(len(values), 1) * each_height + _MARGIN
-    drawing = Drawing(_WIDTH + 2 * _MARGIN, height)
+    drawing = Drawing(_WIDTH + 2 * _MARGIN, "Measures of many runs")
     for number, value in enumerate(values):
         _draw(drawing, value, number * each_height + _MARGIN)
-    return drawing.finish()
+    return drawing.finish(height)
 
 
 def bars(values: Sequence[float]) -> tuple[float, list[int]]:

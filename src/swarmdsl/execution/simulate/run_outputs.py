@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import TextIO
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.monitor import Verdict
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.moved_lines import MovedLines
-from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Request
+from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Prepared, Request
 from swarmdsl.execution.simulate.space import NoPictureError
-from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line, as_json, as_text
 from swarmdsl.execution.simulate.world import World
@@ -28,21 +28,23 @@ class Outputs:
     def __init__(
         self,
         request: Request,
-        subject: Subject,
+        prepared: Prepared,
         cast: Sequence[Actor],
         world: World,
         listeners: list[Callable[[Line], None]],
-        *,
-        is_flat: bool,
+        seed: int,
     ) -> None:
         self.written: list[Path] = []
         """Files that have been opened."""
         self._request = request
-        self._subject = subject
+        self._subject = prepared.subject
         self._cast = cast
         self._world = world
         self._listeners = listeners
-        self._is_flat = is_flat
+        self._is_flat = prepared.spaces.is_flat
+        scenario = request.scenario
+        of = f"scenario {printable(scenario.name)}, " if scenario is not None else ""
+        self._conditions = f"{of}seed {seed}"
 
     def trace(self, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         """Return the stream for the trace."""
@@ -67,7 +69,7 @@ class Outputs:
         stream = self.write_to(self._request.timeline, stack, report)
         if stream is None:
             return None
-        timeline = Timeline(self._subject.name, self._cast)
+        timeline = Timeline(self._subject.name, self._cast, self._conditions)
         self._listeners.append(timeline.note)
         self._world.network.transmitted = timeline.transmitted
         return lambda remarks: stream.write(timeline.svg(self._world.clock.now, history, remarks))

@@ -13,7 +13,9 @@ from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.packets import Transmission
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.state_colours import state_colours
-from swarmdsl.execution.simulate.svg import Drawing
+from swarmdsl.execution.simulate.svg import LETTER, Drawing
+from swarmdsl.execution.simulate.timeline_arrows import Crossing, Fate, Scale, draw_arrows
+from swarmdsl.execution.simulate.timeline_legend import HATCHED, MERGED, Legend, Shown
 from swarmdsl.execution.simulate.trace import Line
 
 _WIDTH = 1200
@@ -21,11 +23,8 @@ _WIDTH = 1200
 _ROW = 18
 _GAP = 6
 _TOP = 78
-_LETTER = 6.2
-"""Average width of a letter."""
 _NARROWEST = 0.6
 """Minimum width of a bar; narrower ones are merged."""
-_MOST_ARROWS = 2000
 _STEPS = tuple(
     SECOND * each
     for each in (
@@ -52,6 +51,8 @@ _STEPS = tuple(
 _TICKS = 12
 
 
+_Arrival = tuple[str, Robot, int]
+"""Event, receiver and time."""
 Verdicts = Mapping[str, Sequence[tuple[int, str]]]
 """Verdicts so far of properties by name, each with the time from which on it held."""
 # Green, amber and red: Paul Tol, Colour Schemes, as for states.
@@ -61,13 +62,19 @@ _VERDICTS = {"true": "#44bb99", "open": "#eedd88", "false": "#ee8866"}
 class Timeline:
     """Collect the data of the timeline."""
 
-    def __init__(self, title: str, cast: Iterable[Actor]) -> None:
+    def __init__(self, title: str, cast: Iterable[Actor], conditions: str = "") -> None:
         self._title = title
+        self._conditions = conditions
         self._lines: dict[Actor, list[Line]] = {actor: [] for actor in cast}
         self._transmissions: list[Transmission] = []
+        self._ignored: set[_Arrival] = set()
+        self._heeded: set[_Arrival] = set()
 
     def note(self, line: Line) -> None:
-        """Keep a line that changes the configuration."""
+        """Keep a line that changes the configuration, and the fate of its event."""
+        if line.event is not None:
+            fates = self._ignored if line.ignored else self._heeded
+            fates.add((line.event, line.actor.robot, line.time))
         lines = self._lines[line.actor]
         if not lines or line.event == LOST or line.configuration != lines[-1].configuration:
             lines.append(line)
@@ -87,13 +94,21 @@ class Timeline:
         `remarks` by property explain verdicts at the end.
         """
         return _Picture(
-            self._title,
+            (self._title, self._conditions),
             self._lines,
-            self._transmissions,
+            [Crossing(each, self._fate(each)) for each in self._transmissions],
             max(end, 1),
             verdicts or {},
             remarks or {},
         ).draw()
+
+    def _fate(self, sent: Transmission) -> Fate:
+        """Return the fate of an event; it is ignored if all machines of the receiver ignore it."""
+        if not sent.arrives:
+            return Fate.LOST
+        arrival = (sent.event, sent.target, sent.due)
+        ignored = arrival in self._ignored and arrival not in self._heeded
+        return Fate.IGNORED if ignored else Fate.TAKEN
 
 
 class _Stay(NamedTuple):
@@ -107,21 +122,23 @@ class _Stay(NamedTuple):
 class _Picture:
     def __init__(
         self,
-        title: str,
+        titles: tuple[str, str],
         lines: dict[Actor, list[Line]],
-        transmissions: list[Transmission],
+        crossings: list[Crossing],
         end: int,
         verdicts: Verdicts,
         remarks: Mapping[str, str],
     ) -> None:
         self.verdicts = verdicts
         self.remarks = remarks
-        self.title = title
+        self.title, self.conditions = titles
         self.lines = lines
-        self.transmissions = transmissions
+        self.crossings = crossings
+        self.labels: list[tuple[float, float, str]] = []
+        self.is_merged = False
         self.end = end
         names = [*map(_name, lines), *verdicts]
-        self.left = 32 + 1.15 * _LETTER * max(map(len, names), default=0)
+        self.left = 32 + 1.15 * LETTER * max(map(len, names), default=0)
         self.rows = {
             actor: max((len(line.configuration) for line in of), default=1) or 1
             for actor, of in lines.items()
@@ -144,23 +161,36 @@ class _Picture:
         }
 
     def draw(self) -> str:
-        drawing = Drawing(self.left + _WIDTH + 24, self.bottom + 40 + self.legend_height())
+        drawing = Drawing(self.left + _WIDTH + 24, self.title, self.conditions)
         drawing.text(16, 26, self.title, "title")
-        words = [format_duration(self.end)]
+        words = [self.conditions] if self.conditions else []
+        words.append(format_duration(self.end))
         if len(self.robots) > 1:
             words.append(f"{len(self.robots)} members")
-        if self.transmissions:
-            words.append("arrows are swarm events, crosses are lost ones")
-        if len(self.transmissions) > _MOST_ARROWS:
-            words.append(f"the first {_MOST_ARROWS} of {len(self.transmissions)} are drawn")
         drawing.text(16, 44, ", ".join(words), "note")
         self.axis(drawing)
         for actor in self.lines:
             self.lane(drawing, actor)
         self.property_lanes(drawing)
-        self.arrows(drawing)
-        self.legend(drawing)
-        return drawing.finish()
+        edges = {
+            robot: (self.tops[actor], self.tops[actor] + self.rows[actor] * _ROW)
+            for robot, actor in self.robots.items()
+        }
+        bundled = draw_arrows(drawing, self.crossings, Scale(self.x, self.end, edges))
+        for x, y, label in self.labels:
+            drawing.text(x, y, label, "state")
+        legend = Legend(self.shown(bundled), self.left + _WIDTH, self.bottom + 32)
+        legend.draw(drawing)
+        return drawing.finish(legend.bottom + 12)
+
+    def shown(self, bundled: bool) -> Shown:
+        """Return the contents for the legend."""
+        entered: dict[Machine, set[str]] = {machine: set() for machine in self.colours}
+        for actor, lines in self.lines.items():
+            entered[actor.machine].update(*(line.configuration for line in lines))
+        lost = any(line.event == LOST for of in self.lines.values() for line in of)
+        fates = {each.fate for each in self.crossings}
+        return Shown(entered, self.colours, fates, bundled, lost, self.is_merged)
 
     def x(self, time: float) -> float:
         return self.left + _WIDTH * time / self.end
@@ -211,9 +241,9 @@ class _Picture:
                 said = f"{verdict}, but {remark}" if remark else verdict
                 title = f"{name}: {said}\n{_between(start, end)}"
                 drawing.bar(self.x(start), top, width, _ROW, _VERDICTS[verdict], title)
-                label = next((t for t in (said, verdict) if width > _LETTER * (len(t) + 1)), "")
+                label = next((t for t in (said, verdict) if width > LETTER * (len(t) + 1)), "")
                 if label:
-                    drawing.text(self.x(start) + 4, top + _ROW / 2 + 4, label, "state")
+                    self.labels.append((self.x(start) + 4, top + _ROW / 2 + 4, label))
             top += _ROW + 2
 
     def stays(self, actor: Actor) -> dict[tuple[int, int], list[_Stay]]:
@@ -238,76 +268,21 @@ class _Picture:
         """Draw one interval in a state."""
         x, width = self.x(stay.start), self.x(stay.end) - self.x(stay.start)
         lost = stay.state == LOST
-        colour = "url(#lost)" if lost else self.colours[actor.machine][stay.state]
+        colour = HATCHED if lost else self.colours[actor.machine][stay.state]
         state = "lost" if lost else stay.state
         title = f"{_name(actor)}: {state}\n{_between(stay.start, stay.end)}"
         drawing.bar(x, top, width, height, colour, title)
         label = _shortened(state, width - 6)
         if label:
-            drawing.text(x + 4, top + height / 2 + 4, label, "state")
+            self.labels.append((x + 4, top + height / 2 + 4, label))
 
     def blur(self, drawing: Drawing, stays: list[_Stay], top: float, height: float) -> None:
         """Draw several intervals that are too short to see."""
+        self.is_merged = True
         start, end = stays[0].start, stays[-1].end
         title = f"{len(stays)} short stays\n{_between(start, end)}"
         width = max(self.x(end) - self.x(start), _NARROWEST)
-        drawing.bar(self.x(start), top, width, height, "#8a8f98", title)
-
-    def arrows(self, drawing: Drawing) -> None:
-        """Draw swarm events between robots."""
-        for each in self.transmissions[:_MOST_ARROWS]:
-            if each.source not in self.robots or each.target not in self.robots:
-                continue
-            source, target = self.robots[each.source], self.robots[each.target]
-            down = self.tops[target] > self.tops[source]
-            start = self.tops[source] + (self.rows[source] * _ROW if down else 0)
-            end = self.tops[target] + (0 if down else self.rows[target] * _ROW)
-            time = format_duration(each.sent)
-            address = f" to {each.to}" if each.to is not None else ""
-            words = f"{each.event}{address}: {each.source.name} -> {each.target.name}, {time}"
-            x, to = self.x(each.sent), self.x(min(each.due, self.end))
-            if each.arrives:
-                drawing.arrow(x, start, to, end, words)
-            else:
-                drawing.lost(x, start, to, end, f"{words}, lost")
-
-    def legend(self, drawing: Drawing) -> None:
-        """Draw the legend, at least one line per machine."""
-        for x, y, machine, state in self.legend_items():
-            if state is None:
-                drawing.text(16, y + 10, machine.name, "machine")
-                continue
-            drawing.bar(x, y, 11, 11, self.colours[machine][state], state)
-            drawing.text(x + 16, y + 10, state, "legend")
-
-    def legend_items(self) -> list[tuple[float, float, Machine, str | None]]:
-        """Lay out the legend: machines and their entered states."""
-        seen = {
-            (actor.machine, state)
-            for actor, lines in self.lines.items()
-            for line in lines
-            for state in line.configuration
-        }
-        indent = 32 + 1.15 * _LETTER * max((len(of.name) for of in self.colours), default=0)
-        found: list[tuple[float, float, Machine, str | None]] = []
-        y = self.bottom + 32
-        for machine in self.colours:
-            found.append((16, y, machine, None))
-            x = indent
-            for state in self.colours[machine]:
-                if (machine, state) not in seen:
-                    continue
-                width = 34 + _LETTER * len(state)
-                if x + width > self.left + _WIDTH and x > indent:
-                    x, y = indent, y + _ROW
-                found.append((x, y, machine, state))
-                x += width
-            y += _ROW + 4
-        return found
-
-    def legend_height(self) -> float:
-        items = self.legend_items()
-        return items[-1][1] - self.bottom if items else 0.0
+        drawing.bar(self.x(start), top, width, height, MERGED, title)
 
 
 def _name(actor: Actor) -> str:
@@ -316,7 +291,7 @@ def _name(actor: Actor) -> str:
 
 def _shortened(state: str, width: float) -> str:
     """Shorten a name to fit: the whole, its last segment, or its first letters."""
-    room = int(width / _LETTER)
+    room = int(width / LETTER)
     last = state.rpartition(".")[2]
     if len(last) <= room:
         return last
