@@ -1,4 +1,4 @@
-"""Options of commands that run many candidates: `--jobs` and `--cluster`."""
+"""Options of commands that run many candidates: `--jobs`, `--cluster` and `--limit`."""
 
 from __future__ import annotations
 
@@ -24,9 +24,15 @@ _OPTIONS = (
         metavar="ADDRESS",
         help="Run on a Dask cluster, such as `tcp://host:8786`, or on an installed kind of engine.",
     ),
+    click.option(
+        "--limit",
+        type=options.Number(0, 86400, min_open=True),
+        metavar="SECONDS",
+        help="A run that takes longer has no result.  [default: 60]",
+    ),
 )
 
 
 def engine(function: _Decorated) -> _Decorated:
-    """Add the options for the processes that do the runs."""
+    """Add the options for the processes that do the runs, and for how long these may take."""
     return reduce(lambda inner, add: add(inner), reversed(_OPTIONS), function)

@@ -41,6 +41,7 @@ def experiment(
     output: Path | None,
     jobs: int | None,
     cluster: str | None,
+    limit: float | None,
     resume: bool,
     is_json: bool,
     format_: str,
@@ -58,7 +59,7 @@ def experiment(
     is_document = format_ in DOCUMENTS
     if is_document and is_json:
         raise click.UsageError(f"`--format {format_}` and `--json` both print")
-    request = Request(file, output, jobs or os.cpu_count() or 1, cluster, resume, is_json)
+    request = Request(file, output, jobs or os.cpu_count() or 1, cluster, resume, is_json, limit)
     found: list[Diagnostic] = []
     with ExitStack() as stack:
         succeeded = run_study(

@@ -97,12 +97,6 @@ _MOST_SEEDS = 100_000
     type=Choice(("abstract", "flat", "physics")),
     help="Space of the runs, as for `swarmc simulate`.",
 )
-@click.option(
-    "--limit",
-    type=options.Number(0, 86400, min_open=True),
-    metavar="SECONDS",
-    help="A run that takes longer makes its candidate impossible.  [default: 60]",
-)
 @engine
 @click.option(
     "-o",
@@ -135,9 +129,9 @@ def optimize(
     seed: int | None,
     until: int | None,
     world: str | None,
-    limit: float | None,
     jobs: int | None,
     cluster: str | None,
+    limit: float | None,
     output: Path | None,
     resume: bool,
     apply: bool,

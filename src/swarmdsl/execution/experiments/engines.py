@@ -71,16 +71,19 @@ class Engine:
         executor.shutdown(wait=True, cancel_futures=True)
 
 
-def local(jobs: int) -> Engine:
-    """Return the engine with processes of this computer; one job is this process."""
-    if jobs == 1:
+def local(jobs: int, *, is_apart: bool = False) -> Engine:
+    """Return the engine with processes of this computer; one job is this process.
+
+    With `is_apart`, nothing runs in this process: runs may end theirs.
+    """
+    if jobs == 1 and not is_apart:
         return Engine("this process", Inline, 1)
     # Processes that are not copies of this one are the same on each platform.
     return Engine(
-        f"{jobs} processes",
+        f"{jobs} processes" if jobs > 1 else "1 process",
         lambda: ProcessPoolExecutor(jobs, get_context("spawn"), _begin_worker),
         jobs,
-        is_slow=True,
+        is_slow=not is_apart,
     )
 
 

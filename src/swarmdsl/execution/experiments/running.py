@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -11,17 +11,19 @@ from concurrent.futures import (
     Future,
     wait,
 )
-from typing import Any, NamedTuple
+from contextlib import suppress
+from typing import Any
 
 from swarmdsl.base.errors import describe_exception
 from swarmdsl.base.records import replace
-from swarmdsl.execution.experiments.blocks import Pace, cut
+from swarmdsl.execution.experiments.blocks import Pace
 from swarmdsl.execution.experiments.engines import Engine
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.shipment import Shipment
 from swarmdsl.execution.experiments.store import Key, Store
 from swarmdsl.execution.experiments.task import Row, Task, row_of
-from swarmdsl.execution.experiments.worker import work
+from swarmdsl.execution.experiments.waiting import Block, Waiting
+from swarmdsl.execution.experiments.worker import LIMIT, failed, work
 
 _MOST_LOSSES = 3
 """Losses of workers, one after the other without a result between, before the runs end."""
@@ -37,13 +39,6 @@ class Progress:
 
     def add(self, rows: Sequence[Row]) -> None:
         """Note new rows, in the order in which they come."""
-
-
-class _Block(NamedTuple):
-    """A part of a task, by the number of this."""
-
-    number: int
-    seeds: list[int]
 
 
 class Runs:
@@ -89,7 +84,7 @@ class Runs:
             replace(task, seeds=tuple(seed for seed in task.seeds if seed not in rows))
             for task, rows in zip(whole, found.values(), strict=True)
         ]
-        for task, rows in self._work(missing, total - known):
+        for task, rows in self._work(missing):
             found[replace(task, seeds=())].update((row.seed, row) for row in rows)
         return [[found[replace(task, seeds=())][seed] for seed in task.seeds] for task in tasks]
 
@@ -98,35 +93,30 @@ class Runs:
         found = [self._store.rows(task, self._key(task)) for task in tasks]
         return [[rows[seed] for seed in sorted(rows)] for rows in found]
 
-    def _work(self, tasks: Sequence[Task], total: int) -> Iterator[tuple[Task, list[Row]]]:
+    def _work(self, tasks: Sequence[Task]) -> Iterator[tuple[Task, list[Row]]]:
         """Yield rows as workers bring them."""
-        waiting = deque(
-            _Block(number, list(task.seeds)) for number, task in enumerate(tasks) if task.seeds
-        )
-        if not waiting:
-            return
-        again: deque[_Block] = deque()
-        running: dict[Future[Any], _Block] = {}
         workers = self._engine.workers
-        left, losses = total, 0
-        while waiting or again or running:
-            ahead = 0 if self._is_beginning else _AHEAD
-            while (waiting or again) and len(running) < workers * (1 + ahead):
-                block = again.popleft() if again else self._next(tasks, waiting, left, workers)
-                left -= len(block.seeds)
+        waiting = Waiting(tasks, self._pace, workers)
+        running: dict[Future[Any], Block] = {}
+        losses = 0
+        while waiting or running:
+            most = workers * (1 if self._is_beginning else 1 + _AHEAD)
+            while block := waiting.next(len(running), most):
                 try:
                     running[self._submit(tasks[block.number], block.seeds)] = block
                 except BrokenExecutor:
-                    again.appendleft(block)
+                    waiting.put_back([block])
                     break
             # Workers take a while to begin; first results are here sooner.
-            while self._is_beginning and waiting and not any(each.done() for each in running):
-                block = self._next(tasks, waiting, left, workers)
-                left -= len(block.seeds)
+            while self._is_beginning and not any(each.done() for each in running):
+                block = waiting.next(0, 1)
+                if block is None:
+                    break
                 task = tasks[block.number]
                 yield task, self._rows(task, work(*self._work_of(task, block.seeds)))
             self._is_beginning = False
             done, _ = wait(running, return_when=FIRST_COMPLETED)
+            lost: list[Block] = []
             is_lost = not running
             for future in sorted(done, key=lambda each: running[each]):
                 block = running.pop(future)
@@ -134,34 +124,43 @@ class Runs:
                 try:
                     answer = future.result()
                 except (BrokenExecutor, CancelledError):
-                    again.append(block)
-                    is_lost = True
+                    lost.append(block)
                     continue
                 # Of the executor: a task that was given to lost workers too often, for instance.
                 except Exception as error:
-                    again.append(block)
+                    waiting.put_back([block])
                     losses = self._lose(losses, describe_exception("a task", error))
                     continue
                 losses = 0
                 yield task, self._rows(task, answer)
-            if is_lost:
-                again.extend(running.values())
+            if lost or is_lost:
+                blamed = waiting.lost([*lost, *running.values()])
                 running.clear()
-                losses = self._lose(losses, "a process ended by itself")
-                self._engine.stop(is_hurried=True)
+                self._renew()
+                if blamed is not None:
+                    task = tasks[blamed.number]
+                    yield task, self._rows(task, self._ended(blamed.seeds))
 
-    def _next(
-        self, tasks: Sequence[Task], waiting: deque[_Block], left: int, workers: int
-    ) -> _Block:
-        """Cut the next block; at the end, each worker gets a share."""
-        number, seeds = waiting.popleft()
-        share = max(left // (workers * 2), 1)
-        task = tasks[number]
-        size = self._pace.size(f"{task.digest} {task.scenario}")
-        first, rest = cut(seeds, min(size, share) if len(waiting) == 0 else size)
-        if rest:
-            waiting.appendleft(_Block(number, rest))
-        return _Block(number, first)
+    def _renew(self) -> None:
+        """Start the workers again. Raises StoppedError if they end without a run too."""
+        losses = 0
+        while True:
+            losses = self._lose(losses, "a process ended by itself")
+            self._engine.stop(is_hurried=True)
+            with suppress(BrokenExecutor, CancelledError):
+                self._engine.executor.submit(os.getpid).result()
+                return
+
+    def _ended(self, seeds: Sequence[int]) -> dict[str, Any]:
+        """Return the answer of a worker about runs that end it."""
+        limit = self._limit if self._limit is not None else LIMIT
+        reason = f"its process ends, or it does not return within {limit:g} s"
+        return {
+            "rows": [failed(seed, reason) for seed in seeds],
+            "seconds": 0.0,
+            "batch": 1,
+            "worker": "",
+        }
 
     def _submit(self, task: Task, seeds: Sequence[int]) -> Future[Any]:
         return self._engine.executor.submit(work, *self._work_of(task, seeds))
@@ -172,6 +171,7 @@ class Runs:
             "scenario": task.scenario,
             "candidate": task.candidate.values,
             "seeds": list(seeds),
+            "main": os.getpid(),
         }
         if self._limit is not None:
             data["limit"] = self._limit

@@ -22,6 +22,8 @@ from swarmdsl.project.loader import Project
 from swarmdsl.project.read_source import read_source
 
 _MANIFEST = "package.xml"
+_IN_C = "physics"
+"""Kind of a world whose library is no Python."""
 
 
 @dataclass(frozen=True)
@@ -79,6 +81,12 @@ class Shipment:
         models = {name: list(each) for name, each in self.models.items()}
         parts = [self.version, dict(self.texts), self.paths, self.swarm, self.name, self.libraries]
         return _digest([*parts, models, self.conditions.as_data()])
+
+    @property
+    def may_crash(self) -> bool:
+        """True if runs may end their process: by code of the project, or of a library in C."""
+        given = (self.conditions.world or "", *self.scenarios.values())
+        return bool(self.models) or any(_IN_C in text for text in given)
 
     def scenario_digest(self, name: str) -> str:
         """Return the digest of a scenario, empty for none."""

@@ -29,7 +29,7 @@ from swarmdsl.driver.config.toml import Document, parse_toml
 from swarmdsl.execution.experiments.settings import EMPTY, apply_candidate
 from swarmdsl.execution.experiments.shipment import Shipment, shipment_of
 from swarmdsl.execution.experiments.task import NO_SCENARIO, Candidate, canonical
-from swarmdsl.execution.experiments.time_limit import OverdueError, limited
+from swarmdsl.execution.experiments.time_limit import OverdueError, deadly, limited
 from swarmdsl.execution.simulate.choose_space import choose_space
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.simulate.measures import inputs_of
@@ -48,14 +48,17 @@ _T = TypeVar("_T")
 def work(shipment: Mapping[str, Any], task: Mapping[str, Any]) -> dict[str, Any]:
     """Run a task; return its rows as JSON types, or why this process refuses it.
 
-    `task` has a `scenario`, a `candidate`, `seeds`, and perhaps the `limit` of a run in seconds.
+    `task` has a `scenario`, a `candidate`, `seeds`, the process that asks (`main`), and perhaps the
+    `limit` of a run in seconds.
     """
     if shipment["version"] != __version__:
         return {"refused": f"it has swarmdsl {__version__}, not {shipment['version']}"}
     # A worker of a cluster may have several threads.
     with _lock:
         begin = time.perf_counter()
-        rows, batch = _rows(shipment, task)
+        # A process of the user does not end for a run.
+        with deadly(os.getpid() != task["main"]):
+            rows, batch = _rows(shipment, task)
         seconds = time.perf_counter() - begin
     return {"rows": rows, "seconds": seconds, "batch": batch, "worker": os.getpid()}
 
@@ -116,12 +119,12 @@ def _rows(shipment: Mapping[str, Any], task: Mapping[str, Any]) -> tuple[list[An
             runner = _runner(shipment, task)
         outcomes = _outcomes(runner, seeds, limit)
     except _Unfit as unfit:
-        return [_failed(seed, str(unfit)) for seed in seeds], 1
+        return [failed(seed, str(unfit)) for seed in seeds], 1
     except OverdueError:
-        return [_failed(seed, "it takes too long to begin") for seed in seeds], 1
+        return [failed(seed, "it takes too long to begin") for seed in seeds], 1
     except Exception as error:
         reason = describe_exception("the beginning of a run", error)
-        return [_failed(seed, reason) for seed in seeds], 1
+        return [failed(seed, reason) for seed in seeds], 1
     batch = runner.batch if runner.is_together else 1
     return [_row(runner, each) for each in outcomes], batch
 
@@ -176,7 +179,7 @@ def _outcome(runner: Runner, seed: int, limit: float) -> Outcome:
 def _row(runner: Runner, outcome: Outcome) -> dict[str, Any]:
     """Return the data of `Row.as_data`."""
     if outcome.failure:
-        return _failed(outcome.seed, outcome.failure)
+        return failed(outcome.seed, outcome.failure)
     inputs = inputs_of(runner.fitness)
     measures: dict[str, float | None] = {}
     for each, (value, _) in zip(inputs, outcome.measures, strict=True):
@@ -197,7 +200,8 @@ def _row(runner: Runner, outcome: Outcome) -> dict[str, Any]:
     return found
 
 
-def _failed(seed: int, failure: str) -> dict[str, Any]:
+def failed(seed: int, failure: str) -> dict[str, Any]:
+    """Return the data of a run without a result."""
     return {"seed": seed, "measures": {}, "fitness": None, "verdicts": {}, "failure": failure}
 
 

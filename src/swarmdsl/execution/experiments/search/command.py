@@ -125,7 +125,7 @@ def _search(request: Request, problem: _Problem, searches: list[Search], stack: 
     About({digest: problem.subject.name}, goal=plan.aim.goal).write(folder)
     history = stack.enter_context(write_stream(folder / HISTORY))
     stream = stack.enter_context(write_stream(request.feed)) if request.feed is not None else None
-    engine = stack.enter_context(_engine(request))
+    engine = stack.enter_context(_engine(request, problem.shipment))
 
     def best() -> str:
         found = searches[0].best if searches else None
@@ -149,8 +149,10 @@ def _search(request: Request, problem: _Problem, searches: list[Search], stack: 
     return found
 
 
-def _engine(request: Request) -> Engine:
-    return cluster(request.cluster) if request.cluster is not None else local(request.jobs)
+def _engine(request: Request, shipment: Shipment) -> Engine:
+    if request.cluster is not None:
+        return cluster(request.cluster)
+    return local(request.jobs, is_apart=shipment.may_crash)
 
 
 def _conclude(request: Request, problem: _Problem, found: Found, report: Diagnostics) -> None:

@@ -26,10 +26,12 @@ from swarmdsl.execution.experiments.study.plan import FITNESS, Study
 from swarmdsl.execution.experiments.study.study_file import read_study
 from swarmdsl.execution.experiments.study.tables import answers, conditions, grids
 from swarmdsl.execution.experiments.study.worst import Played, worst_of
-from swarmdsl.execution.experiments.task import Row, Task
+from swarmdsl.execution.experiments.task import SCENARIO, Row, Task
 from swarmdsl.execution.simulate.summary import format_table
 
 Tell = Callable[[Diagnostics], None]
+_WORLD = f"{SCENARIO}world.kind"
+"""Factor that may have worlds with a library in C."""
 _RESULTS, _REPORT, _RUNS = "results.json", "report.html", "runs"
 
 
@@ -43,6 +45,7 @@ class Request:
     address: str | None = None
     resume: bool = False
     as_json: bool = False
+    limit: float | None = None
 
     @property
     def folder(self) -> Path:
@@ -60,7 +63,7 @@ def run_study(request: Request, open_model: OpenModel, out: TextIO, tell: Tell) 
         return False
     report = Diagnostics()
     try:
-        engine = cluster(request.address) if request.address is not None else local(request.jobs)
+        engine = _engine(request, study, setting)
         done = _run(request, study, setting, engine)
     except StoppedError as stopped:
         stopped.report(report)
@@ -79,6 +82,15 @@ def run_study(request: Request, open_model: OpenModel, out: TextIO, tell: Tell) 
             out.write(f"{line}\n")
         out.write(f"written: {', '.join(map(str, written))}\n")
     return None if done.interrupted else not report.has_errors
+
+
+def _engine(request: Request, study: Study, setting: Setting) -> Engine:
+    if request.address is not None:
+        return cluster(request.address)
+    is_apart = any(each.shipment.may_crash for each in setting.models) or any(
+        each.name == _WORLD for each in study.factors
+    )
+    return local(request.jobs, is_apart=is_apart)
 
 
 @dataclass(frozen=True)
@@ -102,7 +114,7 @@ def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _D
         About(models, study.measure or FITNESS, goal_of(setting)).write(request.folder)
         stack.enter_context(engine)
         bar = stack.enter_context(shown(len(tasks) * study.repetitions, engine.name, str))
-        runs = Runs(shipments, engine, store, bar)
+        runs = Runs(shipments, engine, store, bar, request.limit)
         try:
             return _Done(dict(zip(tasks, runs.run(tasks), strict=True)), runs.ran, False)
         except KeyboardInterrupt:
