@@ -71,6 +71,18 @@ def test_the_winner_is_written_into_the_model(
     assert "`scenario.toml` says `count.robot` itself" in said
     assert (tmp_path / "model.swarm").read_text(encoding="utf-8") == before
 
+    # So would a value of its type, but not that of one robot, which runs of the search had too.
+    words = [*write(tmp_path, optimize), "--jobs", "1", "--apply"]
+    with Path("scenario.toml").open("a", encoding="utf-8") as file:
+        file.write('[params]\n"robot[0]".patience = "9 s"\nRobot.patience = "9 s"\n')
+    assert run(words) == 1
+    said = capsys.readouterr().err
+    assert "`scenario.toml` says `params.Robot.patience` itself" in said
+    text = Path("scenario.toml").read_text(encoding="utf-8")
+    Path("scenario.toml").write_text(text.replace('Robot.patience = "9 s"\n', ""), "utf-8")
+    assert run(words) == 0
+    capsys.readouterr()
+
     own = MODEL.replace("robot : Robot[1..6];", "robot : Robot[1..6]; robot[0] { patience = 9 s };")
     assert run([*write(tmp_path, optimize, own), "--jobs", "1", "--apply"]) == 1
     said = capsys.readouterr().err

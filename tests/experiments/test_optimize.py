@@ -192,6 +192,8 @@ def test_properties_are_kept_or_there_is_no_winner(
         (["--format", "sarif", "--json"], "both print"),
         (["--cluster", "moon"], "error[SW1803]"),
         (["--scenario", "none.toml"], "error[SW0001]"),
+        (["--scenario", "odd.toml"], "--> odd.toml:1:9"),
+        (["--scenario", "bad.toml"], "--> bad.toml:2:1"),
     ],
 )
 def test_what_makes_no_sense_is_reported(
@@ -203,6 +205,8 @@ def test_what_makes_no_sense_is_reported(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     write(tmp_path)
+    Path("odd.toml").write_text("until = = 3", encoding="utf-8")
+    Path("bad.toml").write_text("[network]\nlos = 3", encoding="utf-8")
 
     assert run(["optimize", "model.swarm", *arguments]) in (1, 2)
     assert said in capsys.readouterr().err

@@ -1,9 +1,10 @@
-"""Options of commands that run many candidates: `--jobs`, `--cluster` and `--limit`."""
+"""Options of commands that run many candidates: what does the runs, and what is printed."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import reduce
+from pathlib import Path
 from typing import Any, TypeVar
 
 import click
@@ -30,9 +31,16 @@ _OPTIONS = (
         metavar="SECONDS",
         help="A run that takes longer has no result.  [default: 60]",
     ),
+    click.option(
+        "--feed",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Write what happens to a file while it happens, as JSON lines.",
+    ),
+    click.option("--json", "is_json", is_flag=True, help="Print the result as JSON."),
 )
 
 
 def engine(function: _Decorated) -> _Decorated:
-    """Add the options for the processes that do the runs, and for how long these may take."""
+    """Add the options for the processes that do the runs, and for what is told of them."""
     return reduce(lambda inner, add: add(inner), reversed(_OPTIONS), function)

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 )
 @engine
 @click.option("--resume", is_flag=True, help="Go on with the runs in the folder.")
-@click.option("--json", "is_json", is_flag=True, help="Print the results as JSON.")
 @options.diagnostics_format
 @options.debug
 def experiment(
@@ -42,6 +41,7 @@ def experiment(
     jobs: int | None,
     cluster: str | None,
     limit: float | None,
+    feed: Path | None,
     resume: bool,
     is_json: bool,
     format_: str,
@@ -59,7 +59,10 @@ def experiment(
     is_document = format_ in DOCUMENTS
     if is_document and is_json:
         raise click.UsageError(f"`--format {format_}` and `--json` both print")
-    request = Request(file, output, jobs or os.cpu_count() or 1, cluster, resume, is_json, limit)
+    options.check_outputs({"--feed": feed}, (file,))
+    request = Request(
+        file, output, jobs or os.cpu_count() or 1, cluster, resume, is_json, limit, feed
+    )
     found: list[Diagnostic] = []
     with ExitStack() as stack:
         succeeded = run_study(

@@ -107,13 +107,6 @@ _MOST_SEEDS = 100_000
 )
 @click.option("--resume", is_flag=True, help="Use the runs that are in the folder.")
 @click.option("--apply", is_flag=True, help="Write the winner into the model.")
-@click.option(
-    "--feed",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Write what happens to a file while it happens, as JSON lines.",
-)
-@click.option("--json", "is_json", is_flag=True, help="Print the result as JSON.")
 @options.diagnostics_format
 @options.debug
 def optimize(

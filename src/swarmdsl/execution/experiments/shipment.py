@@ -11,11 +11,12 @@ from typing import Any
 
 from swarmdsl import __version__
 from swarmdsl.base import resources
-from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.read_files import MOST_DATA, is_file
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import ModelSource, Settings, find_settings
+from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.experiments.task import NO_SCENARIO, canonical
 from swarmdsl.execution.simulate.subject import Subject, choose
 from swarmdsl.project.loader import Project
@@ -119,10 +120,12 @@ def pack(
     scenarios: Iterable[Path],
     report: Diagnostics,
     conditions: Conditions = Conditions(),  # noqa: B008 - frozen
+    choice: str = "--swarm {}",
 ) -> tuple[Shipment, Subject] | None:
     """Check a model and pack it with its scenarios; None if something is wrong.
 
-    The scenarios are checked with the first candidate.
+    What the scenarios say depends on candidates: only their syntax is checked. `choice` is how a
+    user chooses a swarm.
     """
     settings = find_settings(paths, report)
     if report.has_errors:
@@ -130,7 +133,12 @@ def pack(
     named = tuple(paths or settings.sources)
     checked = pipeline.check(named, settings)
     report.include(checked.report)
-    if checked.valid is None:
+    if checked.valid is None or checked.system is None:
+        return None
+    names = [each.name for each in checked.system.swarms]
+    if swarm is None and len(names) > 1:
+        help_ = f"choose one: {listed([choice.format(name) for name in names])}"
+        report.report("unclear-subject", help=help_)
         return None
     subject = choose(checked.system, [], None, swarm, report)
     if subject is None:
@@ -140,11 +148,11 @@ def pack(
         report.report("nothing-to-simulate", help=help_)
         return None
     subject.models = settings.models
-    texts = {
-        str(path): source.text
-        for path in scenarios
-        if (source := read_source(path, None, report, "a scenario", MOST_DATA)) is not None
-    }
+    texts = {}
+    for path in scenarios:
+        source = read_source(path, None, report, "a scenario", MOST_DATA)
+        if source is not None and parse_toml(source, report) is not None:
+            texts[str(path)] = source.text
     files = dict(_files(checked.valid, settings, report))
     if report.has_errors:
         return None

@@ -101,8 +101,9 @@ class _Model:
         if name not in self._scenarios:
             report = Diagnostics()
             source = Source(name, texts[name], Path(name))
-            self._scenarios[name] = parse_toml(source, report) or EMPTY
+            found = parse_toml(source, report)
             _require(report)
+            self._scenarios[name] = found or EMPTY
         return self._scenarios[name]
 
 

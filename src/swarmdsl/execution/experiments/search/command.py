@@ -15,9 +15,11 @@ import tomli
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.read_files import MOST_RECORDED, read_file
 from swarmdsl.base.records import dataclass, replace
+from swarmdsl.base.source import Source
 from swarmdsl.base.suggest import suggest
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.codegen.exchange.search_space import number
+from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.experiments.applying import apply_to_model
 from swarmdsl.execution.experiments.engines import Engine, cluster, local
 from swarmdsl.execution.experiments.failures import StoppedError
@@ -30,8 +32,8 @@ from swarmdsl.execution.experiments.search.methods import Name
 from swarmdsl.execution.experiments.search.optimizing import Found, Plan, Search
 from swarmdsl.execution.experiments.search.page import search_page, worst_runs
 from swarmdsl.execution.experiments.search.report import as_data, as_text, settings_text
-from swarmdsl.execution.experiments.search.space import report_narrowed, space_of
-from swarmdsl.execution.experiments.settings import keys_of
+from swarmdsl.execution.experiments.search.space import SearchSpace, report_narrowed, space_of
+from swarmdsl.execution.experiments.settings import apply_candidate, keys_of
 from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.task import NO_SCENARIO, Candidate, canonical
@@ -232,17 +234,44 @@ def _apply(request: Request, problem: _Problem, found: Found, report: Diagnostic
 
 
 def _require_free(winner: Candidate, problem: _Problem) -> None:
-    """Raise StoppedError if a scenario has its own value of a setting, which the model has not."""
+    """Raise StoppedError if a scenario has its own value of a setting, which the model has not.
+
+    A value for one robot is no matter: runs of the search had it too.
+    """
     for path, text in problem.shipment.scenarios.items():
+        values = tomli.loads(text)
         for name, value in winner.settings:
-            given: Any = tomli.loads(text)
-            for key in keys_of(name):
-                given = given.get(key) if isinstance(given, dict) else None
-            if given is not None and given != value:
-                key = ".".join(keys_of(name))
+            for keys in _places_of(name, problem.subject):
+                given: Any = values
+                for key in keys:
+                    given = given.get(key) if isinstance(given, dict) else None
+                if given is None or given == value:
+                    continue
+                key = ".".join(keys)
                 help_ = f"remove `{key}` there, or write {value} there"
                 reason = f"`{path}` says `{key}` itself, for all runs with it"
                 raise StoppedError("cannot-apply", help_, name=problem.subject.name, reason=reason)
+
+
+def _places_of(setting: str, subject: Subject) -> list[tuple[str, ...]]:
+    """Return the keys of a setting in a scenario: under the role, and under its type."""
+    keys = keys_of(setting)
+    assert subject.swarm is not None
+    member = next((each.member for each in subject.swarm.roles if each.name == keys[1]), None)
+    if keys[0] != "params" or member is None:
+        return [keys]
+    return [keys, (keys[0], member.rpartition(".")[2], *keys[2:])]
+
+
+def _check_scenarios(
+    shipment: Shipment, subject: Subject, space: SearchSpace, report: Diagnostics
+) -> None:
+    """Report what is wrong in scenarios with the candidate that has the most members."""
+    candidate = space.candidate([1.0] * len(space.dimensions))
+    for name, text in shipment.scenarios.items():
+        document = parse_toml(Source(name, text, Path(name)), report)
+        if document is not None:
+            apply_candidate(candidate, document, subject, report)
 
 
 def _problem(request: Request, report: Diagnostics) -> _Problem | None:
@@ -272,6 +301,8 @@ def _problem(request: Request, report: Diagnostics) -> _Problem | None:
         report.report("nothing-to-optimize", name=subject.name, reason=reason, help=help_)
         return None
     report_narrowed(optimization, system, space, report)
+    if not report.has_errors:
+        _check_scenarios(shipment, subject, space, report)
     known = [each.name for each in system.properties if each.subject == subject.name]
     chances = [each.name for each in system.properties if each.chance is not None]
     for name in request.properties:

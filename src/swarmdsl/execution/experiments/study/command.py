@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.experiments.engines import Engine, cluster, local
 from swarmdsl.execution.experiments.failures import StoppedError
-from swarmdsl.execution.experiments.progress_bar import shown
+from swarmdsl.execution.experiments.progress_bar import Feed, shown
 from swarmdsl.execution.experiments.report.page import html
 from swarmdsl.execution.experiments.results.records import About
-from swarmdsl.execution.experiments.running import Runs
+from swarmdsl.execution.experiments.running import Progress, Runs
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.study.analysis import Analysis, Result, analyse, result_of
 from swarmdsl.execution.experiments.study.data import as_data
@@ -46,6 +46,7 @@ class Request:
     resume: bool = False
     as_json: bool = False
     limit: float | None = None
+    feed: Path | None = None
 
     @property
     def folder(self) -> Path:
@@ -64,19 +65,26 @@ def run_study(request: Request, open_model: OpenModel, out: TextIO, tell: Tell) 
     report = Diagnostics()
     try:
         engine = _engine(request, study, setting)
-        done = _run(request, study, setting, engine)
+        with write_stream(request.feed) if request.feed is not None else nullcontext() as stream:
+            done = _run(request, study, setting, engine, stream)
+            found = _analysis(study, setting, done.rows)
+            data = as_data(found, setting.first.subject.name)
+            Feed(stream, 0, Progress()).say("end", **data)
     except StoppedError as stopped:
         stopped.report(report)
         tell(report)
         return False
-    found = _analysis(study, setting, done.rows)
+    except OSError as error:
+        report_unwritten(Path(error.filename or request.feed or "."), error, report)
+        tell(report)
+        return False
     _report_failures(found, report)
     played = worst_of(found, setting, request.folder / _RUNS)
-    written = list(_write(request.folder, found, setting, played, report))
+    written = list(_write(request.folder, found, data, played, report))
     tell(report)
     subject = setting.first.subject.name
     if request.as_json:
-        out.write(f"{json.dumps(as_data(found, subject), indent=2)}\n")
+        out.write(f"{json.dumps(data, indent=2)}\n")
     else:
         for line in _text(found, subject, played, done):
             out.write(f"{line}\n")
@@ -102,7 +110,9 @@ class _Done:
     interrupted: bool
 
 
-def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _Done:
+def _run(
+    request: Request, study: Study, setting: Setting, engine: Engine, stream: TextIO | None
+) -> _Done:
     """Run all points of the design, each once. Raises StoppedError."""
     tasks = list(dict.fromkeys(map(setting.task, study.design_points())))
     if study.design not in ("morris", "indices"):
@@ -113,8 +123,12 @@ def _run(request: Request, study: Study, setting: Setting, engine: Engine) -> _D
         models = {each.shipment.digest: each.title for each in setting.models}
         About(models, study.measure or FITNESS, goal_of(setting)).write(request.folder)
         stack.enter_context(engine)
-        bar = stack.enter_context(shown(len(tasks) * study.repetitions, engine.name, str))
-        runs = Runs(shipments, engine, store, bar, request.limit)
+        expected = len(tasks) * study.repetitions
+        bar = stack.enter_context(shown(expected, engine.name, str))
+        feed = Feed(stream, expected, bar)
+        subject = setting.first.subject.name
+        feed.say("begin", subject=subject, design=study.design, workers=engine.name)
+        runs = Runs(shipments, engine, store, feed, request.limit)
         try:
             return _Done(dict(zip(tasks, runs.run(tasks), strict=True)), runs.ran, False)
         except KeyboardInterrupt:
@@ -150,13 +164,12 @@ def _report_failures(found: Analysis, report: Diagnostics) -> None:
 
 
 def _write(
-    folder: Path, found: Analysis, setting: Setting, played: Played, report: Diagnostics
+    folder: Path, found: Analysis, data: dict[str, Any], played: Played, report: Diagnostics
 ) -> Iterator[Path]:
     """Write the files of results; yield their names."""
-    subject = setting.first.subject.name
     texts = {
-        folder / _RESULTS: f"{json.dumps(as_data(found, subject), indent=2)}\n",
-        folder / _REPORT: html(page(found, subject, played.runs)),
+        folder / _RESULTS: f"{json.dumps(data, indent=2)}\n",
+        folder / _REPORT: html(page(found, data["subject"], played.runs)),
         **played.scenarios,
     }
     for path, text in texts.items():

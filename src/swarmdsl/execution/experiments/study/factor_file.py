@@ -68,6 +68,15 @@ class _Reader:
             levels = self._levels(keys, value, "paths", str)
             places = self._places(keys, levels)
             return Varied(Factor(name, levels), kind, self._key(keys), places=places)
+        if "." not in name and not name.startswith((COUNT, SCENARIO)):
+            help_ = (
+                "a param has its member before it, as `robot.speed`, a number of members "
+                "`count.`, and a setting of a scenario `scenario.`"
+            )
+            self._report.report(
+                "unresolved-name", self._key(keys), kind="factor", name=name, help=help_
+            )
+            return None
         if isinstance(value, dict):
             return self._range(name, keys, value)
         return self._list(name, keys, value)
@@ -144,8 +153,10 @@ class _Reader:
         step = steps[0] if steps else 1 if whole else None
         if step is None:
             return Varied(Factor(name, (), low, high), "setting", self._key(keys), is_time)
-        if step <= 0:
-            self._wrong((*keys, "step"), "more than 0", value["step"])
+        if not 0 < step <= high - low:
+            between = f"from {value['from']} to {value['to']}"
+            expected = f"a step of more than 0 that is not wider than {between}"
+            self._wrong((*keys, "step"), expected, value["step"])
             return None
         count = int((high - low) / step + 1e-9) + 1
         if count > MOST_LEVELS:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Label, Severity
-from swarmdsl.base.read_files import exists
+from swarmdsl.base.read_files import MOST_DATA, exists
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.driver.config.toml import Document, parse_toml
@@ -23,6 +23,7 @@ from swarmdsl.execution.simulate.measures import fitness_of, inputs_of
 from swarmdsl.execution.simulate.prepare import Prepared
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.project.read_source import read_source
 
 OpenModel = Callable[[str, Path, Diagnostics], Path | None]
 """Return the path of a model or of a revision of one, from a text beside a folder."""
@@ -112,7 +113,11 @@ def open_study(study: Study, open_model: OpenModel, report: Diagnostics) -> Sett
 
     None if something is wrong.
     """
-    scenarios = list(_scenarios(study))
+    scenarios = [
+        path
+        for path, place in _scenarios(study)
+        if read_source(path, place, report, "a scenario", MOST_DATA) is not None
+    ]
     conditions = Conditions(study.until, study.world)
     models = []
     for name, texts, place in _models(study):
@@ -120,7 +125,7 @@ def open_study(study: Study, open_model: OpenModel, report: Diagnostics) -> Sett
         paths = [path for text in texts if (path := open_model(text, study.folder, found))]
         packed = None
         if not found.has_errors:
-            packed = pack(paths, study.swarm, scenarios, found, conditions)
+            packed = pack(paths, study.swarm, scenarios, found, conditions, 'swarm = "{}"')
         swarm = study.places.get("swarm")
         report.include(
             _placed(each, swarm if each.name == "unresolved-name" else place) for each in found
@@ -155,12 +160,14 @@ def _models(study: Study) -> Iterator[tuple[Value, tuple[str, ...], Span | None]
     yield "", study.models, study.places.get("model")
 
 
-def _scenarios(study: Study) -> Iterator[Path]:
+def _scenarios(study: Study) -> Iterator[tuple[Path, Span]]:
+    """Yield the scenarios with their places in the file."""
     if study.scenario is not None:
-        yield study.scenario
+        yield study.scenario, study.places["scenario"]
     for each in study.factors:
         if each.kind == "scenario":
-            yield from (study.folder / str(level) for level in each.factor.levels)
+            for level in each.factor.levels:
+                yield study.folder / str(level), each.places[level]
 
 
 def _placed(found: Diagnostic, place: Span | None) -> Diagnostic:
@@ -226,14 +233,14 @@ def _check_levels(setting: Setting, report: Diagnostics) -> None:
         alone = {at for at in range(len(base)) if study.factors[at].kind == "setting"} - {number}
         for value in _tried(each):
             point = (*base[:number], value, *base[number + 1 :])
-            found = _mistake(setting, point, documents)
-            if found is None:
+            found = _mistakes(setting, point, documents)
+            if not found:
                 continue
-            found = _mistake(setting, point, documents, alone)
-            if found is not None:
-                _report_level(each, value, found, report)
-    together = _mistake(setting, base, documents)
-    if together is not None and not report.has_errors:
+            found = _mistakes(setting, point, documents, alone)
+            if found and _report_level(each, value, found, report) is each.place:
+                break  # it is the name that is wrong
+    together = _mistakes(setting, base, documents)
+    if together and not report.has_errors:
         first = study.factors[0]
         _report_level(first, base[0], together, report)
 
@@ -243,12 +250,12 @@ def _tried(varied: Varied) -> tuple[Value, ...]:
     return factor.levels or (factor.low, factor.high)
 
 
-def _mistake(
+def _mistakes(
     setting: Setting,
     point: Point,
     documents: dict[str, Document],
     without: Collection[int] = (),
-) -> Diagnostic | None:
+) -> list[Diagnostic]:
     """Return what is wrong with a point in its model and scenario, as a worker would find it.
 
     Settings of the factors in `without` are left out.
@@ -266,14 +273,22 @@ def _mistake(
         spaces = choose_space(kind, subject, scenario, report)
         if not report.has_errors:
             Prepared(subject, scenario, None, spaces).stage(report)
-    return next((each for each in report if each.severity is Severity.ERROR), None)
+    return [each for each in report if each.severity is Severity.ERROR]
 
 
-def _report_level(varied: Varied, value: Value, found: Diagnostic, report: Diagnostics) -> None:
-    source = found.primary.span.source if found.primary is not None else None
-    if source is not None and source.path is not None:
-        report.include([found])  # a mistake in a scenario, wherever the level is
-        return
+def _report_level(
+    varied: Varied, value: Value, mistakes: list[Diagnostic], report: Diagnostics
+) -> Span | None:
+    """Report why a level does not fit; return its place, None if a scenario itself is wrong."""
+    in_scenarios = [
+        each
+        for each in mistakes
+        if each.primary is not None and each.primary.span.source.path is not None
+    ]
+    if in_scenarios:
+        report.include(in_scenarios)
+        return None
+    found = mistakes[0]
     place = varied.places.get(value, varied.place)
     if found.name in ("unresolved-name", "unknown-key") and varied.kind == "setting":
         place = varied.place
@@ -285,3 +300,4 @@ def _report_level(varied: Varied, value: Value, found: Diagnostic, report: Diagn
         reason=found.message,
         help=found.help,
     )
+    return place

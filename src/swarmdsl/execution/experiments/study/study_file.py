@@ -146,7 +146,7 @@ class _Reader:
 
     def check(self, study: Study) -> None:
         if not study.factors:
-            place = self.place("factors")
+            place = self.place("factors") or Span(self.top.document.source, 0, 0)
             help_ = 'say what is varied: `[factors]`, `"count of robot" = [4, 8]`'
             self.report.report("no-factors", place, help=help_)
             return
