@@ -19,6 +19,7 @@ COMMANDS = (
     "merge",
     "new",
     "optimize",
+    "play",
     "preview",
     "rename",
     "results",

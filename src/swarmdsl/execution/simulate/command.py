@@ -20,7 +20,7 @@ from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.read_files import MOST_RECORDED, lines_of
 from swarmdsl.base.write_stream import report_unwritten
 from swarmdsl.execution.engine import LoopError
-from swarmdsl.execution.monitor import PropertyResult, Verdict, ViolatedError
+from swarmdsl.execution.monitor import PropertyResult, ViolatedError
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
@@ -170,21 +170,16 @@ class _Play:
         results: list[PropertyResult] = []
         summary = Summary(self._subject, self._world)
         fitness: FitnessResult | None = None
-        history: dict[str, list[tuple[int, Verdict]]] = {}
         monitors = watch(
             plan(self._watched, measures_of(self._fitness)),
             self._world.data,
             stops=self._request.stop_on_violation,
-            told=None
-            if self._request.timeline is None
-            else lambda each, verdict, time: history.setdefault(each.name, []).append(
-                (time, verdict)
-            ),
+            told=self._outputs.verdict_listener(),
         )
         try:
             with ExitStack() as stack:
                 stream = self._outputs.trace(stack, report)
-                picture = self._outputs.timeline(history, stack, report)
+                picture = self._outputs.timeline(stack, report)
                 maps = self._outputs.maps(stack, report)
                 if report.has_errors:
                     tell(report)
@@ -225,6 +220,7 @@ class _Play:
                     picture({each.property.name: each.remark for each in results})
                 maps()
                 self._outputs.draw_robots(stack, report)
+                self._outputs.end_recording()
                 last()
         except OSError as error:
             if error.filename is None:

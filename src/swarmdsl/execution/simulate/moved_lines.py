@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TextIO
+from collections.abc import Callable
 
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
 from swarmdsl.execution.simulate.scenario import Robot
@@ -14,9 +14,9 @@ from swarmdsl.execution.simulate.world import World
 class MovedLines:
     """Write, once a second, where the robots are that have moved since."""
 
-    def __init__(self, world: World, stream: TextIO) -> None:
+    def __init__(self, world: World, write: Callable[[str], object]) -> None:
         self._world = world
-        self._stream = stream
+        self._write = write
         self._told: dict[Robot, Place | None] = {}
 
     def moved(self, now: int) -> None:
@@ -31,7 +31,7 @@ class MovedLines:
                 moved[robot.name or ""] = [round(each, 3) for each in place]
         if moved:
             line = {"t": now // MILLISECOND, "moved": moved}
-            self._stream.write(f"{json.dumps(line, ensure_ascii=False)}\n")
+            self._write(f"{json.dumps(line, ensure_ascii=False)}\n")
 
     def saw(self, robot: Robot, what: str) -> None:
         """Write nothing: what is seen has lines of its own where somebody hears it."""

@@ -16,6 +16,7 @@ from swarmdsl.execution.simulate.choose_space import Spaces, choose_space
 from swarmdsl.execution.simulate.inputs import Input, Reader
 from swarmdsl.execution.simulate.live import Opened
 from swarmdsl.execution.simulate.load_scenario import load_scenario
+from swarmdsl.execution.simulate.run_lines import Recorder
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Document, Subject, choose
 from swarmdsl.ir import System
@@ -56,6 +57,8 @@ class Request:
     """Speed of virtual time in a run in real time."""
     live: Opened | None = None
     """Opens the page that shows the run."""
+    recorder: Recorder | None = None
+    """Keeps the lines of the run."""
 
     def watches(self, name: str) -> bool:
         """Return True if a property of this name is watched."""

@@ -12,10 +12,12 @@ from typing import TextIO
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.write_stream import report_unwritten, write_stream
-from swarmdsl.execution.monitor import Verdict
+from swarmdsl.execution.monitor import Property, Verdict
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.moved_lines import MovedLines
+from swarmdsl.execution.simulate.packets import Transmission
 from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Prepared, Request
+from swarmdsl.execution.simulate.run_lines import RunLines
 from swarmdsl.execution.simulate.space import NoPictureError
 from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line, as_json, as_text
@@ -45,6 +47,9 @@ class Outputs:
         scenario = request.scenario
         of = f"scenario {printable(scenario.name)}, " if scenario is not None else ""
         self._conditions = f"{of}seed {seed}"
+        self._history: dict[str, list[tuple[int, Verdict]]] = {}
+        """Verdicts so far by property, each with the time from which on it held."""
+        self._seed = seed
 
     def trace(self, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         """Return the stream for the trace."""
@@ -57,11 +62,35 @@ class Outputs:
             return None if watched and self._request.trace is None else sys.stdout
         return self.write_to(path, stack, report)
 
+    def verdict_listener(self) -> Callable[[Property, Verdict, int], None] | None:
+        """Return what notes verdicts so far for the outputs, if one shows them.
+
+        The recorder, if there is one, keeps all lines from now on.
+        """
+        recorder = self._request.recorder
+        if recorder is None and self._request.timeline is None:
+            return None
+        lines = RunLines(self._world, recorder.write) if recorder is not None else None
+        if recorder is not None and lines is not None:
+            recorder.begin(self._subject, self._cast, self._request.scenario, self._seed)
+            self._listeners.append(lines.step)
+            self._tell_transmissions(lines.transmitted)
+            self._world.space.viewers += (MovedLines(self._world, recorder.write),)
+
+        def note(property_: Property, verdict: Verdict, time: int) -> None:
+            self._history.setdefault(property_.name, []).append((time, verdict))
+            if lines is not None:
+                lines.verdict(property_.name, verdict, time)
+
+        return note
+
+    def end_recording(self) -> None:
+        """Tell the recorder when the run was over, if there is one."""
+        if self._request.recorder is not None:
+            self._request.recorder.end(self._world.clock.now)
+
     def timeline(
-        self,
-        history: Mapping[str, Sequence[tuple[int, Verdict]]],
-        stack: ExitStack,
-        report: Diagnostics,
+        self, stack: ExitStack, report: Diagnostics
     ) -> Callable[[Mapping[str, str]], object] | None:
         """Prepare drawing the timeline with remarks on properties, if requested."""
         if self._request.timeline is None:
@@ -71,8 +100,21 @@ class Outputs:
             return None
         timeline = Timeline(self._subject.name, self._cast, self._conditions)
         self._listeners.append(timeline.note)
-        self._world.network.transmitted = timeline.transmitted
-        return lambda remarks: stream.write(timeline.svg(self._world.clock.now, history, remarks))
+        self._tell_transmissions(timeline.transmitted)
+        return lambda remarks: stream.write(
+            timeline.svg(self._world.clock.now, self._history, remarks)
+        )
+
+    def _tell_transmissions(self, listener: Callable[[Transmission], None]) -> None:
+        """Call one more listener with each swarm event in transit."""
+        before = self._world.network.transmitted
+
+        def tell(crossing: Transmission) -> None:
+            if before is not None:
+                before(crossing)
+            listener(crossing)
+
+        self._world.network.transmitted = tell
 
     def maps(self, stack: ExitStack, report: Diagnostics) -> Callable[[], None]:
         """Prepare drawing the map and the animation, as far as they are requested."""
@@ -135,7 +177,7 @@ class Outputs:
         form = as_json if kind == "json" else partial(as_text, width=width)
         at_once = self._request.real_time or self._request.events == STANDARD_INPUT
         if kind == "json" and self._request.trace_file is not None:
-            self._world.space.viewers += (MovedLines(self._world, stream),)
+            self._world.space.viewers += (MovedLines(self._world, stream.write),)
 
         def write(line: Line) -> None:
             stream.write(f"{form(line)}\n")

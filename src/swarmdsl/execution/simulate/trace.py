@@ -265,7 +265,7 @@ class Trace(Observer):
             self._line.nobody.append(len(self._line.sent) - 1)
 
 
-def as_json(line: Line, more: Mapping[str, int] | None = None) -> str:
+def as_json(line: Line, more: Mapping[str, Any] | None = None) -> str:
     """Format a line as JSON, with more keys at its end; times are in whole milliseconds."""
     called = line.actor.machine.called
     values: dict[str, Any] = {

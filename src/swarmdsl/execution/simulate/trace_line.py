@@ -54,11 +54,12 @@ def read_line(text: str | bytes) -> dict[str, Any] | str:
 
 
 def is_beside_steps(value: Mapping[str, Any]) -> bool:
-    """Return True for a line without a step: verdicts or measures of a monitor, or places."""
+    """Return True for a line without a step: verdicts, measures, places, or a lost event."""
     return (
         isinstance(value.get("property"), str)
         or isinstance(value.get("measures"), list)
         or isinstance(value.get("moved"), dict)
+        or isinstance(value.get("lost"), dict)
     )
 
 

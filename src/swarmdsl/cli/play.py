@@ -1,0 +1,125 @@
+"""`swarmc play`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from swarmdsl.base.diagnostics.render import DOCUMENTS, render
+from swarmdsl.cli import options
+from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
+from swarmdsl.cli.simulate import parse_duration
+
+if TYPE_CHECKING:
+    from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+
+
+@click.command(
+    epilog="Example: swarmc play examples/search_and_rescue "
+    "--scenario examples/search_and_rescue/mission.toml -o mission.html"
+)
+@options.files
+@click.option("--machine", metavar="NAME", help="Play this state machine alone.")
+@click.option("--swarm", metavar="NAME", help="Play this swarm.")
+@click.option(
+    "--trace",
+    "traces",
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="Play a recorded trace of robots or of a simulation, JSON lines, instead of a new run; "
+    "may be repeated.",
+)
+@click.option(
+    "--counterexample",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Play a run that `swarmc verify -o` has written.",
+)
+@click.option(
+    "--scenario",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Environment of the run, as for `swarmc simulate`.",
+)
+@click.option(
+    "--events",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Events from outside, as JSON lines.",
+)
+@click.option("--seed", type=int, help="Seed of random decisions.  [default: the scenario's, or 0]")
+@click.option(
+    "--until",
+    metavar="DURATION",
+    callback=parse_duration,
+    help="End after this virtual time.  [default: the scenario's, or 10min after the last of "
+    "`--events`]",
+)
+@click.option(
+    "-o",
+    "--output",
+    "out",
+    metavar="FILE",
+    type=click.Path(path_type=Path),
+    default=Path("run.html"),
+    show_default=True,
+    help="The page.",
+)
+@options.diagnostics_format
+@options.debug
+def play(
+    paths: tuple[Path, ...],
+    machine: str | None,
+    swarm: str | None,
+    traces: tuple[Path, ...],
+    counterexample: Path | None,
+    scenario: Path | None,
+    events: Path | None,
+    seed: int | None,
+    until: int | None,
+    out: Path,
+    format_: str,
+) -> int:
+    """Write a page that plays a run.
+
+    Each FILE is a model, or an SCXML document; a FOLDER means all .swarm files below it. The page
+    is one file that needs no network: lanes of all members, step by step forwards and back. It
+    shows a new simulation, or recorded traces; what is wrong with these is told in it.
+    """
+    from swarmdsl.execution.simulate.prepare import Request
+    from swarmdsl.tools.player.command import play_run, play_traces
+
+    if machine is not None and swarm is not None:
+        raise click.UsageError("`--machine` and `--swarm` conflict")
+    recorded = (*traces, *((counterexample,) if counterexample is not None else ()))
+    for name, value in (("events", events), ("seed", seed), ("until", until)):
+        if recorded and value is not None:
+            given = "--trace" if traces else "--counterexample"
+            raise click.UsageError(f"`{given}` and `--{name}` conflict")
+    options.check_outputs({"-o": out}, (*paths, *recorded, scenario, events))
+    found: list[Diagnostic] = []
+
+    def tell(report: Diagnostics) -> None:
+        if format_ in DOCUMENTS:
+            found.extend(report)
+        else:
+            render(report, format_, sys.stderr)
+
+    request = Request(
+        paths,
+        machine=machine,
+        swarm=swarm,
+        events=str(events) if events is not None else None,
+        scenario=scenario,
+        seed=seed,
+        until=until,
+    )
+    played = play_traces(request, recorded, out, tell) if recorded else play_run(request, out, tell)
+    if format_ in DOCUMENTS:
+        render(found, format_, sys.stdout)
+    if played.written is not None:
+        click.echo(played.written.as_posix(), err=True)
+    return INTERRUPTED if played.succeeded is None else OK if played.succeeded else ERRORS

@@ -1,0 +1,86 @@
+"""Lines of a run for a recording: steps with variables, losses, verdicts, measures and places."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol
+
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.durations import MILLISECOND
+from swarmdsl.execution.simulate.packets import Transmission
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace import Line, as_json
+from swarmdsl.execution.simulate.trace_line import named_numbers
+from swarmdsl.execution.simulate.world import World
+
+
+class Recorder(Protocol):
+    """Keeps the lines of a run, as they are in a trace."""
+
+    def begin(
+        self, subject: Subject, cast: Sequence[Actor], scenario: Path | None, seed: int
+    ) -> None:
+        """Note who runs, and in which scenario."""
+
+    def write(self, text: str, /) -> object:
+        """Keep a line, which ends with a newline."""
+
+    def end(self, time: int) -> None:
+        """Note when the run was over, in nanoseconds."""
+
+
+class RunLines:
+    """Make the lines of a run.
+
+    A step also has `variables`, those that it has changed. A line with `lost` is a swarm event that
+    did not reach a robot.
+    """
+
+    def __init__(self, world: World, write: Callable[[str], object]) -> None:
+        self._world = world
+        self._write = write
+        self._told: dict[Actor, dict[str, str]] = {}
+
+    def step(self, line: Line) -> None:
+        """Write a step, with the variables that it has changed."""
+        told = self._told.setdefault(line.actor, {})
+        changed = {}
+        for name, value in self._variables(line.actor):
+            text = _written(value)
+            if told.get(name) != text:
+                told[name] = text
+                changed[name] = json.loads(text)
+        self._write(f"{as_json(line, {'variables': changed} if changed else None)}\n")
+
+    def transmitted(self, crossing: Transmission) -> None:
+        """Write a swarm event that gets lost."""
+        if crossing.arrives:
+            return
+        lost = {
+            "event": crossing.event,
+            "sender": crossing.source.name,
+            "member": crossing.target.name,
+            "sent": crossing.sent,
+        }
+        self._tell(self._world.clock.now, {"lost": lost})
+
+    def verdict(self, name: str, verdict: str, time: int) -> None:
+        """Write a verdict so far on a property."""
+        self._tell(time, {"property": name, "verdict": verdict})
+
+    def _variables(self, actor: Actor) -> list[tuple[str, Any]]:
+        """Return variables and params of a machine, without what the world keeps beside them."""
+        data = self._world.data(actor)
+        if not isinstance(data, Mapping):
+            return []
+        return [(name, value) for name, value in data.items() if name.isidentifier()]
+
+    def _tell(self, time: int, about: Mapping[str, object]) -> None:
+        line = {"t": time // MILLISECOND, **about}
+        self._write(f"{json.dumps(line, ensure_ascii=False)}\n")
+
+
+def _written(value: Any) -> str:
+    return json.dumps(named_numbers(value), ensure_ascii=False, default=str)

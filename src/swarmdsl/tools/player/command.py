@@ -1,0 +1,84 @@
+"""Play a run, or recorded traces: `swarmc play`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.base.read_files import MOST_RECORDED
+from swarmdsl.base.records import dataclass, replace
+from swarmdsl.base.write_stream import report_unwritten, write_stream
+from swarmdsl.execution.simulate.command import simulate
+from swarmdsl.execution.simulate.prepare import Request, prepare
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.project.read_source import read_source
+from swarmdsl.tools.player.page import page
+from swarmdsl.tools.player.record import RunRecorder, record_traces
+from swarmdsl.tools.player.recording import Recording
+
+Tell = Callable[[Diagnostics], None]
+
+
+@dataclass(frozen=True)
+class Played:
+    """Result: True without errors, None if interrupted; and the page, if it was written."""
+
+    succeeded: bool | None
+    written: Path | None = None
+
+
+def play_run(request: Request, out: Path, tell: Tell) -> Played:
+    """Simulate a run and write its page; a run that fails is shown up to where it did."""
+    recorder = RunRecorder()
+    found: list[Diagnostic] = []
+
+    def keep(report: Diagnostics) -> None:
+        found.extend(report)
+        tell(report)
+
+    succeeded = simulate(replace(request, trace="none", recorder=recorder), keep)
+    recording = recorder.recording(found)
+    if recording is None:
+        return Played(succeeded)
+    return _written(recording, out, tell, succeeded)
+
+
+def play_traces(request: Request, traces: Sequence[Path], out: Path, tell: Tell) -> Played:
+    """Write the page of traces, of a model if one is named or found; show what can be read."""
+    report = Diagnostics()
+    sources = []
+    for path in traces:
+        source = read_source(path, None, report, "a trace", MOST_RECORDED)
+        if source is not None:
+            sources.append(source)
+    subject = _subject(replace(request, replay=tuple(traces)), report)
+    recording = record_traces(sources, subject, report) if sources else None
+    if recording is None and sources:
+        for source in sources:
+            report.report("empty-trace", path=source.name)
+    tell(report)
+    if recording is None:
+        return Played(False)
+    return _written(recording, out, tell, not report.has_errors)
+
+
+def _subject(request: Request, report: Diagnostics) -> Subject | None:
+    """Return the subject of traces; None without a model, which shows the traces alone."""
+    found = Diagnostics()
+    prepared = prepare(request, found)
+    if request.paths or not found.count_of("nothing-to-compile"):
+        report.include(found)
+    return prepared.subject if prepared is not None else None
+
+
+def _written(recording: Recording, out: Path, tell: Tell, succeeded: bool | None) -> Played:
+    report = Diagnostics()
+    try:
+        with write_stream(out) as stream:
+            stream.write(page(recording))
+    except OSError as error:
+        report_unwritten(out, error, report)
+        tell(report)
+        return Played(False)
+    return Played(succeeded, out)

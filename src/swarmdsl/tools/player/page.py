@@ -1,0 +1,44 @@
+"""Page that plays a recording: one file, whose only script and style are its own."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from hashlib import sha256
+from html import escape
+from pathlib import Path
+
+from swarmdsl import __version__
+from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.read_files import read_text
+from swarmdsl.tools.diagram.svg import style
+from swarmdsl.tools.player.encoding import encode
+from swarmdsl.tools.player.modules import join
+from swarmdsl.tools.player.recording import Recording
+
+_FILES = Path(__file__).resolve().parent / "page"
+
+
+def page(recording: Recording) -> str:
+    """Return the page of a recording as HTML; nothing of the recording is markup or script in it.
+
+    The policy lets nothing be loaded, and nothing run but the script with this hash.
+    """
+    script = join(_FILES, "main.js")
+    sheets = sorted(each for each in _FILES.glob("*.css") if each.name != "player.css")
+    styles = style() + "".join(map(read_text, (_FILES / "player.css", *sheets)))
+    policy = (
+        f"default-src 'none'; style-src {_hash(styles)}; script-src {_hash(script)}; "
+        "base-uri 'none'; form-action 'none'"
+    )
+    return read_text(_FILES / "index.html").format(
+        policy=policy,
+        version=__version__,
+        title=escape(printable(recording.title)),
+        style=styles,
+        script=script,
+        recording=encode(recording),
+    )
+
+
+def _hash(text: str) -> str:
+    return f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'"

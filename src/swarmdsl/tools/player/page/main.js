@@ -1,0 +1,156 @@
+// The page: recording, player, views and controls together.
+import { controls } from "./controls.js";
+import { el } from "./dom.js";
+import { Player } from "./player.js";
+import { load } from "./recording.js";
+import { MAIN, VIEWS } from "./views.js";
+
+const byId = (id) => document.getElementById(id);
+const DURATION = /^([\d.]+)(ms|s|min|h)?$/;
+const UNITS = { ms: 1e6, s: 1e9, min: 60e9, h: 3600e9 };
+
+/** Read and write the address: `#t=12.5s&m=uav[1]&v=machine`. */
+function address(player, panels) {
+  const read = () => {
+    const given = new URLSearchParams(location.hash.slice(1));
+    const time = DURATION.exec(given.get("t") ?? "");
+    if (given.has("m")) player.select(given.get("m"));
+    if (time) player.goTime(Number(time[1]) * UNITS[time[2] ?? "s"]);
+    panels.open((given.get("v") ?? "").split(","));
+  };
+  let pending = 0;
+  const write = () => {
+    clearTimeout(pending);
+    // Browsers refuse more than some changes a second.
+    pending = setTimeout(() => {
+      const member = player.selected === null ? "" : `&m=${encodeURIComponent(player.selected).replace(/%5B/g, "[").replace(/%5D/g, "]")}`;
+      const text = `#t=${player.time / 1e9}s${member}&v=${panels.opened().join(",")}`;
+      if (text !== location.hash) history.replaceState(null, "", text);
+    }, 250);
+  };
+  for (const name of ["moment", "selection"]) player.on(name, write);
+  addEventListener("hashchange", read);
+  panels.changed = write;
+  return read;
+}
+
+/** Two panels with tabs of views; the views that are seen are shown each moment. */
+function panelsOf(element, player) {
+  const { recording } = player;
+  const views = VIEWS.filter((each) => each.available(recording));
+  const panels = [];
+  const found = {
+    changed: () => {},
+    opened: () => panels.map((each) => each.view?.id).filter(Boolean),
+    open: (ids) => ids.forEach((id, at) => panels[at]?.open(views.find((each) => each.id === id))),
+    show: (moment) => panels.forEach((each) => each.view?.show(moment)),
+  };
+  const mounted = new Map();
+  for (const side of views.length > 1 ? [0, 1] : views.length ? [0] : []) {
+    const body = el("div", { class: "view", role: "tabpanel", tabindex: 0, id: `panel-${side}` });
+    const tabs = views.map((each) =>
+      el("button", { type: "button", role: "tab", "aria-selected": "false", "aria-controls": body.id, tabindex: -1, onclick: () => panel.open(each) }, each.title),
+    );
+    const panel = {
+      view: null,
+      open(view) {
+        if (!view || panel.view === view) return;
+        const other = panels.find((each) => each.view === view);
+        const before = panel.view;
+        panel.put(view);
+        if (other) other.put(before);
+        found.changed();
+      },
+      put(view) {
+        panel.view = view;
+        tabs.forEach((tab, at) => {
+          tab.setAttribute("aria-selected", String(views[at] === view));
+          tab.tabIndex = views[at] === view ? 0 : -1;
+        });
+        if (!view) return body.replaceChildren();
+        if (!mounted.has(view)) {
+          mounted.set(view, el("div", { class: `of-${view.id}` }));
+          body.replaceChildren(mounted.get(view));
+          view.mount(mounted.get(view), player);
+        }
+        body.replaceChildren(mounted.get(view));
+        view.show(player.moment);
+      },
+    };
+    const list = el("div", { role: "tablist", "aria-label": side ? "second view" : "view" }, ...tabs);
+    list.addEventListener("keydown", (event) => {
+      const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      if (!way) return;
+      const at = (views.indexOf(panel.view) + way + views.length) % views.length;
+      panel.open(views[at]);
+      tabs[at].focus();
+    });
+    element.append(el("section", { class: "panel" }, list, body));
+    panels.push(panel);
+  }
+  panels.forEach((each, side) => each.put(views[side]));
+  return found;
+}
+
+/** Tell the diagnostics of the command. */
+function notes(element, recording) {
+  if (!recording.notes.length) return;
+  const errors = recording.notes.filter((each) => each.severity === "error").length;
+  const items = recording.notes.map((each) =>
+    el(
+      "li",
+      { class: each.severity },
+      el("strong", {}, `${each.severity}[${each.code}]: `),
+      each.message,
+      ...(each.place ? [" ", el("code", {}, each.place)] : []),
+      ...(each.help ? [el("br"), `help: ${each.help}`] : []),
+    ),
+  );
+  const count = (number, word) => `${number} ${word}${number === 1 ? "" : "s"}`;
+  const title = `${count(errors, "error")} and ${count(items.length - errors, "warning")} in this recording`;
+  element.append(el("details", { class: "notes", open: errors > 0 }, el("summary", {}, title), el("ul", {}, ...items)));
+}
+
+function start(recording) {
+  const player = new Player(recording);
+  const about = [
+    recording.model,
+    recording.scenario && `scenario ${recording.scenario}`,
+    recording.seed !== null && `seed ${recording.seed}`,
+    `${recording.members.length} member${recording.members.length === 1 ? "" : "s"}`,
+    `${recording.count} lines`,
+  ];
+  byId("about").textContent = about.filter(Boolean).join(", ");
+  notes(byId("notes"), recording);
+  const lanes = el("div", { class: "of-lanes" });
+  byId("main").append(lanes);
+  MAIN.mount(lanes, player);
+  const panels = panelsOf(byId("panels"), player);
+  const showControls = controls(byId("controls"), player);
+  let waiting = false;
+  const show = () => {
+    waiting = false;
+    const { moment } = player;
+    showControls();
+    MAIN.show(moment);
+    panels.show(moment);
+  };
+  const soon = () => {
+    if (!waiting) requestAnimationFrame(show);
+    waiting = true;
+  };
+  player.on("moment", soon);
+  player.on("selection", soon);
+  const read = address(player, panels);
+  player.go(0);
+  read();
+  show();
+  document.documentElement.dataset.ready = "true";
+  return player;
+}
+
+const text = byId("recording").textContent;
+load(text).then(
+  (recording) => (globalThis.player = start(recording)),
+  (error) => byId("notes").append(el("p", { class: "error", role: "alert" }, error.message)),
+);

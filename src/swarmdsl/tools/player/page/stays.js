@@ -1,0 +1,49 @@
+// Stays in states: what the lanes draw, found once for all zooms.
+
+/** For each member its stays: lines at which its states change, and their times. */
+export function staysOf(recording) {
+  const found = recording.members.map(() => ({ times: [], states: [], lines: [], rows: 1 }));
+  for (let at = 0; at < recording.count; at++) {
+    const step = recording.step(at);
+    const member = recording.memberAt(at);
+    if (!step.configuration || member < 0) continue;
+    const stays = found[member];
+    const states = step.event === recording.lost ? null : step.configuration;
+    const before = stays.states.at(-1);
+    if (stays.times.length && (before === states || before?.join() === states?.join())) continue;
+    stays.times.push(recording.time(at));
+    stays.states.push(states);
+    stays.lines.push(at);
+    stays.rows = Math.max(stays.rows, states?.length ?? 1);
+  }
+  return found;
+}
+
+/** Number of the stay at a time, or -1. */
+export function stayAt(stays, time) {
+  let [low, high] = [0, stays.times.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (stays.times[middle] <= time) low = middle + 1;
+    else high = middle;
+  }
+  return low - 1;
+}
+
+/**
+ * Swarm events that start between two times, those of one sender at nearly one time together:
+ * {event, from, sent, to: [{member, received, fate}]}. `near` is that distance in nanoseconds.
+ */
+export function bundles(messages, from, to, near) {
+  const found = new Map();
+  for (const each of messages) {
+    if (each.received < from || each.sent > to) continue;
+    const key = `${each.from} ${each.event} ${Math.floor(each.sent / near)}`;
+    const bundle = found.get(key) ?? { event: each.event, from: each.from, sent: each.sent, to: [], count: 0 };
+    if (!found.has(key)) found.set(key, bundle);
+    bundle.count += 1;
+    const same = bundle.to.find((other) => other.member === each.to && other.fate === each.fate);
+    if (!same) bundle.to.push({ member: each.to, received: each.received, fate: each.fate });
+  }
+  return [...found.values()];
+}

@@ -1,0 +1,181 @@
+"""Make recordings: of a run while it goes on, or of traces."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.durations import MILLISECOND
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace_line import is_beside_steps
+from swarmdsl.tools.player.model import Model
+from swarmdsl.tools.player.recording import Machine, Member, Note, Recording, Step
+from swarmdsl.tools.player.trace_lines import read_steps
+
+_MOST_NOTES = 50
+"""Diagnostics that a page tells."""
+
+
+class RunRecorder:
+    """Keeps the lines of a run in memory: a `Recorder` of the simulator."""
+
+    def __init__(self) -> None:
+        self._lines: list[str] = []
+        self._members: list[Member] = []
+        self._subject: Subject | None = None
+        self._scenario: Path | None = None
+        self._seed = 0
+        self._end = 0
+
+    def begin(
+        self, subject: Subject, cast: Sequence[Actor], scenario: Path | None, seed: int
+    ) -> None:
+        """Note who runs, and in which scenario."""
+        self._subject, self._scenario, self._seed = subject, scenario, seed
+        self._members = [
+            Member(each.name or each.machine.name, each.role, each.machine.name, each.robot.index)
+            for each in cast
+        ]
+
+    def write(self, text: str, /) -> None:
+        """Keep a line."""
+        self._lines.append(text)
+
+    def end(self, time: int) -> None:
+        """Note when the run was over."""
+        self._end = time
+
+    def recording(self, notes: Iterable[Diagnostic] = ()) -> Recording | None:
+        """Return the recording; None if the run has not begun."""
+        if self._subject is None:
+            return None
+        report = Diagnostics()
+        source = Source("", "".join(self._lines))
+        model = Model(self._subject)
+        return _recording(
+            [_named(step, model.alone) for step, _ in read_steps([source], report)],
+            self._members,
+            model,
+            notes,
+            end=self._end,
+            scenario=self._scenario.name if self._scenario is not None else "",
+            seed=self._seed,
+        )
+
+
+def record_traces(
+    sources: Sequence[Source],
+    subject: Subject | None,
+    report: Diagnostics,
+    notes: Iterable[Diagnostic] = (),
+) -> Recording | None:
+    """Return the recording of traces, of a model if it is known; None if they have no line.
+
+    Members that the model does not have are reported, and shown all the same.
+    """
+    steps = read_steps(sources, report)
+    if not any("configuration" in step for step, _ in steps):
+        return None
+    model = Model(subject) if subject is not None else None
+    alone = model.alone if model is not None else None
+    lines = [_named(step, alone) for step, _ in steps]
+    first: dict[str, Span] = {}
+    for line, (_, place) in zip(lines, steps, strict=True):
+        if not is_beside_steps(line):
+            first.setdefault(line["member"], place)
+    members = [_member(name, place, model, report) for name, place in first.items()]
+    return _recording(lines, members, model, [*notes, *report])
+
+
+def _named(line: Step, alone: str | None) -> Step:
+    """Return a line with the name of its member; a machine `alone` has its own."""
+    if is_beside_steps(line) or line.get("member") is not None:
+        return line
+    return {
+        "t": line["t"],
+        "member": alone or "machine",
+        **{k: v for k, v in line.items() if k != "member"},
+    }
+
+
+def _member(name: str, place: Span, model: Model | None, report: Diagnostics) -> Member:
+    """Return a member of a trace; report one whose role the model does not have."""
+    robot, bracket, rest = name.partition("[")
+    number, _, part = rest.partition("]")
+    role = f"{robot}{part}" if bracket else name
+    index = int(number) if number.isdecimal() and number.isascii() else 0
+    if model is None:
+        return Member(name, role, role, index)
+    machine = model.alone or model.machine_of(role)
+    if machine is None:
+        report.report(
+            "unresolved-name",
+            place,
+            kind="member",
+            name=name,
+            help=f"`{model.name}` has no role `{role}`: name the model of this trace",
+        )
+    return Member(name, role, machine or role, index)
+
+
+def _recording(
+    lines: Sequence[Step],
+    members: Sequence[Member],
+    model: Model | None,
+    notes: Iterable[Diagnostic],
+    *,
+    end: int = 0,
+    scenario: str = "",
+    seed: int | None = None,
+) -> Recording:
+    machines = dict(model.machines()) if model is not None else {}
+    last = lines[-1]["t"] * MILLISECOND if lines else 0
+    return Recording(
+        title=model.name if model is not None else "Run",
+        lines=lines,
+        members=members,
+        machines=_with_seen_states(machines, members, lines),
+        end=max(end, last),
+        model=model.name if model is not None else "",
+        scenario=scenario,
+        seed=seed,
+        sources=model.sources if model is not None else {},
+        properties=model.properties() if model is not None else {},
+        measures=model.measures() if model is not None else (),
+        map=model.map() if model is not None else "",
+        notes=[_note(each) for each in list(notes)[:_MOST_NOTES]],
+    )
+
+
+def _with_seen_states(
+    machines: Mapping[str, Machine], members: Sequence[Member], lines: Sequence[Step]
+) -> list[Machine]:
+    """Return the machines of the members, with states that only the lines have."""
+    found = dict(machines)
+    of = {each.name: each.machine for each in members}
+    seen: dict[str, dict[str, None]] = {}
+    for line in lines:
+        if "configuration" in line and line.get("member") in of:
+            states = seen.setdefault(of[line["member"]], {})
+            states |= dict.fromkeys(line["configuration"])
+    for name, states in seen.items():
+        known = found.get(name, Machine(name, ()))
+        if not states.keys() <= set(known.states):
+            found[name] = known.with_states(states)
+        else:
+            found[name] = known
+    return list(found.values())
+
+
+def _note(found: Diagnostic) -> Note:
+    place = ""
+    if found.primary is not None:
+        span = found.primary.span.absolute
+        line, column = span.source.line_column(span.start)
+        place = f"{span.source.name}:{line}:{column}"
+    label = found.primary.message if found.primary is not None else ""
+    message = f"{found.message}: {label}" if label else found.message
+    return Note(found.severity.value, found.code, message, place, found.help or "")
