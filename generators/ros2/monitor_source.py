@@ -115,6 +115,8 @@ class MonitorSource:
             keywords.append(("robots", robots))
         if fact.guard is not None:
             keywords.append(("condition", told_text(fact)))
+        if fact.outcome:
+            keywords.append(("outcome", fact.outcome))
         name = (fact.name,) if fact.name else ()
         return self._call("Fact", (fact.act, *name), keywords)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from swarmdsl.codegen import Diagnostics, Span, code_cell, dataclass, fresh
 from swarmdsl.codegen.python import Call, Source, layout
 from swarmdsl.codegen.shared import sentence_text
-from swarmdsl.ir import StateMachine, System
+from swarmdsl.ir import Fact, System
 
 from .imports import WIDTH, Imports
 from .launch import Launch
@@ -75,7 +75,7 @@ def _watched(subject: Subject, module: str, named: Callable[[str], str]) -> Watc
         swarm=launch.swarm,
         launch=launch.name,
         module=module,
-        machines=tuple(_machines(launch, subject.machines, tables)),
+        machines=tuple(_machines(subject, tables)),
         properties=tuple(map(written.entry, subject.properties)),
         of_machines=of_machines,
         fitness=subject.fitness.name if subject.fitness is not None and subject.inputs else "",
@@ -129,18 +129,21 @@ def _rows(texts: Mapping[str, str]) -> str:
     return "\n".join(f"| {name} | {text} |" for name, text in texts.items())
 
 
-def _machines(
-    launch: Launch, machines: Mapping[str, StateMachine], tables: Mapping[str, str]
-) -> Iterator[Entry]:
+def _machines(subject: Subject, tables: Mapping[str, str]) -> Iterator[Entry]:
     """Yield the machine of each role and of each part; `tables` of properties by module."""
-    for role in launch.roles:
+    ended = {fact.name for fact in subject.facts if isinstance(fact, Fact) and fact.act == "ends"}
+    for role in subject.launch.roles:
         for node in role.nodes:
             who = role.name if node.part is None else f"{role.name}.{node.part}"
-            states = tuple(state.id for state in machines[node.executable].walk())
+            walked = [*subject.machines[node.executable].walk()]
+            states = tuple(state.id for state in walked)
             keywords: list[tuple[str, object]] = []
             if role.upper is not None:
                 keywords.append(("most", role.upper))
             if node.executable in tables:
                 keywords.append(("properties", Source(tables[node.executable])))
+            called = [(s.id, s.activity.function) for s in walked if s.activity is not None]
+            if functions := tuple(each for each in called if each[1] in ended):
+                keywords.append(("functions", functions))
             call = Call("Machine", (node.name, states), tuple(keywords))
             yield Entry((), layout(call, 1, f"{STEP}{who!r}: ", ",", WIDTH))

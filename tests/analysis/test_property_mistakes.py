@@ -58,6 +58,11 @@ def found(sentence: str, tmp_path: Path) -> list[tuple[str, str, str]]:
 
 HELPS = {
     "Crew : always all robot in Fetch": "write `at all times` after the fact",
+    "Crew : never some robot succeeds carry": "write `ends carry as succeeded`",
+    "Crew : each robot : never aborts carry": "write `ends carry as aborted`",
+    "Crew : never some robot ends carry aborted": "write `as aborted`",
+    "Crew : never some robot finishes carry": "write `ends`",
+    "Crew : never some robot ends carry as succeded": "did you mean `succeeded`?",
     "Crew : G(all robot in Fetch)": "write `at all times` after the fact",
     "Crew : F(all robot in Fetch)": "write `eventually` before the fact",
     "Crew : infinitely often some robot in Fetch": "write `again and again` before the fact",
@@ -179,6 +184,8 @@ IMPOSSIBLE = {
     "scout hears Start": "role `scout` never waits for `Start`",
     "scout starts carry": "role `scout` never calls `carry`",
     "some robot cancels other": "role `robot` never calls `other`",
+    "scout ends carry as aborted": "role `scout` never calls `carry`",
+    "some robot ends carry as preempted": "a service ends as `succeeded` or `aborted`",
     "Other": "`Crew` never waits for `Other`",
     "some robot sends Seen [event.x > 3 and event.x < 2]": "its condition is always false",
     "some robot has [box > 255]": "its condition is always false",
@@ -202,6 +209,7 @@ def test_a_fact_that_never_holds(fact: str, tmp_path: Path) -> None:
         "some robot hears Low",  # by its topic
         "some robot has [box > 254]",
         "some robot cancels carry",
+        "some robot ends carry as aborted",
         "some robot sends Seen [event.x > box and event.x < 300]",
         "some robot hears Seen [event.sent > 3 s]",
         "Seen [event.x != 3]",

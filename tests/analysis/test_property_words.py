@@ -86,6 +86,14 @@ SENTENCES = {
         "In each run of swarm `Crew`: it stays possible that all `robot` cancel their call of "
         "`carry`, and is so at the end of a run that ends."
     ),
+    "of Crew : never all robot ends carry as aborted": (
+        "In each run of swarm `Crew`: it never happens that all `robot` complete their call of "
+        "`carry` as `aborted`."
+    ),
+    "of Crew : each robot : starts carry leads to ends carry": (
+        "In each run of swarm `Crew`, for each `robot` by itself: whenever it calls `carry`, then "
+        "or later it completes its call of `carry`."
+    ),
     "of Crew : eventually count(robot in Over) == 4": (
         "In each run of swarm `Crew`: at some time exactly 4 `robot` are in `Over`."
     ),

@@ -61,6 +61,10 @@ def sent(*limits: tuple[str, int], robots: Robots | None = None) -> Property:
     return replace(NEVER, claims=(Fact("sends", "C", robots, guard),))
 
 
+def ended(outcome: str, robots: Robots | None = None) -> Property:
+    return replace(NEVER, claims=(Fact("ends", "carry", robots, outcome=outcome),))
+
+
 def more(number: int) -> Property:
     return replace(NEVER, claims=(Count("robot", "Work", ">", number),))
 
@@ -84,6 +88,10 @@ def more(number: int) -> Property:
         (sent((">", 3)), sent((">", 3), ("<", 9)), "weaker"),
         (sent(("<=", 3)), sent(("==", 3)), "weaker"),
         (sent((">", 3), robots=NONE), sent((">", 5), robots=NONE), "stronger"),
+        (ended(""), ended("aborted"), "weaker"),
+        (ended("", NONE), ended("aborted", NONE), "stronger"),
+        (ended("succeeded"), ended("aborted"), None),
+        (ended("", ONE), ended("aborted", ONE), None),
         (sent((">", 3), robots=ONE), sent((">", 5), robots=ONE), None),
         (replace(NEVER, claims=(both(A, B),)), NEVER, "stronger"),
         (replace(LEADS, claims=(A, both(B, C))), LEADS, "weaker"),

@@ -136,7 +136,7 @@ _REASONS: dict[str, dict[str, str]] = {
         ),
         "SCXML has no properties": (
             "Chance.bound Chance.probability Count.comparison Count.number Count.role "
-            "Count.state Fact.act Fact.guard Fact.name Fact.robots Junction.claims "
+            "Count.state Fact.act Fact.guard Fact.name Fact.outcome Fact.robots Junction.claims "
             "Junction.operator Property.chance Property.claims Property.doc Property.each "
             "Property.kind Property.name Property.scope Property.subject Property.times "
             "Property.within Robots.index Robots.number Robots.other Robots.quantifier "

@@ -31,7 +31,10 @@ from swarmdsl.execution.monitor import (
 from .slow import Step, verdict
 
 ROBOTS = tuple(f"robot[{number}]" for number in range(3))
-ACTS = ("sends", "hears", "arrives")
+ACTS = ("sends", "hears", "arrives", "ends")
+FUNCTIONS = {"Work": "P", "Rest": "Q", "Work.Lift": "P"}
+"""Functions that states call."""
+ENDS = ("do.Work.succeeded", "do.Work.Lift.aborted", "do.Work.Lift.preempted", "do.Rest.aborted")
 KINDS = {"never": 1, "always": 1, "eventually": 1, "leads": 2, "only": 2, "times": 1, "then": 2}
 SCOPES = {None: 0, "after": 1, "before": 1, "between": 2, "until": 2}
 
@@ -49,6 +52,7 @@ class Actor(NamedTuple):
     name: str
     robot: Robot
     states: Sequence[str] = ()
+    functions: Sequence[tuple[str, str]] = tuple(FUNCTIONS.items())
 
 
 class Envelope(NamedTuple):
@@ -107,6 +111,10 @@ def has(line: Line, fact: Fact) -> bool:
 
 def happens(fact: Fact, line: Line) -> bool:
     """Return True if a fact happens in a line, by its definition."""
+    if fact.act == "ends":
+        state, _, outcome = (line.event or "").removeprefix("do.").rpartition(".")
+        called = state in FUNCTIONS and FUNCTIONS[state] == fact.name and not line.deferred
+        return called and fact.outcome in ("", outcome)
     heard = [(line.event, line.data, line.envelope.sender)]
     if fact.act == "sends":
         found = [(name, x, "") for name, x in zip(line.sent, line.messages, strict=True)]
@@ -177,6 +185,9 @@ def random_fact(dice: random.Random, *, of_each: bool) -> Fact:
             other=of_each and quantifier in ("some", "no", "all") and dice.random() < 0.5,
         )
     condition = None
+    if act == "ends":
+        outcome = dice.choice(("", "succeeded", "aborted", "preempted"))
+        return Fact(act, dice.choice("PQ"), robots, outcome=outcome)
     if dice.random() < 0.8:
         sender = dice.choice(("", *ROBOTS)) if act == "hears" else ""
         of_box = act != "arrives" and dice.random() < 0.3
@@ -230,7 +241,7 @@ def random_moments(dice: random.Random) -> list[list[Line]]:
     time = 0
     for _ in range(dice.randrange(10)):
         time += dice.choice((0, 0, 1, 2, 5))
-        event = dice.choice(("P", "P", "Q", "Q", "do.Work.succeeded"))
+        event = dice.choice(("P", "P", "Q", "Q", dice.choice(ENDS)))
         moments.append([random_line(dice, time, dice.choice(actors), event)])
     return moments
 

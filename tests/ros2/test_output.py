@@ -288,6 +288,7 @@ def test_the_launch_file_starts_every_member(
 
 WATCHED = """
 package lab
+function lift : abstraction { service "lift" : std_srvs/Trigger }
 event Take : std_msgs/Int32 on "take"
 swarm event Home : std_msgs/Empty
 swarm event Seen : std_msgs/Empty
@@ -298,6 +299,9 @@ statemachine Carrying {
   state Empty { on Take / load = event.data, send Home -> Loaded }
   state Loaded {
     var homes : int32 = 0
+    do lift
+    on aborted -> Empty
+    on succeeded
     on Home / homes = homes + 1 -> Empty
     on Seen -> Away
   }
@@ -318,6 +322,7 @@ property Alone of Carrying : never in Loaded and has [load > 7]
 property Light of Depot : each carrier : never has [load > most]
 property Rare of Depot : each carrier : never has [homes > 9]
 property Few of Depot : 1..2 carrier in Loaded leads to no carrier in Loaded within 1500 ms
+property Lifted of Depot : each carrier : never ends lift as aborted and in Loaded
 property Home1 of Depot : between Seen and carrier[1] in Away, carrier[1] hears Home at most 2 times
 """
 
@@ -334,7 +339,9 @@ def test_monitors_have_the_properties_of_a_swarm(generate: Generate, tmp_path: P
         "Fact('in', 'Loaded', robots=Robots('carrier', 'number', least=1, most=2))",
         "Sentence('times', scope='between', times=2)",
         "robots=Robots('carrier', 'index', number=1)",
-        "Machine('carrying', ('Empty', 'Loaded', 'Away'), most=2, properties=OF_CARRYING),",
+        "'carrying',\n        ('Empty', 'Loaded', 'Away'),\n        most=2,\n",
+        "properties=OF_CARRYING,\n        functions=(('Loaded', 'lift'),),",
+        "Fact('ends', 'lift', outcome='aborted')",
         "'Alone',\n        Sentence('never'),",
         "Measure('away', 'count', Fact('in', 'Away', robots=Robots('carrier', 'every'))),",
         "bound='uint8',",

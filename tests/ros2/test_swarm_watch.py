@@ -14,7 +14,7 @@ from swarmdsl.codegen.bundled.ros2.runtime.swarm_watch import Watches
 
 from swarmdsl.cli import run
 from swarmdsl.execution import monitor
-from swarmdsl.execution.monitor import Fact, Property, Sentence
+from swarmdsl.execution.monitor import Fact, Property, Robots, Sentence
 
 MODEL = """
 package test
@@ -195,6 +195,24 @@ def test_each_machine_is_alone_and_begins_with_its_node() -> None:
         ("Up", "false", 12_000_000_000),
         ("Soon", "false", 3_000_000_000),
     ]
+
+
+def test_a_function_ends_with_an_event_of_its_state() -> None:
+    fact = Fact("ends", "dig", Robots("robot", "some"), outcome="aborted")
+    never = Property("Digs", Sentence("never"), (fact,), origin="digs")
+    machines = {"robot": Machine("work", ("Idle", "Busy"), functions=(("Busy", "dig"),))}
+    swarm = SimpleNamespace(machines=machines, properties=(never,), measures=())
+    watches = Watches(swarm, lambda *_: None)
+    lines = RobotLines(machines, (), wait=0, start=0)
+    events = ["do.Busy.succeeded", "do.Idle.aborted", "do.Busy.aborted"]
+    for number, event in enumerate([None, *events]):
+        heard = record(0, number, number, "robot[0]", "Busy") | {"event": event}
+        lines.hear(json.dumps(heard), 0)
+    for line in lines.rest():
+        watches.see(line)
+    watches.advance(9_000_000_000)
+    (found,) = watches.new_violations()
+    assert (found.property, found.time) == (never, 3_000_000_000)
 
 
 def test_without_a_robot_verdicts_on_machines_say_so() -> None:

@@ -131,6 +131,7 @@ lasts = "5 s"
 """
 FACTS = ("in Work", "in Rest", "in Over", "in Waiting", "has [box > 3]", "sends Home")
 FACTS += ("hears Home", "hears Start", "starts carry", "cancels carry", "sends Start")
+FACTS += ("ends carry", "ends carry as succeeded", "ends carry as aborted")
 
 
 EVENTS = ["Start", "Home"] * 5

@@ -17,6 +17,7 @@ swarm event Tell : Word
 _FACTS = (
     *("in S0", "in S1", "in S2", "sends Ask", "hears Tell", "starts attempt", "hears Go"),
     *("has [n > 0]", "has [ok]", "cancels attempt"),
+    *("ends attempt", "ends attempt as succeeded", "ends attempt as aborted"),
 )
 _SCOPES = (
     "",

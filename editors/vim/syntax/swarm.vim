@@ -52,6 +52,7 @@ syn match swarmDeclaration #\<defer\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<distance\>\ze[ \t]*[(]#
 syn match swarmDeclaration #\<each\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<effort\>\ze[ \t]*\%([,;}]\|$\)#
+syn match swarmDeclaration #\<ends\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<energy\>\ze[ \t]*[(]#
 syn match swarmStatement #\<evaluations\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<eventually\>\ze[ \t]*[*A-Za-z_0-9"]#

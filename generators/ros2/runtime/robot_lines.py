@@ -21,13 +21,15 @@ class Machine(NamedTuple):
     """
     Machine of a role or of a part: the name of its node, its states, and its properties.
 
-    The role has at most so many robots, None for any number.
+    The role has at most so many robots, None for any number. `functions` are those that states
+    call, as far as properties ask how they end.
     """
 
     node: str
     states: Any
     most: Any = None
     properties: Any = ()
+    functions: Any = ()
 
 
 class Robot(NamedTuple):
@@ -43,6 +45,7 @@ class Actor(NamedTuple):
     name: str
     robot: Robot
     states: Any
+    functions: Any
 
 
 class Envelope(NamedTuple):
@@ -213,8 +216,9 @@ class RobotLines:
             check_robot(name, self._machines)
             robot = name.partition('.')[0]
             machine = self._machines[machine_of(name)]
-            actor = Actor(name, Robot(robot, robot.partition('[')[0]), tuple(machine.states))
-            self._sources[name] = _Source(actor)
+            who = Robot(robot, robot.partition('[')[0])
+            functions = tuple(machine.functions)
+            self._sources[name] = _Source(Actor(name, who, tuple(machine.states), functions))
         return self._sources[name]
 
     def _add_lost(self, source, time, now):

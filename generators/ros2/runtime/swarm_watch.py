@@ -88,7 +88,9 @@ class _Alone:
 
     def __init__(self, line, properties, tell):
         self.name = line.actor.name
-        self._actor = Actor(self.name, Robot(self.name, ''), line.actor.states)
+        self._actor = Actor(
+            self.name, Robot(self.name, ''), line.actor.states, line.actor.functions
+        )
         self._began = max(line.time - line.record['t'] * MILLISECOND, 0)
         self._tell = tell
         self.states = dict.fromkeys(properties, OPEN)

@@ -29,6 +29,7 @@ _DONE = {
     "hears": "hears",
     "starts": "calls",
     "cancels": "cancels its call of",
+    "ends": "completes its call of",
 }
 
 
@@ -131,8 +132,9 @@ def _fact(fact: Fact) -> str:
     ref = fact.event if fact.event is not None else fact.function
     done = _DONE[fact.act]
     if several:
-        done = "cancel their call of" if fact.act == "cancels" else done.removesuffix("s")
-    return f"{who} {done} `{ref.name if ref is not None else ''}`{message}"
+        done = done.replace("s its", " their") if " its " in done else done.removesuffix("s")
+    outcome = f" as `{fact.outcome}`" if fact.outcome else ""
+    return f"{who} {done} `{ref.name if ref is not None else ''}`{message}{outcome}"
 
 
 def _who(who: Who) -> tuple[str, bool]:

@@ -9,7 +9,7 @@ from swarmdsl.base.source import Span
 from swarmdsl.ir.architecture import Multiplicity
 from swarmdsl.ir.expressions import Expression
 
-Act = Literal["in", "has", "sends", "hears", "starts", "cancels", "arrives"]
+Act = Literal["in", "has", "sends", "hears", "starts", "cancels", "ends", "arrives"]
 Kind = Literal[
     "never", "always", "eventually", "possible", "again", "leads", "only", "times", "then"
 ]
@@ -34,13 +34,15 @@ class Fact:
 
     Without `robots`, the fact is about the robot of `each` or the only machine; an event that
     `arrives` comes from outside. The `guard` of an event is about its message; of one that is
-    sent, it is evaluated with the variables after the step.
+    sent, it is evaluated with the variables after the step. A function `ends` in any way, or with
+    the `outcome` succeeded, aborted or preempted.
     """
 
     act: Act
     name: str = ""
     robots: Robots | None = None
     guard: Expression | None = None
+    outcome: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 

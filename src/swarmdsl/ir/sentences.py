@@ -142,6 +142,7 @@ def _fact(fact: Fact) -> Iterator[Part]:
         yield Named("state", fact.name, role)
     else:
         yield Named("event" if fact.act in _EVENTS else "function", fact.name)
+    yield f" as {fact.outcome}" if fact.outcome else ""
     if fact.guard is not None:
         yield " ["
         yield Condition(fact.guard, role)

@@ -109,15 +109,15 @@ def _fact(fact: Fact, context: Context) -> ir.Fact | ir.Count:
         return ir.Count(fact.counted.name, fact.state.name, comparison, number, fact.span)
     robots = _robots(fact.who) if fact.who is not None else None
     if fact.state is not None:
-        return ir.Fact("in", fact.state.name, robots, None, fact.span)
+        return ir.Fact("in", fact.state.name, robots, origin=fact.span)
     if fact.event is not None:
         context = replace(context, typing=context.typing.in_fact(fact))
     guard = lower_optional(fact.guard, context)
     ref = fact.event if fact.event is not None else fact.function
     if ref is None:
-        return ir.Fact("has", "", robots, guard, fact.span)
+        return ir.Fact("has", "", robots, guard, origin=fact.span)
     act = cast("Act", fact.act or "arrives")
-    return ir.Fact(act, context.name(ref), robots, guard, fact.span)
+    return ir.Fact(act, context.name(ref), robots, guard, fact.outcome, fact.span)
 
 
 def _robots(who: Who) -> ir.Robots:

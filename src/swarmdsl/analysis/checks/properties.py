@@ -24,10 +24,12 @@ from swarmdsl.base.records import replace
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     Activity,
+    Communication,
     Event,
     EventTrigger,
     Fact,
     Fitness,
+    Function,
     Measure,
     MonitorTrigger,
     Node,
@@ -216,12 +218,24 @@ def _never_done(fact: Fact, owner: Sentence) -> str | None:
             topics |= {received_topic(each) for each in nodes_of(machine, MonitorTrigger)}
     ref = fact.event if fact.event is not None else fact.function
     assert ref is not None
-    if ref.target is None or None in found or ref.target in found:
+    if ref.target is None or None in found:
         return None
+    if ref.target in found:
+        return _never_ends_so(fact)
     if isinstance(ref.target, Event) and received_topic(ref.target) in topics:
         return None
     verb = "calls" if fact.function is not None else "sends" if fact.act == "sends" else "waits for"
     return f"{who} never {verb} `{ref.name}`"
+
+
+def _never_ends_so(fact: Fact) -> str | None:
+    """Describe why a function that is called never has an outcome; None if it can."""
+    target = fact.function.target if fact.function is not None else None
+    items = target.items if isinstance(target, Function) else ()
+    paradigms = {item.paradigm for item in items if isinstance(item, Communication)}
+    if fact.outcome != "preempted" or paradigms != {"service"}:
+        return None
+    return "a service ends as `succeeded` or `aborted`"
 
 
 def _never_true(fact: Fact, context: Context) -> str | None:

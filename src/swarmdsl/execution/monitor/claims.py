@@ -25,17 +25,18 @@ class Robots(NamedTuple):
 
 
 class Fact(NamedTuple):
-    """Act of robots: `in`, `has`, `sends`, `hears`, `starts`, `cancels` or `arrives`.
+    """Act of robots: `in`, `has`, `sends`, `hears`, `starts`, `cancels`, `ends` or `arrives`.
 
     The name is that of a state, an event or a function; `condition` is what robots have, or what
-    the message of an event is like. Without `robots`, the fact is about the robot of `each` or the
-    only machine.
+    the message of an event is like, `outcome` how a function ends. Without `robots`, the fact is
+    about the robot of `each` or the only machine.
     """
 
     act: str
     name: str = ""
     robots: Robots | None = None
     condition: Hashable = None
+    outcome: str = ""
 
 
 class Count(NamedTuple):

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
 from .claims import Count, Fact
 
 LOST = "fault.lost"
 """Event of a lost robot; no model event has such a name."""
-MOMENTARY = frozenset(("sends", "hears", "starts", "cancels", "arrives"))
+MOMENTARY = frozenset(("sends", "hears", "starts", "cancels", "ends", "arrives"))
 """Acts that happen at one step, in contrast to states and values."""
+OUTCOMES = ("succeeded", "aborted", "preempted")
 
 
 class RobotLike(Protocol):
@@ -39,6 +40,10 @@ class ActorLike(Hashable, Protocol):
     @property
     def states(self) -> Sequence[str]:
         """Paths of all states of the machine."""
+
+    @property
+    def functions(self) -> Iterable[tuple[str, str]]:
+        """Paths of states with the functions that they call."""
 
 
 class LineLike(Protocol):
@@ -98,15 +103,15 @@ class Facts:
 
     def __init__(self) -> None:
         self.momentary = 0
-        self._bits: dict[tuple[str, str, str | None, Hashable], int] = {}
+        self._bits: dict[tuple[str, str, str | None, Hashable, str], int] = {}
 
     def bit(self, fact: Fact | Count, role: str | None) -> int:
         """Return the bit of a fact of a role, or of all roles."""
-        key: tuple[str, str, str | None, Hashable]
+        key: tuple[str, str, str | None, Hashable, str]
         if isinstance(fact, Count):
-            key = ("in", fact.state, role, None)
+            key = ("in", fact.state, role, None, "")
         else:
-            key = (fact.act, fact.name, role, fact.condition)
+            key = (fact.act, fact.name, role, fact.condition, fact.outcome)
         bit = self._bits.setdefault(key, 1 << len(self._bits))
         if key[0] in MOMENTARY:
             self.momentary |= bit
@@ -116,11 +121,12 @@ class Facts:
         """Return the facts that lines of an actor can change."""
         return Kind(
             [
-                (bit, Fact(act, name, condition=condition))
-                for (act, name, role, condition), bit in self._bits.items()
+                (bit, Fact(act, name, condition=condition, outcome=outcome))
+                for (act, name, role, condition, outcome), bit in self._bits.items()
                 if role in (None, actor.robot.role) and can_hold(act, actor)
             ],
             actor.states,
+            actor.functions,
         )
 
 
@@ -130,14 +136,20 @@ class Kind:
     `acts` are the bits of what machines do and hear, by act and name, `values` those of what
     robots have, and `conditional` those of all facts with a condition.
     `places` are the facts that hold in known configurations, `from_outside` and `from_robots`
-    those about the events of a robot and about values.
+    those about the events of a robot and about values. `functions` are called by states.
     """
 
-    def __init__(self, facts: Iterable[tuple[int, Fact]], states: Sequence[str]) -> None:
+    def __init__(
+        self,
+        facts: Iterable[tuple[int, Fact]],
+        states: Sequence[str],
+        functions: Iterable[tuple[str, str]],
+    ) -> None:
         self.mask = self.values = self.conditional = 0
         self._conditions: list[tuple[int, Fact]] = []
         self.acts: dict[str, dict[str, int]] = {act: {} for act in MOMENTARY}
         self._states: list[tuple[int, set[str]]] = []
+        heard: dict[str | None, int] = {}
         self.places: dict[Hashable, int] = {}
         for bit, fact in facts:
             self.mask |= bit
@@ -148,17 +160,21 @@ class Kind:
                 self._states.append((bit, meant_states(states, fact.name.split("."))))
             elif fact.act == "has":
                 self.values |= bit
+            elif fact.act == "ends":
+                for event in _ends(fact, functions):
+                    heard[event] = heard.get(event, 0) | bit
             else:
                 acts = self.acts[fact.act]
                 acts[fact.name] = acts.get(fact.name, 0) | bit
-        hears, arrives = self.acts["hears"], self.acts["arrives"]
-        self._hears: Mapping[str | None, int] = dict(hears.items())
-        self._arrives: Mapping[str | None, int] = dict(arrives.items())
+        # The end of an activity is an event of its own.
+        heard.update(self.acts["hears"])
+        arrives: Mapping[str | None, int] = dict(self.acts["arrives"].items())
+        self._hears, self._arrives = heard, arrives
         self.from_outside: dict[str | None, int] = {}
         self.from_robots: dict[str | None, int] = {}
-        for event in (*hears, *arrives):
-            self.from_robots[event] = hears.get(event, 0) | self.values
-            self.from_outside[event] = self.from_robots[event] | arrives.get(event, 0)
+        for each in (*heard, *arrives):
+            self.from_robots[each] = heard.get(each, 0) | self.values
+            self.from_outside[each] = self.from_robots[each] | arrives.get(each, 0)
 
     def holding(self, line: LineLike, has: Has) -> int:
         """Return the facts that hold for the machine of a line, after it."""
@@ -214,6 +230,15 @@ class Kind:
 def can_hold(act: str, actor: ActorLike) -> bool:
     """Return True if an act can be that of a machine: values are those of the robot itself."""
     return act != "has" or actor.name == actor.robot.name
+
+
+def _ends(fact: Fact, functions: Iterable[tuple[str, str]]) -> Iterator[str]:
+    """Yield the events by which a function ends as a fact says, for each state that calls it."""
+    for state, function in functions:
+        if function == fact.name:
+            for outcome in OUTCOMES:
+                if fact.outcome in ("", outcome):
+                    yield f"do.{state}.{outcome}"
 
 
 def _around(state: str) -> list[str]:

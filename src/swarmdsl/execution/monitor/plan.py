@@ -35,7 +35,8 @@ class Plan:
 
     def kind(self, actor: ActorLike) -> Kind:
         """Return the facts that the lines of a machine can change."""
-        key = (actor.robot.role, tuple(actor.states), can_hold("has", actor))
+        functions = tuple(actor.functions)
+        key = (actor.robot.role, tuple(actor.states), functions, can_hold("has", actor))
         if key not in self._kinds:
             self._kinds[key] = self.facts.kind_of(actor)
         return self._kinds[key]

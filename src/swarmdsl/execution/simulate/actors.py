@@ -35,6 +35,11 @@ class Actor:
         """Ids of all states of the machine."""
         return [state.id for state in self.machine.states[1:]]
 
+    @property
+    def functions(self) -> list[tuple[str, str]]:
+        """Ids of states with the functions that they call."""
+        return [(s.id, s.activity.name) for s in self.machine.states if s.activity is not None]
+
     def listens(self, event: str) -> bool:
         """Return True if a state of the machine reacts to the event."""
         return any(edge.matches(event) for edges in self.machine.edges for edge in edges)

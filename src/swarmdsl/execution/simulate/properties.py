@@ -122,7 +122,7 @@ def claim_of(claim: ir.Claim) -> monitor.Claim:
     if isinstance(claim, ir.Count):
         return monitor.Count(claim.role, claim.state, claim.comparison, claim.number)
     robots = _robots(claim.robots) if claim.robots is not None else None
-    return monitor.Fact(claim.act, claim.name, robots, claim.guard)
+    return monitor.Fact(claim.act, claim.name, robots, claim.guard, claim.outcome)
 
 
 def _robots(robots: ir.Robots) -> monitor.Robots:

@@ -188,11 +188,11 @@ def same_fact(one: Fact | Count, other: Fact | Count) -> bool:
     return meaning(one) == meaning(other)
 
 
-def meaning(fact: Fact | Count) -> tuple[str, str, ir.Expression | None]:
+def meaning(fact: Fact | Count) -> tuple[str, str, ir.Expression | None, str]:
     """Return what a fact says, without the robots that it says it of."""
     if isinstance(fact, Count):
-        return ("in", fact.state, None)
-    return (fact.act, fact.name, fact.guard)
+        return ("in", fact.state, None, "")
+    return (fact.act, fact.name, fact.guard, fact.outcome)
 
 
 def facts_of(property_: ir.Property) -> list[Fact | Count]:

@@ -88,7 +88,8 @@ class Who(Node):
 class Fact(Node):
     """`who in State`, `who sends Event`, `count(role in State) > 1`, or an event from outside.
 
-    `act` and `comparison` are as written, or empty. The `guard` of an event is about its message.
+    `act`, `outcome` and `comparison` are as written, or empty. The `guard` of an event is about its
+    message.
     """
 
     counted: Ref[Role] | None
@@ -100,6 +101,7 @@ class Fact(Node):
     act: str
     event: Ref[Event] | None
     function: Ref[Function] | None
+    outcome: str
 
 
 @dataclass(slots=True, eq=False)

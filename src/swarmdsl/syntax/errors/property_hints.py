@@ -43,6 +43,12 @@ _FOUND = {
     **dict.fromkeys(("receives", "gets", "handles"), "write `hears`"),
     **dict.fromkeys(("emits", "publishes", "raises"), "write `sends`"),
     **dict.fromkeys(("calls", "runs", "performs"), "write `starts`"),
+    **dict.fromkeys(("finishes", "completes", "returns"), "write `ends`"),
+}
+_OUTCOMES = {
+    **dict.fromkeys(("succeeds", "achieves", "succeeded"), "succeeded"),
+    **dict.fromkeys(("aborts", "fails", "aborted"), "aborted"),
+    "preempted": "preempted",
 }
 _TOKEN = re.compile(r"[A-Za-z_]\w*|[=\-]+>|\S")
 _SOON = re.compile(r"(?:in|for|by)\s+(\d[\d.]*\s*[A-Za-z]+)")
@@ -56,7 +62,7 @@ _TEST = re.compile(
     re.VERBOSE,
 )
 _COMPARED_TO = re.compile(r"([=!<>]?=|[<>])\s*(\"[^\"\n]*\"|[\w.]+)")
-_NO_EVENT = re.compile(r"\b(?:in|starts|cancels)\s+[\w.]+\Z")
+_NO_EVENT = re.compile(r"\b(?:in|starts|cancels|ends)\s+[\w.]+\Z")
 _IN_CONDITION = re.compile(r"\[[^\[\]]*\Z")
 _COUNT = re.compile(r"\bcount\s*\([^()]*\)\Z")
 _WHO = re.compile(r"\w+(?:\[\d+\])?\Z")
@@ -86,6 +92,8 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
         return _LEADS
     if about_message := _message_hint(said, found, text, at):
         return about_message
+    if about_end := _outcome_hint(expected, said, text, at):
+        return about_end
     if "`[`" in expected and re.search(r"\bhas\Z", said) and (test := _COMPARED.match(text, at)):
         return f"write `has [{test[0]}]`"
     if "`:`" in expected and (each := re.search(r"\beach\s+\w+\Z", said)):
@@ -124,6 +132,22 @@ def _message_hint(said: str, found: str, text: str, at: int) -> str | None:
     if found == "[" and _NO_EVENT.search(said):
         return "only an event has a condition: write `and`, and a fact with `has [x > 3]`"
     return None
+
+
+def _outcome_hint(expected: set[str], said: str, text: str, at: int) -> str | None:
+    """Return a hint for an outcome that is written in another way, as in `robot aborts carry`."""
+    written = re.compile(r"(\w+)(?:\s+([A-Za-z_][\w.]*))?").match(text, at)
+    if written is None:
+        return None
+    verb, function = written[1], written[2]
+    if "`ends`" in expected and verb not in _OUTCOMES:
+        # It may have been taken for the name of a role.
+        verb, function = said.split()[-1], verb
+    if verb not in _OUTCOMES:
+        return None
+    if "`as`" in expected:
+        return f"write `as {_OUTCOMES[verb]}`"
+    return f"write `ends {function} as {_OUTCOMES[verb]}`" if function else None
 
 
 def _operator(written: str) -> str:

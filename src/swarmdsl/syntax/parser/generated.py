@@ -11,7 +11,7 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, Address, AliasType, Append, Area, Argument, Assignment, BehaviorUse, Box, Branch, Cancel, Chance, Choice, Claim, Clear, Communication, CommunicationSettings, Component, Conjunction, Connector, Constant, CountRange, Defer, DeferredEvent, DeliverySetting, DoneTrigger, Each, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Equipment, Event, EventTrigger, Exit, Fact, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, Heartbeat, Height, History, ImportFile, ImportLibrary, ImportRos, Initial, Measure, Member, MessageType, Model, ModelUse, MonitorTrigger, Multiplicity, Objective, Obstacle, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Pattern, Point, Port, PortRef, Property, PropertyScope, Rain, Region, Remove, ResultMapping, RobotValues, Role, Send, ServiceType, Setting, Sight, Size, SpaceMeasure, Start, State, StateMachine, StructType, SubjectTo, Swarm, Targets, Term, TimeTrigger, Transition, TypeRef, Variable, Wall, Who, Wind, World, Zone
 from swarmdsl.syntax.parser.lexer import Lexer
 
-GRAMMAR = 927136951
+GRAMMAR = 4052672688
 new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
@@ -154,10 +154,10 @@ SET29 = frozenset(['max', 'mean', 'min', 'sum'])
 SET30 = frozenset(['max', 'mean', 'min'])
 SET31 = frozenset(['hears', 'sends'])
 SET32 = frozenset(['cancels', 'starts'])
-SET33 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
-SET34 = frozenset(['all', 'no', 'some'])
-SET35 = frozenset(['after', 'monitor', 'on'])
-SET36 = frozenset(['aborted', 'preempted', 'succeeded'])
+SET33 = frozenset(['aborted', 'preempted', 'succeeded'])
+SET34 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+SET35 = frozenset(['all', 'no', 'some'])
+SET36 = frozenset(['after', 'monitor', 'on'])
 SET37 = frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state', 'var'])
 RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'property', 'region', 'self', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
 TERMINALS = (
@@ -311,6 +311,8 @@ TERMINALS = (
     ('maximize\\b', '', 'maximize'),
     ('minimize\\b', '', 'minimize'),
     ('has\\b', '', 'has'),
+    ('ends\\b', '', 'ends'),
+    ('as\\b', '', 'as'),
     ('true\\b', '', 'true'),
     ('false\\b', '', 'false'),
     ('-(?!>)', 'MINUS', ''),
@@ -327,6 +329,9 @@ TERMINALS = (
     ('hears\\b', '', 'hears'),
     ('starts\\b', '', 'starts'),
     ('cancels\\b', '', 'cancels'),
+    ('succeeded\\b', '', 'succeeded'),
+    ('aborted\\b', '', 'aborted'),
+    ('preempted\\b', '', 'preempted'),
     ('other\\b', '', 'other'),
     ('\\d+(?:\\.\\d+)?(?:[eE][+-]?\\d+)?(?:[ \\t]*(?:(?:m\\/s2|m\\/s|m2|m3|mm|min|mAh|mA|mV|ms|m|km\\/h|kg|kWh|kW|km|cm|rad\\/s2|rad\\/s|rad|degC|deg\\/s|deg|us|s|h|Hz|g|N|J|Wh|W|V|Ah|A)\\b|%(?![ \\t]*(?:(?!(?:and|or)\\b|step[ \\t]+[\\w("-])[A-Za-z_]|[\\d("]|-(?!>))))|\\b)(?!\\.\\d)', 'QUANTITY', ''),
     ('neighbors\\b', '', 'neighbors'),
@@ -346,7 +351,6 @@ TERMINALS = (
     ('self\\b', '', 'self'),
     ('=>', '', '=>'),
     ('monitor\\b', '', 'monitor'),
-    ('as\\b', '', 'as'),
     ('send\\b', '', 'send'),
     ('cancel\\b', '', 'cancel'),
     ('append\\b', '', 'append'),
@@ -356,9 +360,6 @@ TERMINALS = (
     ('(?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)+', 'DOTTED', ''),
     ('(?<=[A-Za-z0-9_])(?=\\[)', 'BEFOREINDEX', ''),
     ('done\\b', '', 'done'),
-    ('succeeded\\b', '', 'succeeded'),
-    ('aborted\\b', '', 'aborted'),
-    ('preempted\\b', '', 'preempted'),
     ('(?:(?<=[^\\s;{}][ \\t])|(?<=[^\\s;{}][ \\t]{2})|(?<=[^\\s;{}][ \\t]{3})|(?<=[^\\s;{}][ \\t]{4})|(?<=\\)))after\\b', 'LATER', ''),
 )
 PROGRAM = (
@@ -1448,7 +1449,7 @@ PROGRAM = (
     (2, 1085),
     (3, 1352),
     (4, 0),
-    (3, 1416),
+    (3, 1432),
     (4, 0),
     (0, 113),
     (4, 0),
@@ -1472,9 +1473,9 @@ PROGRAM = (
     (0, 120),
     (4, 0),
     (1, 1112),
-    (3, 1422),
+    (3, 1438),
     (2, 1109),
-    (3, 1427),
+    (3, 1443),
     (4, 0),
     (1, 1117),
     (0, 49),
@@ -1504,7 +1505,7 @@ PROGRAM = (
     (0, 127),
     (2, 1151),
     (1, 1144),
-    (3, 1461),
+    (3, 1477),
     (2, 1151),
     (1, 1147),
     (0, 128),
@@ -1536,7 +1537,7 @@ PROGRAM = (
     (2, 1173),
     (0, 131),
     (4, 0),
-    (3, 1463),
+    (3, 1479),
     (4, 0),
     (1, 1180),
     (3, 1157),
@@ -1562,7 +1563,7 @@ PROGRAM = (
     (3, 673),
     (0, 68),
     (2, 1200),
-    (3, 1463),
+    (3, 1479),
     (4, 0),
     (0, 136),
     (3, 427),
@@ -1584,7 +1585,7 @@ PROGRAM = (
     (1, 1229),
     (0, 4),
     (1, 1227),
-    (3, 1468),
+    (3, 1484),
     (1, 1226),
     (0, 1),
     (2, 1226),
@@ -1597,7 +1598,7 @@ PROGRAM = (
     (3, 427),
     (0, 4),
     (1, 1240),
-    (3, 1491),
+    (3, 1507),
     (1, 1239),
     (0, 1),
     (2, 1239),
@@ -1608,7 +1609,7 @@ PROGRAM = (
     (3, 427),
     (0, 4),
     (1, 1251),
-    (3, 1508),
+    (3, 1524),
     (1, 1250),
     (0, 1),
     (2, 1250),
@@ -1628,10 +1629,10 @@ PROGRAM = (
     (0, 141),
     (3, 427),
     (4, 0),
-    (3, 1525),
+    (3, 1541),
     (1, 1271),
     (0, 67),
-    (3, 1525),
+    (3, 1541),
     (2, 1271),
     (4, 0),
     (1, 1276),
@@ -1661,7 +1662,7 @@ PROGRAM = (
     (0, 85),
     (4, 0),
     (1, 1304),
-    (3, 1527),
+    (3, 1543),
     (0, 84),
     (3, 673),
     (0, 85),
@@ -1672,7 +1673,7 @@ PROGRAM = (
     (0, 85),
     (4, 0),
     (1, 1313),
-    (3, 1535),
+    (3, 1551),
     (3, 585),
     (2, 1313),
     (1, 1319),
@@ -1697,7 +1698,7 @@ PROGRAM = (
     (3, 1070),
     (0, 85),
     (2, 1340),
-    (3, 1546),
+    (3, 1562),
     (0, 66),
     (0, 84),
     (3, 1070),
@@ -1721,610 +1722,626 @@ PROGRAM = (
     (0, 37),
     (3, 408),
     (0, 85),
-    (3, 1554),
+    (3, 1570),
     (3, 1088),
-    (2, 1415),
+    (2, 1431),
     (1, 1366),
     (0, 37),
     (3, 408),
-    (2, 1415),
+    (2, 1431),
     (1, 1372),
     (0, 149),
     (0, 96),
     (3, 451),
     (0, 97),
-    (2, 1415),
+    (2, 1431),
     (1, 1381),
-    (3, 1571),
+    (3, 1587),
     (3, 408),
     (1, 1380),
     (0, 96),
     (3, 451),
     (0, 97),
     (2, 1380),
-    (2, 1415),
+    (2, 1431),
     (1, 1385),
-    (3, 1576),
+    (3, 1592),
     (3, 408),
-    (2, 1415),
-    (1, 1409),
-    (3, 1581),
-    (1, 1391),
+    (2, 1431),
+    (1, 1393),
+    (0, 150),
+    (3, 408),
+    (1, 1392),
+    (0, 151),
+    (3, 1597),
+    (2, 1392),
+    (2, 1431),
+    (1, 1425),
+    (3, 1605),
+    (1, 1399),
     (0, 37),
-    (3, 1603),
-    (2, 1408),
-    (1, 1397),
+    (3, 1627),
+    (2, 1424),
+    (1, 1405),
     (0, 149),
     (0, 96),
     (3, 451),
     (0, 97),
-    (2, 1408),
-    (1, 1406),
-    (3, 1571),
+    (2, 1424),
+    (1, 1414),
+    (3, 1587),
     (3, 408),
-    (1, 1405),
+    (1, 1413),
     (0, 96),
     (3, 451),
     (0, 97),
-    (2, 1405),
-    (2, 1408),
-    (3, 1576),
+    (2, 1413),
+    (2, 1424),
+    (1, 1418),
+    (3, 1592),
     (3, 408),
-    (2, 1415),
-    (3, 408),
-    (1, 1415),
-    (0, 96),
-    (3, 451),
-    (0, 97),
-    (2, 1415),
-    (4, 0),
-    (3, 1109),
-    (1, 1421),
-    (3, 1606),
-    (3, 1109),
-    (2, 1417),
-    (4, 0),
-    (1, 1425),
-    (0, 112),
-    (2, 1426),
-    (3, 1461),
-    (4, 0),
-    (1, 1430),
-    (3, 1614),
-    (2, 1460),
-    (1, 1433),
-    (3, 702),
-    (2, 1460),
-    (1, 1436),
+    (2, 1424),
     (0, 150),
-    (2, 1460),
-    (1, 1439),
+    (3, 408),
+    (1, 1424),
     (0, 151),
-    (2, 1460),
-    (1, 1442),
-    (3, 1616),
-    (2, 1460),
-    (1, 1445),
-    (3, 1624),
-    (2, 1460),
-    (1, 1448),
-    (3, 1628),
-    (2, 1460),
-    (1, 1451),
-    (3, 1643),
-    (2, 1460),
-    (1, 1454),
-    (3, 1655),
-    (2, 1460),
-    (1, 1457),
-    (3, 1666),
-    (2, 1460),
+    (3, 1597),
+    (2, 1424),
+    (2, 1431),
+    (3, 408),
+    (1, 1431),
+    (0, 96),
+    (3, 451),
+    (0, 97),
+    (2, 1431),
+    (4, 0),
+    (3, 1109),
+    (1, 1437),
+    (3, 1630),
+    (3, 1109),
+    (2, 1433),
+    (4, 0),
+    (1, 1441),
+    (0, 112),
+    (2, 1442),
+    (3, 1477),
+    (4, 0),
+    (1, 1446),
+    (3, 1638),
+    (2, 1476),
+    (1, 1449),
+    (3, 702),
+    (2, 1476),
+    (1, 1452),
+    (0, 152),
+    (2, 1476),
+    (1, 1455),
+    (0, 153),
+    (2, 1476),
+    (1, 1458),
+    (3, 1640),
+    (2, 1476),
+    (1, 1461),
+    (3, 1648),
+    (2, 1476),
+    (1, 1464),
+    (3, 1652),
+    (2, 1476),
+    (1, 1467),
+    (3, 1667),
+    (2, 1476),
+    (1, 1470),
+    (3, 1679),
+    (2, 1476),
+    (1, 1473),
+    (3, 1690),
+    (2, 1476),
     (0, 84),
     (3, 717),
     (0, 85),
-    (4, 0),
-    (0, 152),
-    (4, 0),
-    (1, 1466),
-    (3, 673),
-    (2, 1467),
-    (3, 1675),
-    (4, 0),
-    (1, 1471),
-    (3, 863),
-    (2, 1490),
-    (1, 1474),
-    (3, 1677),
-    (2, 1490),
-    (1, 1477),
-    (3, 1709),
-    (2, 1490),
-    (1, 1480),
-    (3, 1716),
-    (2, 1490),
-    (1, 1483),
-    (3, 1724),
-    (2, 1490),
-    (1, 1486),
-    (3, 1732),
-    (2, 1490),
-    (1, 1489),
-    (3, 872),
-    (2, 1490),
-    (3, 875),
-    (4, 0),
-    (1, 1494),
-    (3, 863),
-    (2, 1507),
-    (1, 1497),
-    (3, 1798),
-    (2, 1507),
-    (1, 1500),
-    (3, 1709),
-    (2, 1507),
-    (1, 1503),
-    (3, 1716),
-    (2, 1507),
-    (1, 1506),
-    (3, 1724),
-    (2, 1507),
-    (3, 1732),
-    (4, 0),
-    (1, 1513),
-    (0, 96),
-    (3, 451),
-    (0, 97),
-    (2, 1514),
-    (0, 153),
-    (1, 1522),
-    (0, 129),
-    (3, 1809),
-    (1, 1521),
-    (0, 9),
-    (3, 1809),
-    (2, 1517),
-    (2, 1522),
-    (0, 91),
-    (3, 408),
     (4, 0),
     (0, 154),
     (4, 0),
-    (1, 1530),
+    (1, 1482),
+    (3, 673),
+    (2, 1483),
+    (3, 1699),
+    (4, 0),
+    (1, 1487),
+    (3, 863),
+    (2, 1506),
+    (1, 1490),
+    (3, 1701),
+    (2, 1506),
+    (1, 1493),
+    (3, 1733),
+    (2, 1506),
+    (1, 1496),
+    (3, 1740),
+    (2, 1506),
+    (1, 1499),
+    (3, 1748),
+    (2, 1506),
+    (1, 1502),
+    (3, 1756),
+    (2, 1506),
+    (1, 1505),
+    (3, 872),
+    (2, 1506),
+    (3, 875),
+    (4, 0),
+    (1, 1510),
+    (3, 863),
+    (2, 1523),
+    (1, 1513),
+    (3, 1822),
+    (2, 1523),
+    (1, 1516),
+    (3, 1733),
+    (2, 1523),
+    (1, 1519),
+    (3, 1740),
+    (2, 1523),
+    (1, 1522),
+    (3, 1748),
+    (2, 1523),
+    (3, 1756),
+    (4, 0),
+    (1, 1529),
+    (0, 96),
+    (3, 451),
+    (0, 97),
+    (2, 1530),
     (0, 155),
-    (2, 1534),
-    (1, 1533),
-    (0, 156),
-    (2, 1534),
-    (0, 157),
-    (4, 0),
     (1, 1538),
-    (0, 158),
-    (2, 1545),
-    (1, 1541),
-    (0, 159),
-    (2, 1545),
-    (1, 1544),
-    (0, 160),
-    (2, 1545),
-    (0, 161),
+    (0, 129),
+    (3, 1833),
+    (1, 1537),
+    (0, 9),
+    (3, 1833),
+    (2, 1533),
+    (2, 1538),
+    (0, 91),
+    (3, 408),
     (4, 0),
+    (0, 156),
+    (4, 0),
+    (1, 1546),
+    (0, 157),
+    (2, 1550),
     (1, 1549),
+    (0, 158),
+    (2, 1550),
     (0, 159),
-    (2, 1553),
-    (1, 1552),
+    (4, 0),
+    (1, 1554),
     (0, 160),
-    (2, 1553),
-    (0, 161),
-    (4, 0),
+    (2, 1561),
     (1, 1557),
-    (0, 121),
-    (2, 1570),
+    (0, 161),
+    (2, 1561),
     (1, 1560),
-    (0, 122),
-    (2, 1570),
-    (1, 1563),
-    (0, 123),
-    (2, 1570),
-    (1, 1566),
-    (0, 124),
-    (2, 1570),
-    (1, 1569),
-    (0, 125),
-    (2, 1570),
-    (0, 126),
-    (4, 0),
-    (1, 1574),
     (0, 162),
-    (2, 1575),
+    (2, 1561),
     (0, 163),
     (4, 0),
+    (1, 1565),
+    (0, 161),
+    (2, 1569),
+    (1, 1568),
+    (0, 162),
+    (2, 1569),
+    (0, 163),
+    (4, 0),
+    (1, 1573),
+    (0, 121),
+    (2, 1586),
+    (1, 1576),
+    (0, 122),
+    (2, 1586),
     (1, 1579),
+    (0, 123),
+    (2, 1586),
+    (1, 1582),
+    (0, 124),
+    (2, 1586),
+    (1, 1585),
+    (0, 125),
+    (2, 1586),
+    (0, 126),
+    (4, 0),
+    (1, 1590),
     (0, 164),
-    (2, 1580),
+    (2, 1591),
     (0, 165),
     (4, 0),
-    (1, 1588),
-    (3, 1826),
-    (1, 1586),
+    (1, 1595),
     (0, 166),
-    (2, 1586),
+    (2, 1596),
+    (0, 167),
+    (4, 0),
+    (1, 1600),
+    (0, 168),
+    (2, 1604),
+    (1, 1603),
+    (0, 169),
+    (2, 1604),
+    (0, 170),
+    (4, 0),
+    (1, 1612),
+    (3, 1850),
+    (1, 1610),
+    (0, 171),
+    (2, 1610),
     (3, 673),
-    (2, 1602),
-    (1, 1596),
-    (3, 1525),
-    (1, 1594),
+    (2, 1626),
+    (1, 1620),
+    (3, 1541),
+    (1, 1618),
     (0, 67),
-    (3, 1525),
-    (2, 1594),
+    (3, 1541),
+    (2, 1618),
     (3, 673),
-    (2, 1602),
+    (2, 1626),
     (3, 673),
-    (1, 1602),
+    (1, 1626),
     (0, 96),
     (3, 1088),
     (0, 97),
-    (2, 1602),
+    (2, 1626),
     (4, 0),
     (3, 408),
-    (3, 1834),
+    (3, 1858),
     (4, 0),
-    (1, 1609),
+    (1, 1633),
     (0, 127),
-    (2, 1613),
-    (1, 1612),
-    (3, 1461),
-    (2, 1613),
+    (2, 1637),
+    (1, 1636),
+    (3, 1477),
+    (2, 1637),
     (0, 128),
     (4, 0),
-    (0, 167),
+    (0, 172),
     (4, 0),
     (0, 37),
     (0, 84),
     (3, 673),
-    (1, 1622),
-    (3, 1836),
-    (2, 1622),
+    (1, 1646),
+    (3, 1860),
+    (2, 1646),
     (0, 85),
     (4, 0),
-    (0, 168),
+    (0, 173),
     (0, 52),
-    (3, 1427),
+    (3, 1443),
     (4, 0),
     (3, 673),
     (0, 84),
     (3, 673),
     (0, 37),
     (3, 717),
-    (1, 1637),
-    (0, 169),
+    (1, 1661),
+    (0, 174),
     (3, 717),
-    (2, 1637),
-    (1, 1641),
-    (0, 170),
+    (2, 1661),
+    (1, 1665),
+    (0, 175),
     (3, 717),
-    (2, 1641),
+    (2, 1665),
     (0, 85),
     (4, 0),
     (3, 673),
-    (1, 1647),
-    (3, 1836),
-    (2, 1647),
+    (1, 1671),
+    (3, 1860),
+    (2, 1671),
     (0, 84),
-    (3, 1839),
-    (1, 1653),
+    (3, 1863),
+    (1, 1677),
     (0, 9),
-    (3, 1839),
-    (2, 1649),
+    (3, 1863),
+    (2, 1673),
     (0, 85),
     (4, 0),
     (3, 673),
     (0, 84),
-    (1, 1664),
+    (1, 1688),
     (3, 717),
-    (1, 1663),
+    (1, 1687),
     (0, 9),
     (3, 717),
-    (2, 1659),
-    (2, 1664),
+    (2, 1683),
+    (2, 1688),
     (0, 85),
     (4, 0),
-    (3, 1843),
-    (1, 1674),
-    (1, 1672),
+    (3, 1867),
+    (1, 1698),
+    (1, 1696),
     (0, 68),
     (3, 1105),
-    (2, 1673),
-    (3, 1851),
-    (2, 1667),
-    (4, 0),
-    (0, 171),
-    (4, 0),
-    (0, 172),
-    (3, 408),
-    (1, 1694),
-    (0, 84),
-    (1, 1685),
-    (0, 170),
-    (3, 427),
-    (2, 1692),
-    (1, 1692),
-    (3, 1162),
-    (1, 1691),
-    (0, 9),
-    (3, 1162),
-    (2, 1687),
-    (2, 1692),
-    (0, 85),
-    (2, 1694),
-    (1, 1708),
-    (0, 173),
-    (1, 1700),
-    (0, 170),
-    (3, 427),
-    (2, 1707),
-    (0, 84),
-    (3, 1856),
-    (1, 1706),
-    (0, 9),
-    (3, 1856),
-    (2, 1702),
-    (0, 85),
-    (2, 1708),
-    (4, 0),
-    (0, 174),
-    (3, 1860),
-    (1, 1715),
-    (0, 9),
-    (3, 1860),
-    (2, 1711),
-    (4, 0),
-    (0, 175),
-    (0, 129),
-    (3, 1809),
-    (1, 1723),
-    (0, 9),
-    (3, 1809),
-    (2, 1719),
+    (2, 1697),
+    (3, 1875),
+    (2, 1691),
     (4, 0),
     (0, 176),
-    (0, 129),
-    (3, 1809),
-    (1, 1731),
-    (0, 9),
-    (3, 1809),
-    (2, 1727),
     (4, 0),
-    (1, 1735),
     (0, 177),
-    (2, 1735),
-    (1, 1776),
-    (1, 1744),
-    (0, 25),
-    (3, 1862),
-    (1, 1743),
-    (0, 9),
-    (3, 1862),
-    (2, 1739),
-    (2, 1756),
-    (1, 1751),
-    (3, 1870),
-    (1, 1750),
-    (0, 9),
-    (3, 1870),
-    (2, 1746),
-    (2, 1756),
-    (3, 1873),
-    (1, 1756),
-    (0, 9),
-    (3, 1873),
-    (2, 1752),
-    (1, 1761),
-    (0, 96),
-    (3, 451),
-    (0, 97),
-    (2, 1761),
-    (1, 1773),
-    (0, 129),
-    (3, 1809),
-    (1, 1768),
-    (0, 9),
-    (3, 1809),
-    (2, 1764),
-    (1, 1772),
-    (0, 91),
     (3, 408),
-    (2, 1772),
-    (2, 1775),
-    (0, 91),
-    (3, 408),
-    (2, 1797),
-    (1, 1784),
-    (0, 25),
-    (3, 1882),
-    (1, 1783),
-    (0, 9),
-    (3, 1882),
-    (2, 1779),
-    (2, 1797),
-    (0, 96),
-    (3, 451),
-    (0, 97),
-    (1, 1795),
-    (0, 129),
-    (3, 1809),
-    (1, 1794),
-    (0, 9),
-    (3, 1809),
-    (2, 1790),
-    (2, 1795),
-    (0, 91),
-    (3, 408),
-    (4, 0),
-    (0, 178),
+    (1, 1718),
+    (0, 84),
+    (1, 1709),
+    (0, 175),
     (3, 427),
-    (0, 4),
-    (1, 1807),
-    (3, 1884),
-    (1, 1806),
-    (0, 1),
-    (2, 1806),
-    (2, 1801),
-    (0, 5),
+    (2, 1716),
+    (1, 1716),
+    (3, 1162),
+    (1, 1715),
+    (0, 9),
+    (3, 1162),
+    (2, 1711),
+    (2, 1716),
+    (0, 85),
+    (2, 1718),
+    (1, 1732),
+    (0, 178),
+    (1, 1724),
+    (0, 175),
+    (3, 427),
+    (2, 1731),
+    (0, 84),
+    (3, 1880),
+    (1, 1730),
+    (0, 9),
+    (3, 1880),
+    (2, 1726),
+    (0, 85),
+    (2, 1732),
     (4, 0),
-    (1, 1812),
-    (3, 1892),
-    (2, 1825),
-    (1, 1815),
-    (3, 1914),
-    (2, 1825),
-    (1, 1818),
-    (3, 1917),
-    (2, 1825),
-    (1, 1821),
-    (3, 1922),
-    (2, 1825),
-    (1, 1824),
-    (3, 1925),
-    (2, 1825),
-    (3, 1928),
-    (4, 0),
-    (1, 1829),
-    (0, 57),
-    (2, 1833),
-    (1, 1832),
     (0, 179),
-    (2, 1833),
+    (3, 1884),
+    (1, 1739),
+    (0, 9),
+    (3, 1884),
+    (2, 1735),
+    (4, 0),
     (0, 180),
+    (0, 129),
+    (3, 1833),
+    (1, 1747),
+    (0, 9),
+    (3, 1833),
+    (2, 1743),
     (4, 0),
     (0, 181),
+    (0, 129),
+    (3, 1833),
+    (1, 1755),
+    (0, 9),
+    (3, 1833),
+    (2, 1751),
     (4, 0),
-    (3, 1932),
-    (3, 1934),
+    (1, 1759),
+    (0, 182),
+    (2, 1759),
+    (1, 1800),
+    (1, 1768),
+    (0, 25),
+    (3, 1886),
+    (1, 1767),
+    (0, 9),
+    (3, 1886),
+    (2, 1763),
+    (2, 1780),
+    (1, 1775),
+    (3, 1894),
+    (1, 1774),
+    (0, 9),
+    (3, 1894),
+    (2, 1770),
+    (2, 1780),
+    (3, 1897),
+    (1, 1780),
+    (0, 9),
+    (3, 1897),
+    (2, 1776),
+    (1, 1785),
+    (0, 96),
+    (3, 451),
+    (0, 97),
+    (2, 1785),
+    (1, 1797),
+    (0, 129),
+    (3, 1833),
+    (1, 1792),
+    (0, 9),
+    (3, 1833),
+    (2, 1788),
+    (1, 1796),
+    (0, 91),
+    (3, 408),
+    (2, 1796),
+    (2, 1799),
+    (0, 91),
+    (3, 408),
+    (2, 1821),
+    (1, 1808),
+    (0, 25),
+    (3, 1906),
+    (1, 1807),
+    (0, 9),
+    (3, 1906),
+    (2, 1803),
+    (2, 1821),
+    (0, 96),
+    (3, 451),
+    (0, 97),
+    (1, 1819),
+    (0, 129),
+    (3, 1833),
+    (1, 1818),
+    (0, 9),
+    (3, 1833),
+    (2, 1814),
+    (2, 1819),
+    (0, 91),
+    (3, 408),
+    (4, 0),
+    (0, 183),
+    (3, 427),
+    (0, 4),
+    (1, 1831),
+    (3, 1908),
+    (1, 1830),
+    (0, 1),
+    (2, 1830),
+    (2, 1825),
+    (0, 5),
+    (4, 0),
+    (1, 1836),
+    (3, 1916),
+    (2, 1849),
+    (1, 1839),
+    (3, 1938),
+    (2, 1849),
+    (1, 1842),
+    (3, 1941),
+    (2, 1849),
+    (1, 1845),
+    (3, 1946),
+    (2, 1849),
+    (1, 1848),
+    (3, 1949),
+    (2, 1849),
+    (3, 1952),
+    (4, 0),
+    (1, 1853),
+    (0, 57),
+    (2, 1857),
+    (1, 1856),
+    (0, 184),
+    (2, 1857),
+    (0, 185),
+    (4, 0),
+    (0, 186),
+    (4, 0),
+    (3, 1956),
+    (3, 1958),
     (4, 0),
     (3, 1105),
     (0, 13),
     (3, 717),
     (4, 0),
-    (1, 1846),
+    (1, 1870),
     (0, 24),
-    (2, 1850),
-    (1, 1849),
-    (0, 182),
-    (2, 1850),
+    (2, 1874),
+    (1, 1873),
+    (0, 187),
+    (2, 1874),
     (3, 673),
     (4, 0),
-    (3, 1936),
+    (3, 1960),
     (0, 96),
     (3, 717),
     (0, 97),
     (4, 0),
     (3, 704),
-    (0, 183),
-    (3, 1938),
+    (0, 188),
+    (3, 1962),
     (4, 0),
     (3, 408),
     (4, 0),
-    (1, 1865),
-    (3, 1882),
-    (2, 1869),
-    (1, 1868),
-    (3, 1940),
-    (2, 1869),
-    (3, 1950),
+    (1, 1889),
+    (3, 1906),
+    (2, 1893),
+    (1, 1892),
+    (3, 1964),
+    (2, 1893),
+    (3, 1974),
     (4, 0),
     (0, 45),
     (3, 1086),
     (4, 0),
-    (0, 184),
+    (0, 189),
     (3, 422),
     (0, 11),
     (3, 433),
-    (1, 1881),
-    (0, 185),
+    (1, 1905),
+    (0, 151),
     (3, 427),
-    (2, 1881),
+    (2, 1905),
     (4, 0),
-    (3, 1952),
+    (3, 1597),
     (4, 0),
-    (1, 1887),
+    (1, 1911),
     (3, 863),
-    (2, 1891),
-    (1, 1890),
+    (2, 1915),
+    (1, 1914),
     (3, 872),
-    (2, 1891),
+    (2, 1915),
     (3, 875),
     (4, 0),
-    (0, 186),
+    (0, 190),
     (3, 408),
-    (1, 1905),
+    (1, 1929),
     (0, 84),
-    (1, 1903),
+    (1, 1927),
     (3, 1162),
-    (1, 1902),
+    (1, 1926),
     (0, 9),
     (3, 1162),
-    (2, 1898),
-    (2, 1903),
+    (2, 1922),
+    (2, 1927),
     (0, 85),
-    (2, 1905),
-    (1, 1909),
+    (2, 1929),
+    (1, 1933),
     (0, 61),
-    (3, 1960),
-    (2, 1909),
-    (1, 1913),
-    (3, 1962),
+    (3, 1976),
+    (2, 1933),
+    (1, 1937),
+    (3, 1978),
     (3, 1086),
-    (2, 1913),
+    (2, 1937),
     (4, 0),
-    (0, 187),
+    (0, 191),
     (3, 408),
     (4, 0),
-    (0, 188),
+    (0, 192),
     (3, 451),
     (0, 61),
-    (3, 1938),
+    (3, 1962),
     (4, 0),
-    (0, 189),
-    (3, 1938),
+    (0, 193),
+    (3, 1962),
     (4, 0),
-    (0, 190),
-    (3, 1938),
+    (0, 194),
+    (3, 1962),
     (4, 0),
-    (3, 1938),
+    (3, 1962),
     (0, 13),
     (3, 451),
     (4, 0),
-    (0, 191),
+    (0, 195),
     (4, 0),
-    (0, 192),
+    (0, 196),
     (4, 0),
-    (0, 193),
+    (0, 197),
     (4, 0),
     (3, 1109),
     (4, 0),
-    (1, 1944),
+    (1, 1968),
     (3, 673),
     (0, 68),
-    (2, 1944),
-    (0, 194),
-    (1, 1949),
+    (2, 1968),
+    (0, 198),
+    (1, 1973),
     (0, 68),
     (3, 673),
-    (2, 1949),
+    (2, 1973),
     (4, 0),
     (3, 408),
     (4, 0),
-    (1, 1955),
-    (0, 195),
-    (2, 1959),
-    (1, 1958),
-    (0, 196),
-    (2, 1959),
-    (0, 197),
-    (4, 0),
     (3, 451),
     (4, 0),
-    (0, 198),
+    (0, 199),
     (4, 0),
 )
 
@@ -5859,6 +5876,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         act_ = None
         event_ = None
         function_ = None
+        outcome_ = None
         who_ = None
         chosen1 = False
         if not chosen1 and token == 'count':
@@ -6024,139 +6042,207 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 function_ = value
                 chosen1 = True
                 break
-        if not chosen1 and token not in SET33:
+        if not chosen1 and token == 'ends':
             before37 = at
-            before38 = who_
-            before39 = state_
-            before40 = guard_
-            before41 = act_
-            before42 = event_
-            before43 = function_
+            before38 = act_
+            before39 = function_
+            before40 = outcome_
+            while True:
+                at += 1; token = tokens[at]
+                act_ = 'ends'
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before37; token = tokens[at]; act_ = before38; function_ = before39; outcome_ = before40; break
+                taken42 = token; at += 1; token = tokens[at]
+                text41 = taken42
+                if token == '.':
+                    match43 = REGEX0(text, ends[at + 1] - len(token))
+                    if match43[0]:
+                        text41 += match43[0]
+                        end = match43.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before37; token = tokens[at]; act_ = before38; function_ = before39; outcome_ = before40; break
+                        token = tokens[at]
+                value = new_node(Ref)
+                value.name = text41
+                value.kind = 'Function'
+                value.span = new_span(Span, (source, first, first + len(text41)))
+                value.target = None
+                function_ = value
+                if token == 'as':
+                    before44 = at
+                    before45 = outcome_
+                    while True:
+                        at += 1; token = tokens[at]
+                        if not (token in SET33): at = before44; token = tokens[at]; outcome_ = before45; break
+                        taken46 = token; at += 1; token = tokens[at]
+                        outcome_ = taken46
+                        break
+                chosen1 = True
+                break
+        if not chosen1 and token not in SET34:
+            before47 = at
+            before48 = who_
+            before49 = state_
+            before50 = guard_
+            before51 = act_
+            before52 = event_
+            before53 = function_
+            before54 = outcome_
             while True:
                 value = r_Who()
-                if value is None: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                if value is None: at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                 who_ = value
                 if token == 'in':
                     at += 1; token = tokens[at]
                     first = ends[at + 1] - len(token)
-                    if not (token >= 'A' and token not in SET2): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
-                    taken46 = token; at += 1; token = tokens[at]
-                    text45 = taken46
+                    if not (token >= 'A' and token not in SET2): at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
+                    taken57 = token; at += 1; token = tokens[at]
+                    text56 = taken57
                     if token == '.':
-                        match47 = REGEX0(text, ends[at + 1] - len(token))
-                        if match47[0]:
-                            text45 += match47[0]
-                            end = match47.end()
+                        match58 = REGEX0(text, ends[at + 1] - len(token))
+                        if match58[0]:
+                            text56 += match58[0]
+                            end = match58.end()
                             while ends[at] < end: at += 1
-                            if ends[at] > end: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                            if ends[at] > end: at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                             token = tokens[at]
-                    text44 = text45
-                    if REGEX15(text, ends[at + 1] - len(token)) is None: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                    text55 = text56
+                    if REGEX15(text, ends[at + 1] - len(token)) is None: at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                     value = new_node(Ref)
-                    value.name = text44
+                    value.name = text55
                     value.kind = 'Vertex'
-                    value.span = new_span(Span, (source, first, first + len(text44)))
+                    value.span = new_span(Span, (source, first, first + len(text55)))
                     value.target = None
                     state_ = value
                 elif token == 'has':
                     at += 1; token = tokens[at]
-                    if not (token == '['): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                    if not (token == '['): at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                     at += 1; token = tokens[at]
                     found = expression(at)
-                    if found is None: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                    if found is None: at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                     value, at = found; token = tokens[at]
                     guard_ = value
-                    if not (token == ']'): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                    if not (token == ']'): at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                     at += 1; token = tokens[at]
                 elif token in SET31:
-                    taken48 = token; at += 1; token = tokens[at]
-                    act_ = taken48
+                    taken59 = token; at += 1; token = tokens[at]
+                    act_ = taken59
                     first = ends[at + 1] - len(token)
-                    if not (token >= 'A' and token not in SET2): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
-                    taken50 = token; at += 1; token = tokens[at]
-                    text49 = taken50
+                    if not (token >= 'A' and token not in SET2): at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
+                    taken61 = token; at += 1; token = tokens[at]
+                    text60 = taken61
                     if token == '.':
-                        match51 = REGEX0(text, ends[at + 1] - len(token))
-                        if match51[0]:
-                            text49 += match51[0]
-                            end = match51.end()
+                        match62 = REGEX0(text, ends[at + 1] - len(token))
+                        if match62[0]:
+                            text60 += match62[0]
+                            end = match62.end()
                             while ends[at] < end: at += 1
-                            if ends[at] > end: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                            if ends[at] > end: at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                             token = tokens[at]
                     value = new_node(Ref)
-                    value.name = text49
+                    value.name = text60
                     value.kind = 'Event'
-                    value.span = new_span(Span, (source, first, first + len(text49)))
+                    value.span = new_span(Span, (source, first, first + len(text60)))
                     value.target = None
                     event_ = value
                     if token == '[':
-                        before52 = at
-                        before53 = guard_
+                        before63 = at
+                        before64 = guard_
                         while True:
                             at += 1; token = tokens[at]
                             found = expression(at)
-                            if found is None: at = before52; token = tokens[at]; guard_ = before53; break
+                            if found is None: at = before63; token = tokens[at]; guard_ = before64; break
                             value, at = found; token = tokens[at]
                             guard_ = value
-                            if not (token == ']'): at = before52; token = tokens[at]; guard_ = before53; break
+                            if not (token == ']'): at = before63; token = tokens[at]; guard_ = before64; break
                             at += 1; token = tokens[at]
                             break
                 elif token in SET32:
-                    taken54 = token; at += 1; token = tokens[at]
-                    act_ = taken54
+                    taken65 = token; at += 1; token = tokens[at]
+                    act_ = taken65
                     first = ends[at + 1] - len(token)
-                    if not (token >= 'A' and token not in SET2): at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
-                    taken56 = token; at += 1; token = tokens[at]
-                    text55 = taken56
+                    if not (token >= 'A' and token not in SET2): at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
+                    taken67 = token; at += 1; token = tokens[at]
+                    text66 = taken67
                     if token == '.':
-                        match57 = REGEX0(text, ends[at + 1] - len(token))
-                        if match57[0]:
-                            text55 += match57[0]
-                            end = match57.end()
+                        match68 = REGEX0(text, ends[at + 1] - len(token))
+                        if match68[0]:
+                            text66 += match68[0]
+                            end = match68.end()
                             while ends[at] < end: at += 1
-                            if ends[at] > end: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                            if ends[at] > end: at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                             token = tokens[at]
                     value = new_node(Ref)
-                    value.name = text55
+                    value.name = text66
                     value.kind = 'Function'
-                    value.span = new_span(Span, (source, first, first + len(text55)))
+                    value.span = new_span(Span, (source, first, first + len(text66)))
                     value.target = None
                     function_ = value
-                else: at = before37; token = tokens[at]; who_ = before38; state_ = before39; guard_ = before40; act_ = before41; event_ = before42; function_ = before43; break
+                elif token == 'ends':
+                    at += 1; token = tokens[at]
+                    act_ = 'ends'
+                    first = ends[at + 1] - len(token)
+                    if not (token >= 'A' and token not in SET2): at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
+                    taken70 = token; at += 1; token = tokens[at]
+                    text69 = taken70
+                    if token == '.':
+                        match71 = REGEX0(text, ends[at + 1] - len(token))
+                        if match71[0]:
+                            text69 += match71[0]
+                            end = match71.end()
+                            while ends[at] < end: at += 1
+                            if ends[at] > end: at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
+                            token = tokens[at]
+                    value = new_node(Ref)
+                    value.name = text69
+                    value.kind = 'Function'
+                    value.span = new_span(Span, (source, first, first + len(text69)))
+                    value.target = None
+                    function_ = value
+                    if token == 'as':
+                        before72 = at
+                        before73 = outcome_
+                        while True:
+                            at += 1; token = tokens[at]
+                            if not (token in SET33): at = before72; token = tokens[at]; outcome_ = before73; break
+                            taken74 = token; at += 1; token = tokens[at]
+                            outcome_ = taken74
+                            break
+                else: at = before47; token = tokens[at]; who_ = before48; state_ = before49; guard_ = before50; act_ = before51; event_ = before52; function_ = before53; outcome_ = before54; break
                 chosen1 = True
                 break
         if not chosen1 and token >= 'A' and token not in SET2:
-            before58 = at
-            before59 = event_
-            before60 = guard_
+            before75 = at
+            before76 = event_
+            before77 = guard_
             while True:
                 first = ends[at + 1] - len(token)
-                taken62 = token; at += 1; token = tokens[at]
-                text61 = taken62
+                taken79 = token; at += 1; token = tokens[at]
+                text78 = taken79
                 if token == '.':
-                    match63 = REGEX0(text, ends[at + 1] - len(token))
-                    if match63[0]:
-                        text61 += match63[0]
-                        end = match63.end()
+                    match80 = REGEX0(text, ends[at + 1] - len(token))
+                    if match80[0]:
+                        text78 += match80[0]
+                        end = match80.end()
                         while ends[at] < end: at += 1
-                        if ends[at] > end: at = before58; token = tokens[at]; event_ = before59; guard_ = before60; break
+                        if ends[at] > end: at = before75; token = tokens[at]; event_ = before76; guard_ = before77; break
                         token = tokens[at]
                 value = new_node(Ref)
-                value.name = text61
+                value.name = text78
                 value.kind = 'Event'
-                value.span = new_span(Span, (source, first, first + len(text61)))
+                value.span = new_span(Span, (source, first, first + len(text78)))
                 value.target = None
                 event_ = value
                 if token == '[':
-                    before64 = at
-                    before65 = guard_
+                    before81 = at
+                    before82 = guard_
                     while True:
                         at += 1; token = tokens[at]
                         found = expression(at)
-                        if found is None: at = before64; token = tokens[at]; guard_ = before65; break
+                        if found is None: at = before81; token = tokens[at]; guard_ = before82; break
                         value, at = found; token = tokens[at]
                         guard_ = value
-                        if not (token == ']'): at = before64; token = tokens[at]; guard_ = before65; break
+                        if not (token == ']'): at = before81; token = tokens[at]; guard_ = before82; break
                         at += 1; token = tokens[at]
                         break
                 chosen1 = True
@@ -6173,6 +6259,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         made.act = act_
         made.event = event_
         made.function = function_
+        made.outcome = outcome_
         return made
 
     def r_Branch():
@@ -6251,7 +6338,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         upper_ = None
         index_ = None
         chosen1 = False
-        if not chosen1 and token in SET34:
+        if not chosen1 and token in SET35:
             before2 = at
             before3 = quantifier_
             before4 = other_
@@ -6542,7 +6629,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             at += 1; token = tokens[at]
             internal_ = True
         chosen1 = False
-        if not chosen1 and token in SET35:
+        if not chosen1 and token in SET36:
             before2 = at
             before3 = len(triggers_)
             before4 = guard_
@@ -6664,14 +6751,14 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             before22 = len(triggers_)
             while True:
                 at += 1; token = tokens[at]
-                if not (token in SET36): at = before21; token = tokens[at]; del triggers_[before22:]; break
+                if not (token in SET33): at = before21; token = tokens[at]; del triggers_[before22:]; break
                 value = r_OutcomeTrigger()
                 if value is None: at = before21; token = tokens[at]; del triggers_[before22:]; break
                 triggers_.append(value)
                 while token == ',':
                     before23 = at
                     at += 1; token = tokens[at]
-                    if not (token in SET36): at = before23; token = tokens[at]; break
+                    if not (token in SET33): at = before23; token = tokens[at]; break
                     value = r_OutcomeTrigger()
                     if value is None: at = before23; token = tokens[at]; break
                     triggers_.append(value)

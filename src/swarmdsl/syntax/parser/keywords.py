@@ -31,6 +31,7 @@ CONTEXTUAL = {
     'distance': '[(]',
     'each': '[A-Za-z_]',
     'effort': '(?:[,;}]|$)',
+    'ends': '[A-Za-z_]',
     'energy': '[(]',
     'evaluations': '[A-Za-z_0-9"-]',
     'eventually': '[*A-Za-z_0-9"]',
@@ -154,4 +155,4 @@ GROUPS = {
 # Keywords of declarations that can follow `:`, as categories.
 CATEGORIES = frozenset(['swarm'])
 # Keywords that a name can follow.
-BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'area', 'as', 'before', 'behavior', 'between', 'by', 'cancel', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'deadline', 'defer', 'do', 'each', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'from', 'function', 'hears', 'heartbeat', 'height', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'model', 'never', 'no', 'not', 'obstacle', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'radius', 'region', 'remove', 'seed', 'send', 'sends', 'senses', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'target', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'wind', 'within', 'zone'])
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'area', 'as', 'before', 'behavior', 'between', 'by', 'cancel', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'deadline', 'defer', 'do', 'each', 'ends', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'from', 'function', 'hears', 'heartbeat', 'height', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'model', 'never', 'no', 'not', 'obstacle', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'radius', 'region', 'remove', 'seed', 'send', 'sends', 'senses', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'target', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'wind', 'within', 'zone'])

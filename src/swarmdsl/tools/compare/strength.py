@@ -171,18 +171,24 @@ def _says_more(one: Fact, other: Fact) -> bool:
     if (one.act, one.name) != (other.act, other.name):
         return False
     if one.robots == other.robots and (one.robots is None or one.robots.quantifier in _UPWARD):
-        return _requires(one.guard, other.guard)
+        return _is_narrower(one, other)
     if one.robots is None or other.robots is None:
         return False
     ours, theirs = _range(one.robots), _range(other.robots)
     if one.robots.role != other.robots.role or ours is None or theirs is None:
         return False
     # A weaker condition holds for more robots, a stronger one for fewer.
-    more = theirs[1] == inf and _requires(one.guard, other.guard)
-    fewer = theirs[0] == 0 and _requires(other.guard, one.guard)
-    if not (one.guard == other.guard or more or fewer):
+    more = theirs[1] == inf and _is_narrower(one, other)
+    fewer = theirs[0] == 0 and _is_narrower(other, one)
+    same = (one.guard, one.outcome) == (other.guard, other.outcome)
+    if not (same or more or fewer):
         return False
     return theirs[0] <= ours[0] and ours[1] <= theirs[1]
+
+
+def _is_narrower(one: Fact, other: Fact) -> bool:
+    """Return True if the second fact certainly holds of a robot of which the first one does."""
+    return other.outcome in ("", one.outcome) and _requires(one.guard, other.guard)
 
 
 def _requires(one: Expression | None, other: Expression | None) -> bool:

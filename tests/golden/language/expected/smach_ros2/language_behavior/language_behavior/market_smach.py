@@ -21,13 +21,13 @@ def build():
     """Build state machine Market."""
     machine = Machine(CHART, ['Gone', 'preempted'])
     with machine:
-        # model.swarm:169
+        # model.swarm:171
         StateMachine.add(
             'Open',
             State(CHART, 'Open', ['F', 'preempted']),
             transitions={'F': 'Shut', 'preempted': 'preempted'},
         )
-        # model.swarm:176
+        # model.swarm:178
         StateMachine.add(
             'Shut',
             State(CHART, 'Shut', ['Gone', 'F', 'preempted']),

@@ -21,48 +21,48 @@ class Data:
     def __init__(self, parameters):
         # The robot: its id, role, index and count.
         self.self = parameters['self']
-        # model.swarm:165
-        self.offers = []
-        # model.swarm:166
-        self.ids = []
         # model.swarm:167
+        self.offers = []
+        # model.swarm:168
+        self.ids = []
+        # model.swarm:169
         self.best = language.msg.Offer()
 
 
 def guard_open(machine, event):
-    # model.swarm:170
+    # model.swarm:172
     return len(machine.data.offers) < 3
 
 
 def effect_open(machine, event):
-    # model.swarm:171
+    # model.swarm:173
     machine.data.offers = appended(machine.data.offers, filled(language.msg.Offer(), price=len(event.data.name), by=machine.data.self.id, valid=0.5), 3)  # noqa: E501
     machine.data.ids = appended(machine.data.ids, event.data.name, 3)
 
 
 def guard_open_2(machine, event):
-    # model.swarm:172
+    # model.swarm:174
     return any(o.by == event.data.name for o in machine.data.offers)
 
 
 def effect_open_2(machine, event):
-    # model.swarm:172
+    # model.swarm:174
     machine.data.offers = removed(machine.data.offers, 0)
     machine.data.ids = replaced(machine.data.ids, 0, event.data.name)
 
 
 def guard_open_3(machine, event):
-    # model.swarm:173
+    # model.swarm:175
     return sum(1 for o in machine.data.offers if o.price < 2 * LIMIT) > 1
 
 
 def effect_open_3(machine, event):
-    # model.swarm:174
+    # model.swarm:176
     machine.data.best = deepcopy(min((o for o in machine.data.offers if o.by != ''), key=lambda o: o.price))  # noqa: E501
 
 
 def guard_shut(machine, event):
-    # model.swarm:177
+    # model.swarm:179
     return (
         all(o.price >= machine.data.best.price for o in machine.data.offers)
         and not (machine.data.best.by in machine.data.ids)
@@ -70,44 +70,44 @@ def guard_shut(machine, event):
 
 
 def guard_shut_2(machine, event):
-    # model.swarm:178
+    # model.swarm:180
     return item(machine.data.offers, 1).price > 2
 
 
 def effect_shut(machine, event):
-    # model.swarm:178
+    # model.swarm:180
     machine.data.offers = []
 
 
 STATES = tree(
-    # model.swarm:169
+    # model.swarm:171
     State(
         'Open',
         transitions=(
-            Transition(('E',), (), guard=guard_open, effect=effect_open, origin='model.swarm:170'),
+            Transition(('E',), (), guard=guard_open, effect=effect_open, origin='model.swarm:172'),
             Transition(
-                ('X',), (), guard=guard_open_2, effect=effect_open_2, origin='model.swarm:172'
+                ('X',), (), guard=guard_open_2, effect=effect_open_2, origin='model.swarm:174'
             ),
             Transition(
                 ('F',),
                 ('Shut',),
                 guard=guard_open_3,
                 effect=effect_open_3,
-                origin='model.swarm:173',
+                origin='model.swarm:175',
             ),
         ),
     ),
-    # model.swarm:176
+    # model.swarm:178
     State(
         'Shut',
         transitions=(
-            Transition((), ('Gone',), guard=guard_shut, origin='model.swarm:177'),
+            Transition((), ('Gone',), guard=guard_shut, origin='model.swarm:179'),
             Transition(
-                ('F',), ('Open',), guard=guard_shut_2, effect=effect_shut, origin='model.swarm:178'
+                ('F',), ('Open',), guard=guard_shut_2, effect=effect_shut, origin='model.swarm:180'
             ),
         ),
     ),
-    # model.swarm:180
+    # model.swarm:182
     State('Gone', Kind.FINAL),
 )
 

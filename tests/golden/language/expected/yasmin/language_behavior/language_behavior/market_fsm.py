@@ -18,7 +18,7 @@ CHART = Chart(
 
 
 class Open(State):
-    # model.swarm:169
+    # model.swarm:171
     """Waits for a transition."""
 
     chart = CHART
@@ -27,7 +27,7 @@ class Open(State):
 
 
 class Shut(State):
-    # model.swarm:176
+    # model.swarm:178
     """Waits for a transition."""
 
     chart = CHART
@@ -38,9 +38,9 @@ class Shut(State):
 def build():
     """Build state machine Market."""
     machine = StateMachine({'Gone', 'canceled'})
-    # model.swarm:169
+    # model.swarm:171
     machine.add_state('Open', Open(), {'F': 'Shut', 'canceled': 'canceled'})
-    # model.swarm:176
+    # model.swarm:178
     machine.add_state('Shut', Shut(), {'Gone': 'Gone', 'F': 'Open', 'canceled': 'canceled'})
     machine.set_start_state('Open')
     machine.set_name('Market')

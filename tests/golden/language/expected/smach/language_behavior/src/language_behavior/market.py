@@ -18,7 +18,7 @@ def build():
     userdata = initial_userdata()
     machine = Machine(['Gone'], userdata)
     with machine:
-        # model.swarm:169
+        # model.swarm:171
         StateMachine.add(
             'Open',
             State(
@@ -40,7 +40,7 @@ def build():
             ),
             transitions={'F': 'Shut', 'preempted': 'preempted'},
         )
-        # model.swarm:176
+        # model.swarm:178
         StateMachine.add(
             'Shut',
             State(
@@ -63,42 +63,42 @@ def initial_userdata():
     userdata = smach.UserData()
     # The robot: its id, role, index and count.
     userdata.self = identity()
-    # model.swarm:165
-    userdata.offers = []
-    # model.swarm:166
-    userdata.ids = []
     # model.swarm:167
+    userdata.offers = []
+    # model.swarm:168
+    userdata.ids = []
+    # model.swarm:169
     userdata.best = Offer()
     return userdata
 
 
 def _open_e_effect(userdata, event):
-    # model.swarm:170
+    # model.swarm:172
     userdata.offers = appended(userdata.offers, Offer(price=len(event.name), by=userdata.self.id, valid=0.5), 3)
     userdata.ids = appended(userdata.ids, event.name, 3)
 
 
 def _open_x_effect(userdata, event):
-    # model.swarm:172
+    # model.swarm:174
     userdata.offers = removed(userdata.offers, 0)
     userdata.ids = replaced(userdata.ids, 0, event.name)
 
 
 def _open_f_guard(userdata, event):
-    # model.swarm:173
+    # model.swarm:175
     return sum(1 for o in userdata.offers if o.price < 2 * LIMIT) > 1
 
 
 def _open_f_effect(userdata, event):
-    # model.swarm:173
+    # model.swarm:175
     userdata.best = min((o for o in userdata.offers if o.by != ''), key=lambda o: o.price)
 
 
 def _shut_gone_guard(userdata, event):
-    # model.swarm:177
+    # model.swarm:179
     return all(o.price >= userdata.best.price for o in userdata.offers) and not (userdata.best.by in userdata.ids)
 
 
 def _shut_f_effect(userdata, event):
-    # model.swarm:178
+    # model.swarm:180
     userdata.offers = []
