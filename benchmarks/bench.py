@@ -18,6 +18,7 @@ import cold
 import drawing
 import editing
 import engine
+import experiments
 import generation
 import growth
 import importing
@@ -42,6 +43,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "simulate": simulation.section,
     "verify": verification.section,
     "world": world.section,
+    "experiments": experiments.section,
     "lsp": editing.section,
     "import": importing.section,
     "diagram": drawing.section,

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from copy import deepcopy
 from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.codegen.shared.default_values import default_value, field_type
 from swarmdsl.execution.engine import ExecutionError, bounded
+from swarmdsl.execution.simulate.copying import copied
 from swarmdsl.execution.simulate.expressions import SELF, Value, applied, function_of
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ir import Array, Call, Construction, Expression, Primitive, System, Type
@@ -28,7 +28,7 @@ def first_data(
     data: dict[str, Any] = {SELF: robot.identity}
     for param in machine.params:
         if param.name in params:
-            data[param.name] = deepcopy(params[param.name])
+            data[param.name] = copied(params[param.name])
         elif (default := first_value(param)) is not None:
             data[param.name] = stored(default, param.type, system)(data, None)
         else:
@@ -71,7 +71,7 @@ def stored(expression: Expression, wanted: Type | None, system: System | None) -
         return lambda data, event: round(value(data, event))
     if isinstance(expression.type, Primitive):
         return value
-    return lambda data, event: deepcopy(value(data, event))
+    return lambda data, event: copied(value(data, event))
 
 
 def _new_message(made: Construction, system: System) -> Value:

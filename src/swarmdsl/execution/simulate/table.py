@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from copy import deepcopy
 from operator import attrgetter
 from typing import Any
 
@@ -31,6 +30,7 @@ from swarmdsl.execution.engine import (
     Transition,
     bounded,
 )
+from swarmdsl.execution.simulate.copying import copied
 from swarmdsl.execution.simulate.expressions import (
     ACTIVE,
     ELAPSED,
@@ -277,7 +277,7 @@ def _store_results(results: Iterable[tuple[ir.ResultMapping, str | None]]) -> Ef
                 ) from None
             if bound is not None:
                 bounded(value, bound)
-            store(instance.data, result.variable, result.path, deepcopy(value))
+            store(instance.data, result.variable, result.path, copied(value))
 
     return store_all
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from copy import deepcopy
 from typing import Any
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.default_values import default_value, result_fields
+from swarmdsl.execution.simulate.copying import copied
 from swarmdsl.ir import Function, Message, Named, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS, INTEGERS
 
@@ -84,7 +84,7 @@ class Messages:
                     return self._of_message(type_, message)
         default = default_value(type_, system)
         if isinstance(default, (dict, list)):
-            return lambda facts: deepcopy(default)
+            return lambda facts: copied(default)
         return lambda facts: default
 
     def _of_message(self, type_: Type, message: Message) -> Writer:
