@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 
 from swarmdsl.cli import run as run_command
 from swarmdsl.execution.experiments.results.conditions import read_condition
+from swarmdsl.execution.experiments.results.export import _different, _kind
 from swarmdsl.execution.experiments.results.records import Record
 from swarmdsl.execution.experiments.store import FILE, Key, Store
 from swarmdsl.execution.experiments.task import Candidate, Row
@@ -125,6 +127,40 @@ def test_csv_has_all_runs_and_no_formula(run: Run) -> None:
     code, text = run("--export", "runs.xlsx")
     assert code == 2
     assert "does not end with `.csv`" in text
+
+
+def test_parquet_has_columns_with_types(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    arro3 = pytest.importorskip("arro3.io", reason="no arro3-io: pip install -e '.[dev]'")
+    code, text = run("--export", "runs.parquet")
+    assert (code, text) == (0, "16 runs written: runs.parquet\n")
+    table = arro3.read_parquet("runs.parquet").read_all()
+    types = {field.name: str(field.type).split(".")[-1] for field in table.schema}
+    rows = [
+        {name: table[name][at].as_py() for name in table.column_names}
+        for at in range(table.num_rows)
+    ]
+
+    assert len(rows) == 16
+    assert rows[1]["scenario"] == "=calm.toml"
+    assert (rows[1]["fitness"], rows[1]["seed"], rows[1]["count of robot"]) == (1.1, 1, 2)
+    assert {row["seed"] for row in rows if row["failure"] is not None} == {7}
+    assert {name for name in types if "Int64" in types[name]} == {"seed", "count of robot"}
+    assert {name for name in types if "Float64" in types[name]} == {"fitness", "waited", "seconds"}
+    run("--export", "none.parquet", "--where", "seed > 99")
+    assert arro3.read_parquet("none.parquet").read_all().num_rows == 0
+
+    monkeypatch.setitem(sys.modules, "arro3.io", None)
+    code, text = run("--export", "other.parquet")
+    assert code == 1
+    assert "error[SW1810]: `--export other.parquet` needs package `arro3-io`" in text
+    assert not Path("other.parquet").exists()
+
+
+def test_columns_of_parquet_have_one_type_and_different_names() -> None:
+    assert [_kind(each) for each in ([1, None], [1, 2.5], [True], [True, 1], [2**63], [])] == [
+        *(int, float, bool, str, float, str)
+    ]
+    assert _different(["seed", "a", "seed", "seed 2"]) == ["seed", "a", "seed 2", "seed 2 2"]
 
 
 def test_a_folder_without_runs_is_told(run: Run) -> None:

@@ -23,6 +23,7 @@ COMMANDS = (
     "preview",
     "rename",
     "results",
+    "serve",
     "simulate",
     "targets",
     "test",

@@ -79,7 +79,8 @@ def _conditions(
     "--export",
     metavar="FILE",
     type=click.Path(path_type=Path),
-    help="Write the runs to a file as CSV, with all that is known of each.",
+    help="Write the runs with all that is known of each, as CSV or as Parquet by the name of the "
+    "file: `.csv`, `.parquet`.",
 )
 @click.option("--json", "is_json", is_flag=True, help="Print the results as JSON.")
 @options.diagnostics_format
@@ -108,9 +109,9 @@ def results(
     if export is not None:
         if pair is not None or runs or is_json:
             raise click.UsageError("`--export` writes runs: leave the other outputs out")
-        if export.suffix.lower() != ".csv":
+        if export.suffix.lower() not in (".csv", ".parquet"):
             raise click.BadParameter(
-                f"`{export}` does not end with `.csv`", param_hint="'--export'"
+                f"`{export}` does not end with `.csv` or `.parquet`", param_hint="'--export'"
             )
         options.check_outputs({"--export": export}, ())
     request = Request(folder, conditions, measure, pair, goal, confidence, runs, export, is_json)

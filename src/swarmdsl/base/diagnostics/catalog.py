@@ -429,4 +429,6 @@ CODES: dict[str, Code] = {
     "too-large-study": Code("SW1823", "error", "{count} are too many: at most {most}"),
     "no-such-measure": Code("SW1824", "error", "{owner} has no `{name}` to measure"),
     "unfit-level": Code("SW1825", "error", "`{name}` cannot be {value}: {reason}"),
+    "unfit-message": Code("SW1831", "error", "this is no message of an optimizer: {reason}"),
+    "no-fitness": Code("SW1832", "warning", "the candidate has no fitness: {reason}"),
 }

@@ -17,7 +17,11 @@ from swarmdsl.execution.estimation.sample import Sample, summarize
 from swarmdsl.execution.experiments.comparing import Comparison, Goal, compare
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.results.conditions import Condition
-from swarmdsl.execution.experiments.results.export import write_csv
+from swarmdsl.execution.experiments.results.export import (
+    PARQUET_PACKAGE,
+    parquet_bytes,
+    write_csv,
+)
 from swarmdsl.execution.experiments.results.records import (
     FIXED,
     Record,
@@ -32,6 +36,7 @@ from swarmdsl.execution.monitor import FALSE, TRUE
 from swarmdsl.execution.simulate.summary import format_table
 
 Tell = Callable[[Diagnostics], None]
+PARQUET = ".parquet"
 
 
 @dataclass(frozen=True)
@@ -230,8 +235,20 @@ def _as_data(found: Comparison | None, measure: str, goal: Goal) -> dict[str, An
 
 
 def _export(path: Path, records: Sequence[Record], report: Diagnostics) -> None:
+    content = b""
+    if path.suffix.lower() == PARQUET:
+        try:
+            content = parquet_bytes(records)
+        except ImportError:
+            help_ = "`pip install 'swarmdsl[parquet]'` installs it; `.csv` needs nothing"
+            what = f"--export {path}"
+            report.report("missing-package", what=what, package=PARQUET_PACKAGE, help=help_)
+            return
     try:
         with write_stream(path) as stream:
-            write_csv(records, stream)
+            if content:
+                stream.buffer.write(content)
+            else:
+                write_csv(records, stream)
     except OSError as error:
         report_unwritten(path, error, report)

@@ -1,0 +1,121 @@
+"""`swarmc serve`."""
+
+from __future__ import annotations
+
+import io
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from swarmdsl.base.diagnostics.render import render
+from swarmdsl.cli import options
+from swarmdsl.cli.engine_options import engine
+from swarmdsl.cli.exit_code import ERRORS, OK
+from swarmdsl.cli.simulate import parse_duration
+from swarmdsl.cli.suggestions import Choice
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.experiments.search.evaluation import Together
+
+_MOST_SEEDS = 100_000
+
+
+@click.command(
+    epilog="Example: swarmc serve examples/storage --scenario examples/storage/shift.toml --seeds 5"
+)
+@options.files
+@click.option("--swarm", metavar="NAME", help="Run candidates of this swarm.")
+@click.option(
+    "--scenario",
+    "scenarios",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    multiple=True,
+    help="Environment of the runs, as TOML; may be repeated.",
+)
+@click.option(
+    "--together",
+    type=Choice(("mean", "worst")),
+    default="mean",
+    show_default=True,
+    help="Value of several scenarios: their mean, or the worst of them.",
+)
+@click.option(
+    "--subject-to",
+    "properties",
+    metavar="NAME",
+    multiple=True,
+    help="A property that no run of a candidate may violate; may be repeated.",
+)
+@click.option(
+    "--seeds",
+    type=options.Integer(1, _MOST_SEEDS),
+    metavar="N",
+    default=1,
+    show_default=True,
+    help="Runs of a candidate, from the seed of its message on; the answer is their mean.",
+)
+@click.option(
+    "--until",
+    metavar="DURATION",
+    callback=parse_duration,
+    help="End each run after this virtual time.  [default: the scenario's, or 10min]",
+)
+@click.option(
+    "--world",
+    type=Choice(("abstract", "flat", "physics")),
+    help="Space of the runs, as for `swarmc simulate`.",
+)
+@click.option(
+    "--limit",
+    type=options.Number(0, 86400, min_open=True),
+    metavar="SECONDS",
+    help="A run that takes longer makes its candidate impossible.  [default: 60]",
+)
+@engine
+@options.debug
+def serve(
+    paths: tuple[Path, ...],
+    swarm: str | None,
+    scenarios: tuple[Path, ...],
+    together: Together,
+    properties: tuple[str, ...],
+    seeds: int,
+    until: int | None,
+    world: str | None,
+    limit: float | None,
+    jobs: int | None,
+    cluster: str | None,
+) -> int:
+    """Run candidates for another optimizer, as a simulation manager of CPSwarm does.
+
+    Each line of standard input is a message `RunSimulation` of CPSwarm, and is answered on
+    standard output with a line `SimulationResult`, which has the fitness. It ends with its input.
+    """
+    from swarmdsl.execution.experiments.serving.command import Request
+    from swarmdsl.execution.experiments.serving.command import serve as answer_lines
+
+    if jobs is not None and cluster is not None:
+        raise click.UsageError("`--jobs` and `--cluster` conflict")
+    if len(set(scenarios)) != len(scenarios):
+        raise click.UsageError("a `--scenario` is given twice")
+    request = Request(
+        paths,
+        swarm,
+        scenarios,
+        together,
+        properties,
+        seeds,
+        until,
+        world,
+        limit,
+        jobs or 1,
+        cluster,
+    )
+    lines = io.TextIOWrapper(sys.stdin.buffer, encoding="utf-8", errors="replace")
+    done = answer_lines(
+        request, lines, sys.stdout, lambda report: render(report, "text", sys.stderr)
+    )
+    return OK if done else ERRORS

@@ -1,0 +1,114 @@
+"""`swarmc serve`: a line with a candidate in, a line with its fitness out."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TextIO
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.suggest import suggest
+from swarmdsl.execution.experiments.engines import cluster, local
+from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.running import Runs
+from swarmdsl.execution.experiments.search.evaluation import Aim, Together
+from swarmdsl.execution.experiments.serving.manager import Manager, Trial
+from swarmdsl.execution.experiments.serving.parameters import Names
+from swarmdsl.execution.experiments.shipment import Conditions, pack
+from swarmdsl.execution.experiments.store import FILE, Store
+from swarmdsl.execution.experiments.task import NO_SCENARIO
+from swarmdsl.execution.simulate.measures import fitness_of
+
+Tell = Callable[[Diagnostics], None]
+
+
+@dataclass(frozen=True)
+class Request:
+    """Arguments of the command; `seeds` is the number of runs of a candidate in a scenario."""
+
+    paths: tuple[Path, ...]
+    swarm: str | None = None
+    scenarios: tuple[Path, ...] = ()
+    together: Together = "mean"
+    properties: tuple[str, ...] = ()
+    seeds: int = 1
+    until: int | None = None
+    world: str | None = None
+    limit: float | None = None
+    jobs: int = 1
+    cluster: str | None = None
+
+
+def serve(request: Request, lines: Iterable[str], out: TextIO, tell: Tell) -> bool:
+    """Answer each line with a line, until there are no more; return True without errors.
+
+    A message that is not understood, and a candidate without a fitness, is no error of the
+    service: it is reported, and answered.
+    """
+    report = Diagnostics()
+    try:
+        with _managed(request, report, tell) as manager:
+            if manager is None:
+                return False
+            for line in lines:
+                if not line.strip():
+                    continue
+                found = Diagnostics()
+                answer = manager.answer(line.rstrip("\n"), found)
+                tell(found)
+                out.write(f"{answer}\n")
+                out.flush()
+    except StoppedError as stopped:
+        stopped.report(report)
+        tell(report)
+        return False
+    return True
+
+
+@contextmanager
+def _managed(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Manager | None]:
+    """Load the model, start the engine, and yield what answers; None if something is wrong."""
+    conditions = Conditions(request.until, request.world, request.properties)
+    packed = pack(request.paths, request.swarm, request.scenarios, report, conditions)
+    if packed is None:
+        tell(report)
+        yield None
+        return
+    shipment, subject = packed
+    system, swarm, fitness = subject.system, subject.swarm, fitness_of(subject)
+    assert system is not None
+    assert swarm is not None
+    if fitness is None:
+        help_ = "give its inputs measures, as in `in done : uint32 = total(robot in Done)`"
+        reason = "no fitness that a run measures"
+        report.report("nothing-to-optimize", name=subject.name, reason=reason, help=help_)
+    known = [
+        each.name
+        for each in system.properties
+        if each.subject == subject.name and each.chance is None
+    ]
+    for name in request.properties:
+        if name not in known:
+            help_ = suggest(name, known, "properties")
+            report.report("unresolved-name", kind="property of one run", name=name, help=help_)
+    tell(report)
+    if report.has_errors or fitness is None:
+        yield None
+        return
+    trial = Trial(
+        shipment.digest,
+        tuple(map(str, request.scenarios)) or (NO_SCENARIO,),
+        Aim(fitness.goal, request.together, request.properties),
+        request.seeds,
+    )
+    engine = cluster(request.cluster) if request.cluster is not None else local(request.jobs)
+    with (
+        tempfile.TemporaryDirectory(prefix="swarmdsl-") as folder,
+        Store(Path(folder) / FILE) as store,
+        engine,
+    ):
+        runs = Runs({shipment.digest: shipment}, engine, store, limit=request.limit)
+        yield Manager(runs, Names(system, swarm), trial)
