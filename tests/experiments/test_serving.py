@@ -114,6 +114,7 @@ def test_what_is_wrong_is_told_and_answered(serve: Serve) -> None:
         ({"parameters": {}}, "must be a list"),
         ({"parameters": [{"value": 1}]}, "must have a `name`"),
         ({"parameters": [{"name": "a", "value": True}]}, "`value` of `a` must be a number"),
+        ({"parameters": [{"name": "a", "value": 10**400}]}, "`value` of `a` must be a number"),
         ({"parameters": [{"name": "a", "meta": 1, "value": 1}]}, "`meta` of `a`"),
     ],
 )

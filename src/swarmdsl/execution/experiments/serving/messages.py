@@ -13,13 +13,13 @@ A field without a value is left out, as Gson does.
 from __future__ import annotations
 
 import json
-import math
 from typing import Any
 
 from swarmdsl.base.records import dataclass
 
 RUN, RESULT, STATUS = "RunSimulation", "SimulationResult", "SimulationManager"
 _LARGEST_SEED = 2**63
+_LARGEST = 1e300
 
 
 @dataclass(frozen=True)
@@ -66,8 +66,10 @@ def read_message(text: str) -> RunSimulation:
 def _parameter(data: Any) -> Parameter:
     if not isinstance(data, dict) or not isinstance(data.get("name"), str):
         raise ValueError("a parameter must have a `name`")
+    value: Any
     name, value, meta = data["name"], data.get("value"), data.get("meta") or ""
-    if type(value) not in (int, float) or not math.isfinite(value):
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if not is_number or not abs(value) <= _LARGEST:
         raise ValueError(f"the `value` of `{name}` must be a number")
     if not isinstance(meta, str):
         raise ValueError(f"the `meta` of `{name}` must be a string")
