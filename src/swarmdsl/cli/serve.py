@@ -68,12 +68,6 @@ _MOST_SEEDS = 100_000
     type=Choice(("abstract", "flat", "physics")),
     help="Space of the runs, as for `swarmc simulate`.",
 )
-@click.option(
-    "--limit",
-    type=options.Number(0, 86400, min_open=True),
-    metavar="SECONDS",
-    help="A run that takes longer makes its candidate impossible.  [default: 60]",
-)
 @engine
 @options.debug
 def serve(

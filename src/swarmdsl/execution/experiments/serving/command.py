@@ -11,7 +11,7 @@ from typing import TextIO
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.suggest import suggest
-from swarmdsl.execution.experiments.engines import cluster, local
+from swarmdsl.execution.experiments.engines import Engine, cluster, local
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.search.evaluation import Aim, Together
@@ -104,7 +104,7 @@ def _managed(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Mana
         Aim(fitness.goal, request.together, request.properties),
         request.seeds,
     )
-    engine = cluster(request.cluster) if request.cluster is not None else local(request.jobs)
+    engine = _engine(request, is_apart=shipment.may_crash)
     with (
         tempfile.TemporaryDirectory(prefix="swarmdsl-") as folder,
         Store(Path(folder) / FILE) as store,
@@ -112,3 +112,9 @@ def _managed(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Mana
     ):
         runs = Runs({shipment.digest: shipment}, engine, store, limit=request.limit)
         yield Manager(runs, Names(system, swarm), trial)
+
+
+def _engine(request: Request, *, is_apart: bool) -> Engine:
+    if request.cluster is not None:
+        return cluster(request.cluster)
+    return local(request.jobs, is_apart=is_apart)
