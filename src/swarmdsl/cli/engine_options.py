@@ -13,7 +13,7 @@ from swarmdsl.cli import options
 
 _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 
-_OPTIONS = (
+_PROCESSES = (
     click.option(
         "--jobs",
         type=options.Integer(1, 256),
@@ -31,6 +31,8 @@ _OPTIONS = (
         metavar="SECONDS",
         help="A run that takes longer has no result.  [default: 60]",
     ),
+)
+_TOLD = (
     click.option(
         "--feed",
         type=click.Path(path_type=Path),
@@ -41,6 +43,12 @@ _OPTIONS = (
 )
 
 
+def processes(function: _Decorated) -> _Decorated:
+    """Add the options for the processes that do the runs."""
+    return reduce(lambda inner, add: add(inner), reversed(_PROCESSES), function)
+
+
 def engine(function: _Decorated) -> _Decorated:
     """Add the options for the processes that do the runs, and for what is told of them."""
-    return reduce(lambda inner, add: add(inner), reversed(_OPTIONS), function)
+    told = reduce(lambda inner, add: add(inner), reversed(_TOLD), function)
+    return processes(told)

@@ -11,7 +11,7 @@ import click
 
 from swarmdsl.base.diagnostics.render import render
 from swarmdsl.cli import options
-from swarmdsl.cli.engine_options import engine
+from swarmdsl.cli.engine_options import processes
 from swarmdsl.cli.exit_code import ERRORS, OK
 from swarmdsl.cli.simulate import parse_duration
 from swarmdsl.cli.suggestions import Choice
@@ -68,7 +68,7 @@ _MOST_SEEDS = 100_000
     type=Choice(("abstract", "flat", "physics")),
     help="Space of the runs, as for `swarmc simulate`.",
 )
-@engine
+@processes
 @options.debug
 def serve(
     paths: tuple[Path, ...],
