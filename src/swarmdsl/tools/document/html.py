@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from base64 import b64encode
 from collections.abc import Mapping
+from functools import cache
 from hashlib import sha256
 from pathlib import Path
 from urllib.parse import quote
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template, pass_context
+from jinja2.runtime import Context
 from markupsafe import Markup, escape
 
 from swarmdsl.base.read_files import read_text
@@ -26,6 +28,21 @@ _FILES = Path(__file__).resolve().parent / "files"
 def html(page: Page, anchors: Mapping[str, str]) -> str:
     """HTML of a page; `anchors` maps paths of elements to anchors."""
     prose = Prose(anchors)
+    script = read_text(_FILES / "page.js")
+    text = _template().render(
+        page=page,
+        prose=prose,
+        inline=_InlineRenderer(prose),
+        script=Markup(script),
+        script_hash=b64encode(sha256(script.encode()).digest()).decode(),
+        styles=Markup(style() + read_text(_FILES / "page.css")),
+    )
+    return legal(text)
+
+
+@cache
+def _template() -> Template:
+    """Return the template of pages; compiling it takes as long as filling it in."""
     environment = Environment(
         loader=FileSystemLoader(_FILES),
         autoescape=True,
@@ -34,21 +51,26 @@ def html(page: Page, anchors: Mapping[str, str]) -> str:
         undefined=StrictUndefined,
     )
     environment.filters |= {
-        "prose": prose.html,
-        "cell": _InlineRenderer(prose).cell,
+        "prose": _prose,
+        "cell": _cell,
         "code": code,
         "href": href,
         "breakable": breakable,
     }
     environment.tests["figure"] = lambda value: isinstance(value, Figure)
-    script = read_text(_FILES / "page.js")
-    text = environment.get_template("page.html.jinja").render(
-        page=page,
-        script=Markup(script),
-        script_hash=b64encode(sha256(script.encode()).digest()).decode(),
-        styles=Markup(style() + read_text(_FILES / "page.css")),
-    )
-    return legal(text)
+    return environment.get_template("page.html.jinja")
+
+
+@pass_context
+def _prose(context: Context, text: str) -> Markup:
+    prose: Prose = context["prose"]
+    return prose.html(text)
+
+
+@pass_context
+def _cell(context: Context, cell: Cell) -> Markup:
+    inline: _InlineRenderer = context["inline"]
+    return inline.cell(cell)
 
 
 class _InlineRenderer:
