@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 from collections.abc import Sequence
 from concurrent.futures import BrokenExecutor
 from pathlib import Path
@@ -130,20 +131,31 @@ def test_what_the_store_has_is_not_run_again(packed: Packed, tmp_path: Path) -> 
     assert other_file.exists()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no limits of files")
 def test_a_full_disk_is_a_plain_word(packed: Packed, tmp_path: Path) -> None:
-    shipment = packed()
-    with local(1) as engine, Store(tmp_path / "runs.sqlite") as store:
-        runs_of(shipment, store, engine).run(tasks_of(shipment, {}))
-        store._database.execute("pragma max_page_count = 1")
-        with pytest.raises(StoppedError) as stopped:
-            runs_of(shipment, store, engine).run(
-                tasks_of(shipment, *({"count of robot": count} for count in range(1, 7)))
-            )
-        kept = len(list(store.all()))
+    import resource
 
-    assert stopped.value.fields["reason"] == "database or disk is full"
+    shipment, path = packed(), tmp_path / "runs.sqlite"
+    tasks = tasks_of(shipment, *({"count of robot": count} for count in range(1, 7)))
+    usual = resource.getrlimit(resource.RLIMIT_FSIZE)
+    with local(1) as engine, Store(path) as store:
+        runs_of(shipment, store, engine).run(tasks[:1])
+        # No file of this process can grow further, as on a full disk.
+        size = path.with_name("runs.sqlite-wal").stat().st_size
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size + 1000, usual[1]))
+        try:
+            with pytest.raises(StoppedError) as stopped:
+                runs_of(shipment, store, engine).run(tasks)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, usual)
+
+    assert stopped.value.name == "no-store"
     assert "--resume" in (stopped.value.help or "")
-    assert kept >= len(SEEDS)
+    with local(1) as engine, Store(path, is_new=False) as store:
+        assert len(list(store.all())) == len(SEEDS)
+        runs = runs_of(shipment, store, engine)
+        assert [len(rows) for rows in runs.run(tasks)] == [len(SEEDS)] * 6
+    assert runs.ran == 5 * len(SEEDS)
 
 
 def test_candidates_that_cannot_run_have_rows_that_say_why(packed: Packed, tmp_path: Path) -> None:

@@ -21,7 +21,9 @@ class DaskExecutor(Executor):
 
     def __init__(self, address: str, wait: int) -> None:
         # What a user can do about a lost connection is said once, as a diagnostic.
-        for name in ("distributed.core", "distributed.client", "distributed.comm", "tornado"):
+        for name in ("core", "client", "comm", "utils"):
+            logging.getLogger(f"distributed.{name}").setLevel(logging.CRITICAL)
+        for name in ("tornado", "tornado.application"):
             logging.getLogger(name).setLevel(logging.CRITICAL)
         try:
             connect: Any = Client

@@ -148,7 +148,11 @@ class Runs:
             losses = self._lose(losses, "a process ended by itself")
             self._engine.stop(is_hurried=True)
             with suppress(BrokenExecutor, CancelledError):
-                self._engine.executor.submit(os.getpid).result()
+                try:
+                    self._engine.executor.submit(os.getpid).result()
+                except StoppedError as stopped:
+                    help_ = "what was kept is safe: start the engine, and go on with `--resume`"
+                    raise StoppedError(stopped.name, help_, **stopped.fields) from stopped
                 return
 
     def _ended(self, seeds: Sequence[int]) -> dict[str, Any]:
