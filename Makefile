@@ -78,7 +78,7 @@ check: $(READY) ## Check format, style and types.
 	$(BIN)/mypy
 
 agreement: $(VENV)/.agreement $(VENV)/.storm ## Run state machines and proofs in engines and model checkers of others too, and show how far they agree.
-	$(BIN)/pytest tests/agreement --agreement $(ARGS)
+	$(BIN)/pytest tests/agreement tests/player/test_engine.py --agreement $(ARGS)
 
 witnesses: $(VENV)/.storm ## Compare `swarmc verify` with other model checkers on examples and random swarms: SWARMS=500.
 	$(PARALLEL) tests/agreement/test_witnesses.py --agreement --swarms $(SWARMS) $(ARGS)

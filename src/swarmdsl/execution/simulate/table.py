@@ -47,6 +47,7 @@ from swarmdsl.ir import (
     Send,
     StateKind,
     System,
+    Type,
     subexpressions,
 )
 from swarmdsl.ir.integer_ranges import bound_of_any
@@ -60,7 +61,7 @@ def table(machine: ir.StateMachine, system: System) -> Machine:
 
     Instances with their own param values get their data from `first_data`.
     """
-    maker = _Maker(machine, system)
+    maker = TableMaker(machine, system)
     return Machine(
         machine.name,
         [maker.state(state) for state in machine.states],
@@ -69,8 +70,12 @@ def table(machine: ir.StateMachine, system: System) -> Machine:
     )
 
 
-class _Maker:
-    """Converter of the states of a machine."""
+class TableMaker:
+    """Converter of the states of a machine.
+
+    Guards, effects and goals become callables by methods of their own, so that another converter
+    can write the same table in another way.
+    """
 
     def __init__(self, machine: ir.StateMachine, system: System) -> None:
         self.system = system
@@ -88,13 +93,13 @@ class _Maker:
         leave: list[Effect] = []
         final = state.kind is StateKind.FINAL
         if final and around is not None and around.id in self.events.by_final_state:
-            entry.append(_raise(self.events.final(state.id)))
+            entry.append(self.raising(self.events.final(state.id)))
         if state.entry:
             entry.append(self.effects(state.entry))
         if delays(state):
             names = {self.events.timer(state, delay): delay for delay in delays(state)}
-            entry.append(_start_timers(names))
-            leave.append(_cancel_timers(tuple(names)))
+            entry.append(self.starting(names))
+            leave.append(self.stopping(tuple(names)))
         if state.exit:
             leave.append(self.effects(state.exit))
         transitions = [self.transition(each, state) for each in state.transitions]
@@ -121,7 +126,7 @@ class _Maker:
         return Transition(
             tuple(dict.fromkeys(events)),
             () if there else _targets(transition),
-            _guard(transition.guard),
+            self.guard(transition.guard),
             self.effects(transition.effects) if transition.effects and not there else None,
             transition.internal and not there,
             origin=transition,
@@ -133,7 +138,7 @@ class _Maker:
             yield Transition(
                 (event,) if event else (),
                 _targets(transition),
-                _guard(guard),
+                self.guard(guard),
                 self.effects(transition.effects) if transition.effects else None,
                 internal=True,
                 origin=transition,
@@ -143,37 +148,61 @@ class _Maker:
     def activity(self, state: ir.State, activity: ir.Activity) -> Activity:
         """Convert an activity; parts that callbacks fill in are omitted."""
         call = self.system.function(activity.function).communication
-        sent = sent_types(self.system.interface(call.type))
+        return Activity(
+            activity.function,
+            call.name,
+            {outcome: self.events.outcome(state, outcome) for outcome in OUTCOMES},
+            self.goal(activity),
+            self.results(activity.results) if activity.results else None,
+            "succeeded" if activity.judges_response else "aborted",
+        )
+
+    def goal(self, activity: ir.Activity) -> Callable[[InstanceLike], Any]:
+        """Return the function that makes the goal of an activity."""
+        sent = self.sent_types(activity)
         goal = [
             (name, stored(value, sent.get(name), self.system)) for name, value in activity.arguments
         ]
-
         view = _view(value for _, value in activity.arguments)
 
         def make_goal(instance: InstanceLike) -> dict[str, Any]:
             data = view(instance)
             return {name: value(data, None) for name, value in goal}
 
-        return Activity(
-            activity.function,
-            call.name,
-            {outcome: self.events.outcome(state, outcome) for outcome in OUTCOMES},
-            make_goal,
-            self.results(activity.results) if activity.results else None,
-            "succeeded" if activity.judges_response else "aborted",
-        )
+        return make_goal
+
+    def sent_types(self, activity: ir.Activity) -> dict[str, Type]:
+        """Return the types of the fields of the goal or request of an activity."""
+        call = self.system.function(activity.function).communication
+        return sent_types(self.system.interface(call.type))
 
     def results(self, results: Iterable[ir.ResultMapping]) -> Effect:
         """Return the effect that stores the results of an activity."""
-        return _store_results(
-            [
-                (
-                    each,
-                    bound_of_any(field_type(self.types.get(each.variable), each.path, self.system)),
-                )
-                for each in results
-            ]
-        )
+        return _store_results([(each, self.bound(each)) for each in results])
+
+    def bound(self, result: ir.ResultMapping) -> str | None:
+        """Return the integer type whose range a stored result may exceed, or None."""
+        return bound_of_any(self.held(result))
+
+    def held(self, stored: ir.ResultMapping | Assignment) -> Type | None:
+        """Return the type of what is stored in a variable or in a field of one."""
+        return field_type(self.types.get(stored.variable), stored.path, self.system)
+
+    def guard(self, expression: Expression | None) -> Guard | None:
+        """Convert a guard."""
+        return _guard(expression)
+
+    def raising(self, name: str) -> Effect:
+        """Return the effect that raises an event of the machine itself."""
+        return _raise(name)
+
+    def starting(self, timers: Mapping[str, Expression]) -> Effect:
+        """Return the effect that starts the delays of a state, by the names of their events."""
+        return _start_timers(timers)
+
+    def stopping(self, names: Iterable[str]) -> Effect:
+        """Return the effect that cancels the delays of a state."""
+        return _cancel_timers(names)
 
     def effects(self, effects: Iterable[ir.Effect]) -> Effect:
         """Return the effects as one, which stops at the first error."""
@@ -191,8 +220,7 @@ class _Maker:
         """Convert an effect."""
         match effect:
             case Assignment(variable=variable, path=path, value=expression):
-                held = field_type(self.types.get(variable), path, self.system)
-                value = stored(expression, held, self.system)
+                value = stored(expression, self.held(effect), self.system)
                 view = _view([expression])
 
                 def assign(instance: InstanceLike, event: Event) -> None:
