@@ -2,13 +2,38 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
+import pytest
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.tools.player.page import page
+from swarmdsl.tools.player.record import record_traces
+
 from .conftest import Visit
+from .lines import lines_of, moment
+
+LONG = 100_000
+MEMBERS = 50
+
+
+def written(folder: Path, lines: list[dict[str, Any]]) -> Path:
+    """Write the page of lines."""
+    source = Source("run.jsonl", "".join(f"{json.dumps(line)}\n" for line in lines))
+    report = Diagnostics()
+    recording = record_traces([source], None, report)
+    assert recording is not None
+    assert not report.has_errors
+    path = folder / "run.html"
+    path.write_text(page(recording), encoding="utf-8")
+    return path
 
 
 def test_a_mission_opens_at_the_moment_of_its_address(browser: Any, sar: Path) -> None:
+    assert sar.stat().st_size <= 250_000
     visit = Visit(browser, sar, "#t=10min&m=uav[1]")
     assert visit.value("[player.time, player.selected]") == [600e9, "uav[1]"]
     states = visit.value("player.moment.members.map((each) => each.states)")
@@ -18,4 +43,93 @@ def test_a_mission_opens_at_the_moment_of_its_address(browser: Any, sar: Path) -
     assert visit.value("player.time > 600e9")
     visit.page.keyboard.press("ArrowLeft")
     visit.page.wait_for_function("location.hash.includes('m=uav[1]')")
+    visit.close()
+
+
+def test_keys_lead_to_every_kind_of_line_and_back(browser: Any, tmp_path: Path) -> None:
+    lines = list(lines_of(3_000, 5))
+    path = written(tmp_path, lines)
+    visit = Visit(browser, path)
+    kinds = {
+        "e": lambda line: line["member"] == "talker[1]",
+        "s": lambda line: line["sent"],
+        "f": lambda line: line["event"] == "fault.lost",
+    }
+    visit.page.keyboard.press("m")
+    visit.page.keyboard.press("m")
+    assert visit.value("player.selected") == "talker[1]"
+    for key, fits in kinds.items():
+        visit.page.keyboard.press("Home")
+        visit.page.keyboard.press(key)
+        first, second = [number for number, line in enumerate(lines) if number and fits(line)][:2]
+        assert visit.value("player.index") == first
+        visit.page.keyboard.press(key)
+        assert visit.value("player.index") == second
+        visit.page.keyboard.press(key.upper())
+        assert visit.value("player.index") == first
+    visit.page.keyboard.press("b")
+    visit.page.keyboard.press("End")
+    assert visit.value("player.index") == len(lines) - 1
+    visit.page.keyboard.press("[")
+    assert visit.value("player.index") == first
+    visit.page.keyboard.press("v")
+    assert visit.value("player.index") == first
+    visit.page.keyboard.press("?")
+    assert visit.page.locator("dialog").is_visible()
+    visit.page.keyboard.press("Escape")
+    visit.page.keyboard.press("/")
+    visit.page.keyboard.type("talker[3]")
+    states = visit.value("player.moment.members[3].states")
+    said = ", ".join(state.rpartition(".")[2] for state in states) or "lost"
+    assert visit.page.locator(".heads button").all_inner_texts() == [f"talker[3] {said}"]
+    visit.close()
+
+
+def test_a_long_run_is_small_and_every_moment_is_that_of_its_lines(
+    browser: Any, tmp_path: Path
+) -> None:
+    lines = list(lines_of(LONG, MEMBERS))
+    path = written(tmp_path, lines)
+    assert path.stat().st_size <= 3_000_000
+    visit = Visit(browser, path)
+    names = visit.value("player.recording.members.map((each) => each.name)")
+    for index in (0, 49, 511, 512, 513, 40_000, LONG - 1):
+        found = visit.value(f"(player.go({index}), player.moment.members)")
+        expected = moment(lines, index)
+        for name, each in zip(names, found, strict=True):
+            if name in expected:
+                assert {key: each[key] for key in expected[name]} == expected[name]
+            else:
+                assert each["line"] == -1
+        line = visit.value(f"player.recording.line({index})")
+        given = {key: value for key, value in line.items() if key not in ("time", "index")}
+        assert given == lines[index]
+    messages = visit.value(
+        "player.recording.messages.map((each) => [each.line, each.sent, each.fate])"
+    )
+    assert messages == [
+        [number, line["envelope"]["sent"], "ignored" if line.get("ignored") else "taken"]
+        for number, line in enumerate(lines)
+        if "envelope" in line
+    ]
+    visit.close()
+
+
+HOSTILE = '<script>document.title = "bad"</script><img src=x onerror=alert(1)>\u202egnp[0]'
+
+
+@pytest.mark.parametrize("key", ["member", "event", "state"])
+def test_names_of_a_trace_are_text(browser: Any, tmp_path: Path, key: str) -> None:
+    lines = list(lines_of(40, 2))
+    for line in lines:
+        if key == "state":
+            line["configuration"] = [HOSTILE]
+        else:
+            line[key] = HOSTILE if line[key] else line[key]
+    visit = Visit(browser, written(tmp_path, lines))
+    visit.page.keyboard.press("End")
+    visit.page.wait_for_function("document.querySelector('.said').textContent.includes('<script>')")
+    assert visit.value("document.querySelectorAll('img, #main script').length") == 0
+    assert "\u202e" not in visit.value("document.body.innerText")
+    assert visit.page.title() == "Run"
     visit.close()

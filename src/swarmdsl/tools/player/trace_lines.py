@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
-from swarmdsl.execution.simulate.trace_line import named_numbers
+from swarmdsl.execution.simulate.trace_line import NOT_FINITE, named_numbers
 from swarmdsl.execution.simulate.trace_records import Record, read_records
 
 _AXES = (2, 3)
@@ -19,7 +19,7 @@ _SHOWN = 20
 """Number of invalid lines that are told one by one."""
 
 
-def read_steps(sources: Iterable[Source], report: Diagnostics) -> list[tuple[dict[str, Any], Span]]:
+def read_steps(sources: Sequence[Source], report: Diagnostics) -> list[tuple[dict[str, Any], Span]]:
     """Return the lines of traces by time, with their places; report invalid ones.
 
     The times of all begin with the first node that began. Robots whose clocks differ are told: by a
@@ -36,6 +36,8 @@ def read_steps(sources: Iterable[Source], report: Diagnostics) -> list[tuple[dic
             zero = min(began, zero if zero is not None else began)
         records += of
     steps = [(_plain(each, zero), each) for each in records]
+    if any(word in source.text for source in sources for word in NOT_FINITE):
+        steps = [(named_numbers(step), record) for step, record in steps]
     _report_clocks(steps, report)
     steps.sort(key=lambda step: step[0]["t"])
     return [(step, record.place) for step, record in steps]
@@ -66,7 +68,7 @@ def _plain(record: Record, zero: int | None) -> dict[str, Any]:
     for key, is_fit in _CHECKS.items():
         if key in value and not is_fit(value[key]):
             del value[key]
-    return named_numbers(value)  # type: ignore[no-any-return]
+    return value
 
 
 _EPOCH = 10**18

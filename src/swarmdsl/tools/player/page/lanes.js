@@ -362,7 +362,10 @@ class Lanes {
 
   #arrows(pen) {
     const near = ((this.to - this.from) / this.width) * BUNDLE;
-    this.drawn = bundles(this.recording.messages, this.from, this.to, near);
+    const { messages } = this.recording;
+    const key = [this.from, this.to, near, messages.length].join();
+    if (this.bundled !== key) this.drawn = bundles(messages, this.from, this.to, near);
+    this.bundled = key;
     pen.strokeStyle = pen.fillStyle = this.ink;
     for (const each of this.drawn) {
       const source = this.of.get(each.from);

@@ -30,20 +30,25 @@ export function stayAt(stays, time) {
   return low - 1;
 }
 
+const FATES = ["taken", "ignored", "deferred", "lost", "nobody"];
+
 /**
- * Swarm events that start between two times, those of one sender at nearly one time together:
- * {event, from, sent, to: [{member, received, fate}]}. `near` is that distance in nanoseconds.
+ * Swarm events that are on their way between two times, those of one sender at nearly one time together:
+ * [{event, from, sent, count, to: [{member, received, fate}]}]. `near` is that distance in nanoseconds.
  */
 export function bundles(messages, from, to, near) {
   const found = new Map();
+  const events = new Map();
   for (const each of messages) {
     if (each.received < from || each.sent > to) continue;
-    const key = `${each.from} ${each.event} ${Math.floor(each.sent / near)}`;
-    const bundle = found.get(key) ?? { event: each.event, from: each.from, sent: each.sent, to: [], count: 0 };
-    if (!found.has(key)) found.set(key, bundle);
+    if (!events.has(each.event)) events.set(each.event, events.size);
+    // One number, because there may be a million of them.
+    const key = (Math.floor((each.sent - from) / near) * 65536 + each.from + 1) * 1024 + events.get(each.event);
+    let bundle = found.get(key);
+    if (!bundle) found.set(key, (bundle = { event: each.event, from: each.from, sent: each.sent, to: new Map(), count: 0 }));
     bundle.count += 1;
-    const same = bundle.to.find((other) => other.member === each.to && other.fate === each.fate);
-    if (!same) bundle.to.push({ member: each.to, received: each.received, fate: each.fate });
+    const target = (each.to + 1) * FATES.length + FATES.indexOf(each.fate);
+    if (!bundle.to.has(target)) bundle.to.set(target, { member: each.to, received: each.received, fate: each.fate });
   }
-  return [...found.values()];
+  return [...found.values()].map((each) => ({ ...each, to: [...each.to.values()] }));
 }
