@@ -131,6 +131,61 @@ def test_diagrams_and_links_lead_on(visit: Visit) -> None:
     assert visit.anchor() == "uav_coverage"
 
 
+PINCH = """picture => {
+    const {left, top, width, height} = picture.getBoundingClientRect();
+    const touch = (type, pointerId, x) => picture.dispatchEvent(new PointerEvent(type, {
+        pointerId, pointerType: "touch", bubbles: true, button: 0,
+        clientX: left + width / 2 + x, clientY: top + height / 2}));
+    for (const [number, x] of [[1, -20], [2, 20]]) touch("pointerdown", number, x);
+    for (const [number, x] of [[1, -40], [2, 40]]) touch("pointermove", number, x);
+    for (const number of [1, 2]) touch("pointerup", number, 0);
+}"""
+
+
+def test_diagrams_zoom_and_fold(visit: Visit) -> None:
+    page = visit.page
+    picture = page.locator('[id="RoverRescue"] > figure .picture')
+    picture.scroll_into_view_if_needed()
+    figure = page.locator('[id="RoverRescue"] > figure')
+
+    def width() -> float:
+        return float(picture.evaluate("picture => picture.querySelector('svg').clientWidth"))
+
+    fitting = width()
+    figure.get_by_role("button", name="Zoom in").click()
+    assert width() == pytest.approx(1.25 * fitting, rel=0.01)
+    picture.focus()
+    for key in ("+", "+", "+", "+", "-"):
+        page.keyboard.press(key)
+    assert width() == pytest.approx(1.25**4 * fitting, rel=0.01)
+    assert picture.evaluate("picture => picture.scrollWidth > picture.clientWidth")
+    left = picture.evaluate("picture => picture.scrollLeft")
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function(
+        "([picture, left]) => picture.scrollLeft > left", arg=[picture.element_handle(), left]
+    )
+    page.keyboard.press("0")
+    assert width() == fitting
+    picture.evaluate(PINCH)
+    assert width() == pytest.approx(2 * fitting, rel=0.01)
+
+    states = picture.locator(".node.state")
+    before = states.count()
+    figure.get_by_role("button", name="Fold states", exact=False).first.click()
+    assert 0 < states.count() < before
+    picture.focus()
+    page.keyboard.press("u")
+    assert states.count() == before
+    # Dragging is no click, also on a link.
+    page.keyboard.press("+")
+    link = picture.locator("a", has_text="Stuck").first
+    link.hover()
+    page.mouse.down()
+    page.mouse.move(300, 300, steps=3)
+    page.mouse.up()
+    assert visit.anchor() == ""
+
+
 def test_every_state_can_be_linked_to(visit: Visit) -> None:
     page = visit.page
     page.goto("about:blank")

@@ -62,11 +62,15 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A diagram as SVG, or the text that replaces it."""
+    """A diagram as SVG, or the text that replaces it.
+
+    `folded` shows it with less and less in its nodes.
+    """
 
     title: str
     svg: Markup | None
     instead: str = ""
+    folded: tuple[Markup, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

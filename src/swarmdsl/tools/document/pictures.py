@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from urllib.parse import quote
 
 from markupsafe import Markup
 
 from swarmdsl import ir
 from swarmdsl.base.source import Span
-from swarmdsl.codegen.diagram.graph import Diagram
+from swarmdsl.codegen.diagram.graph import Diagram, Node
+from swarmdsl.tools.diagram.folding import fold
 from swarmdsl.tools.diagram.layout import lay_out
 from swarmdsl.tools.diagram.map import maps
 from swarmdsl.tools.diagram.svg import draw
@@ -19,6 +20,8 @@ from swarmdsl.tools.document.page import Figure
 
 _MAX_NODES = 2_000
 """Larger diagrams are slow to lay out and unreadable."""
+_FEW_NODES = 12
+"""Smaller diagrams are not folded."""
 _TITLES = {
     "composition": "Members of {}",
     "internal": "Parts of {}",
@@ -49,7 +52,26 @@ def _figure(diagram: Diagram, subject: Element, elements: Elements) -> Figure:
         too_large = f"With {count} nodes, the diagram is too large for this page: use `{command}`."
         return Figure(title, None, too_large)
 
-    return Figure(title, Markup(draw(lay_out(diagram), _links(subject, elements))))
+    link = _links(subject, elements)
+    drawn = [Markup(draw(lay_out(each), link)) for each in (diagram, *_folded(diagram, count))]
+    return Figure(title, drawn[0], folded=tuple(drawn[1:]))
+
+
+def _folded(diagram: Diagram, count: int) -> Iterator[Diagram]:
+    """Yield a large diagram with less and less in its nodes."""
+    if count < _FEW_NODES:
+        return
+    depths: dict[str, int] = {}
+
+    def measure(node: Node, depth: int) -> None:
+        for child in node.nodes:
+            if child.foldable and child.nodes:
+                depths[child.id] = depth
+            measure(child, depth + (child.id in depths))
+
+    measure(diagram.frame, 0)
+    for depth in range(max(depths.values(), default=-1), -1, -1):
+        yield fold(diagram, [id_ for id_, of in depths.items() if of >= depth])
 
 
 def _links(subject: Element, elements: Elements) -> Callable[[Span | None], str | None]:

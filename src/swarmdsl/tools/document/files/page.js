@@ -1,6 +1,6 @@
 "use strict";
-// Scroll to links, search, highlight the current entry in the contents, switch the theme, and show
-// diagrams in full size. The page works without this script.
+// Scroll to links, search, highlight the current entry in the contents, switch the theme, zoom and
+// fold diagrams. The page works without this script.
 (() => {
   const MOST = 40;
   const byId = (id) => document.getElementById(id);
@@ -201,26 +201,135 @@
     paint(painted);
   });
 
-  // ---- diagrams and tables that are wider than the page, when they come into view
-  const fit = (picture) => {
-    const svg = picture.querySelector("svg");
-    if (svg.width.baseVal.value <= svg.clientWidth + 1) return;
-    const button = document.createElement("button");
-    button.type = "button";
-    const name = () => (button.textContent = picture.classList.contains("whole") ? "Fit the page" : "Full size");
-    button.addEventListener("click", () => {
-      picture.classList.toggle("whole");
-      name();
+  // ---- diagrams, when they come into view: zoom, pan and fold
+  const [SMALLEST, LARGEST, STEP, CLICK] = [0.1, 4, 1.25, 4]; // the last in pixels
+  const zoomable = (picture) => {
+    const whole = picture.querySelector("svg");
+    const views = [whole, ...[...picture.querySelectorAll("template")].map((each) => each.content.firstElementChild)];
+    let level = 0;
+    const natural = () => views[level].viewBox.baseVal.width;
+    const scale = () => views[level].clientWidth / natural();
+    const buttons = {};
+    const tell = () => {
+      const percent = Math.round(scale() * 100);
+      buttons.fit.textContent = `Fit (${percent} %)`;
+      buttons.smaller.disabled = scale() <= SMALLEST;
+      buttons.larger.disabled = scale() >= LARGEST;
+      if (buttons.fold) {
+        buttons.fold.disabled = level === views.length - 1;
+        buttons.unfold.disabled = level === 0;
+      }
+    };
+    // Zoom so that what is at a place of the frame stays there.
+    const zoom = (factor, x = picture.clientWidth / 2, y = picture.clientHeight / 2) => {
+      const svg = views[level];
+      const before = svg.getBoundingClientRect();
+      const frame = picture.getBoundingClientRect();
+      const [left, top] = [(frame.left + x - before.left) / before.width, (frame.top + y - before.top) / before.height];
+      const height = picture.clientHeight;
+      const next = Math.min(LARGEST, Math.max(SMALLEST, scale() * factor));
+      picture.style.height ||= `${height}px`;
+      picture.classList.add("zoomed");
+      svg.style.width = `${natural() * next}px`;
+      const after = svg.getBoundingClientRect();
+      picture.scrollLeft += after.left + left * after.width - frame.left - x;
+      picture.scrollTop += after.top + top * after.height - frame.top - y;
+      tell();
+    };
+    const fit = () => {
+      picture.classList.remove("zoomed");
+      picture.style.height = "";
+      for (const each of views) each.style.width = "";
+      tell();
+    };
+    const fold = (by) => {
+      const next = Math.min(views.length - 1, Math.max(0, level + by));
+      views[level].replaceWith(views[next]);
+      level = next;
+      fit();
+    };
+
+    const row = document.createElement("span");
+    row.className = "zoom";
+    const add = (key, name, word, act, keys) => {
+      const button = document.createElement("button");
+      Object.assign(button, { type: "button", textContent: name, title: `${word} (${keys})` });
+      button.setAttribute("aria-label", word);
+      button.addEventListener("click", act);
+      buttons[key] = button;
+      row.append(button);
+    };
+    add("smaller", "−", "Zoom out", () => zoom(1 / STEP), "key -");
+    add("larger", "+", "Zoom in", () => zoom(STEP), "key +");
+    add("fit", "Fit", "Fit the page", fit, "key 0");
+    if (views.length > 1) {
+      add("fold", "Fold", "Fold states and parts", () => fold(1), "key f");
+      add("unfold", "Unfold", "Unfold states and parts", () => fold(-1), "key u");
+    }
+    picture.parentElement.querySelector("figcaption").append(row);
+
+    picture.tabIndex = 0;
+    picture.addEventListener("keydown", ({ key, ctrlKey, metaKey, altKey }) => {
+      if (ctrlKey || metaKey || altKey) return;
+      if (key === "+" || key === "=") zoom(STEP);
+      else if (key === "-") zoom(1 / STEP);
+      else if (key === "0") fit();
+      else if (key === "f") fold(1);
+      else if (key === "u") fold(-1);
     });
-    name();
-    picture.parentElement.querySelector("figcaption").append(button);
+    // With Ctrl, or by pinching on a touchpad; the wheel alone scrolls the page.
+    const at = ({ clientX, clientY }) => {
+      const frame = picture.getBoundingClientRect();
+      return [clientX - frame.left, clientY - frame.top];
+    };
+    picture.addEventListener(
+      "wheel",
+      (event) => {
+        if (!event.ctrlKey) return;
+        event.preventDefault();
+        zoom(Math.exp(-event.deltaY / 300), ...at(event));
+      },
+      { passive: false },
+    );
+    // One mouse pointer pans and two fingers zoom; one finger scrolls, as on the rest of the page.
+    const held = new Map();
+    let moved = 0;
+    const span = () => {
+      const [a, b] = [...held.values()];
+      return [Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY), ...at({ clientX: (a.clientX + b.clientX) / 2, clientY: (a.clientY + b.clientY) / 2 })];
+    };
+    picture.addEventListener("pointerdown", (event) => {
+      if (event.button === 0) held.set(event.pointerId, event);
+      moved = 0;
+    });
+    picture.addEventListener("pointermove", (event) => {
+      const last = held.get(event.pointerId);
+      if (!last) return;
+      if (held.size === 2) {
+        const [before] = span();
+        held.set(event.pointerId, event);
+        const [after, x, y] = span();
+        if (before > 0) zoom(after / before, x, y);
+        return;
+      }
+      held.set(event.pointerId, event);
+      if (event.pointerType === "touch") return;
+      moved += Math.hypot(event.clientX - last.clientX, event.clientY - last.clientY);
+      picture.scrollLeft -= event.clientX - last.clientX;
+      picture.scrollTop -= event.clientY - last.clientY;
+    });
+    for (const name of ["pointerup", "pointercancel", "pointerleave"])
+      picture.addEventListener(name, ({ pointerId }) => held.delete(pointerId));
+    picture.addEventListener("dragstart", (event) => event.preventDefault());
+    picture.addEventListener("click", (event) => moved > CLICK && (event.preventDefault(), event.stopPropagation()), true);
+    tell();
   };
   const seen = new IntersectionObserver((changes) => {
     for (const { isIntersecting, target } of changes) {
       if (!isIntersecting) continue;
       seen.unobserve(target);
-      if (target.matches(".picture")) fit(target);
-      if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
+      if (target.matches(".picture")) zoomable(target);
+      else if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
     }
   });
   for (const each of document.querySelectorAll(".scroll, .picture")) seen.observe(each);
