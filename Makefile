@@ -29,7 +29,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o build/demo
@@ -86,6 +86,10 @@ witnesses: $(VENV)/.storm ## Compare `swarmc verify` with other model checkers o
 proofs: $(READY) ## Compare `swarmc verify` with all runs of random swarms on the engine: SWARMS=500.
 	$(PARALLEL) tests/verify/test_random.py tests/verify/test_random_duties.py tests/verify/test_faults_random.py \
 		tests/verify/test_timed_random.py tests/verify/test_any_size.py -k "are_those_of_all" --proofs $(SWARMS) $(ARGS)
+
+test-ray: $(READY) ## Run the tests of the engine for Ray with Ray itself, of 260 MB.
+	$(BIN)/python -m pip install --quiet "ray>=2.9"
+	$(BIN)/pytest tests/experiments/test_ray.py $(ARGS)
 
 w3c: $(READY) ## Run the SCXML tests of the W3C in a folder: W3C=folder.
 	$(BIN)/python -m tests.scxml.suite $(W3C)
