@@ -100,6 +100,22 @@ def test_a_run_in_which_nobody_is_near_is_a_violation(modelled: Modelled) -> Non
     assert [line.event for line in verdicts["Calm"].run.lines if line.event] == ["Go", "Go"]
 
 
+def test_a_fault_is_shown_by_a_run_in_which_nobody_is_near_or_told_to_be_open(
+    modelled: Modelled,
+) -> None:
+    fails = "/ count = 1 % count -> Alone"
+    far = f"on Go [neighbors within reach == 0] {fails}"
+    for close, is_open in ((far, False), ("on Go -> Alone", True)):
+        near = f"on Go [neighbors within reach > 0] {fails}; on Go -> Close"
+        found = survey(of(modelled, near, close), Budget(Limits()))
+        failed = [each for each in found.findings if each.fault == "fails"]
+        assert [each.fault for each, _ in found.open] == ["fails"] * is_open
+        assert len(failed) == (not is_open)
+        for each in failed:
+            assert each.run is not None
+            assert [line.event for line in each.run.lines if line.event] == ["Go", "Go"]
+
+
 def test_what_is_possible_only_with_others_nearby_is_open(modelled: Modelled) -> None:
     model = of(modelled, "on Go -> Close", "on Go [neighbors within reach > 0] -> Alone")
 

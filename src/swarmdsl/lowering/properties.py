@@ -117,7 +117,7 @@ def _fact(fact: Fact, context: Context) -> ir.Fact | ir.Count:
     if ref is None:
         return ir.Fact("has", "", robots, guard, origin=fact.span)
     act = cast("Act", fact.act or "arrives")
-    return ir.Fact(act, context.name(ref), robots, guard, fact.outcome, fact.span)
+    return ir.Fact(act, context.name(ref), robots, guard, fact.outcome or "", fact.span)
 
 
 def _robots(who: Who) -> ir.Robots:

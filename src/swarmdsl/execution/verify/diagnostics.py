@@ -61,6 +61,17 @@ def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
     )
 
 
+def in_words(finding: Finding) -> str:
+    """Return what is wrong, and where."""
+    message = CODES[_CODES[finding.fault]].message.format(
+        name=finding.name,
+        who=f"`{finding.role}`" if finding.role else "robot",
+        reason=finding.detail,
+    )
+    place = finding.place
+    return f"{message} ({place.source.name}:{place.line})" if place is not None else message
+
+
 def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
     """Report what is wrong with a swarm."""
     run = finding.run

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Hashable, Iterator
 from typing import Any
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.verify.explore import Graph, explore
+from swarmdsl.execution.verify.failures import MOST_RUNS, Failures, failures
 from swarmdsl.execution.verify.finding import Finding
 from swarmdsl.execution.verify.groups import Group, Local, Step
 from swarmdsl.execution.verify.influence import apart
@@ -16,8 +18,8 @@ from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.livelock import livelock
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.play import play
-from swarmdsl.execution.verify.reached import Reached, transitions_of
+from swarmdsl.execution.verify.play import NEAR, play
+from swarmdsl.execution.verify.reached import Reached, place_of_taken
 from swarmdsl.execution.verify.run import Run, steps_between
 from swarmdsl.execution.verify.verdict import unfinished
 
@@ -26,7 +28,8 @@ from swarmdsl.execution.verify.verdict import unfinished
 class Survey:
     """States of a swarm that were looked at, and what was found.
 
-    `missing` is the reason why not all states were looked at, or "".
+    `missing` is the reason why not all states were looked at, or "". Findings are `open` if no run
+    to them could be played, each with the flaw of one.
     """
 
     states: int
@@ -34,6 +37,7 @@ class Survey:
     missing: str
     findings: tuple[Finding, ...]
     full: tuple[str, ...] = ()
+    open: tuple[tuple[Finding, str], ...] = ()
 
 
 def survey(model: Model, budget: Budget) -> Survey:
@@ -42,6 +46,7 @@ def survey(model: Model, budget: Budget) -> Survey:
     complete = True
     findings: list[Finding] = []
     full: set[str] = set()
+    open_: list[tuple[Finding, str]] = []
     reached: dict[str, Reached] = {}
     for groups in apart(model, model.groups(thorough=True)):
         network = model.network(groups)
@@ -52,8 +57,14 @@ def survey(model: Model, budget: Budget) -> Survey:
         complete &= graph.complete
         full |= network.full
         part = _Part(model, graph)
-        found = list(part.findings(sure=sure, budget=budget))
+        failed = part.failures()
+        if any(flaw == NEAR for _, flaw in failed.flaws.values()):
+            # Robots can be far from each other: a longer run, in which they are, may show it.
+            lonely = explore(model.network(groups, lonely=True), budget)
+            failed.add(_Part(model, lonely).failures())
+        found = [*failed.found.values(), *part.findings(sure=sure, budget=budget)]
         findings += found
+        open_ += [*failed.flaws.values(), *part.open.values()]
         # What ends or waits too early explains what does not happen after it.
         early = any(each.fault in ("loops", "waits", "stuck") for each in found)
         part.reach(reached, sure=sure and not early)
@@ -61,7 +72,7 @@ def survey(model: Model, budget: Budget) -> Survey:
     for machine in reached.values():
         findings += machine.missing(ignored)
     missing = "" if complete else unfinished(model, budget)
-    return Survey(states, transitions, missing, tuple(findings), tuple(sorted(full)))
+    return Survey(states, transitions, missing, tuple(findings), tuple(sorted(full)), tuple(open_))
 
 
 class _Part:
@@ -80,10 +91,15 @@ class _Part:
         }
         for group in self._network.groups:
             self._sent.update(group.automaton.first.sends)
+        self.open: dict[Hashable, tuple[Finding, str]] = {}
+        """Findings without a run that could be played, with the flaw of the first one."""
+
+    def failures(self) -> Failures:
+        """Find guards and effects without a value, and machines that do not come to rest."""
+        return failures(self._graph, self._run)
 
     def findings(self, *, sure: bool, budget: Budget) -> Iterator[Finding]:
-        """Yield what is wrong; what is missing only if the search has seen all."""
-        yield from self._failures()
+        """Yield what else is wrong; what is missing only if the search has seen all."""
         yield from self._answers(budget)
         trapped = list(self._trapped()) if sure else []
         yield from (finding for _, finding in trapped)
@@ -114,29 +130,6 @@ class _Part:
                 for moment in move.moments:
                     reached[cast[moment.actor].machine.name].taken.update(moment.taken)
 
-    def _failures(self) -> Iterator[Finding]:
-        """Find guards and effects without a value, and machines that do not come to rest."""
-        told: set[tuple[str, str]] = set()
-        for number in sorted(self._graph.first, key=self._graph.first.__getitem__):
-            group = self._network.groups[self._network.places[number].group]
-            for step in self._network.row(number):
-                for moment in step.move.moments if step.move is not None else ():
-                    machine = group.automaton.whole.kind.cast[moment.actor].machine
-                    if moment.loops and ("loops", machine.name) not in told:
-                        told.add(("loops", machine.name))
-                        run = self._run(number, step.move)
-                        place = self._place(machine, moment.taken)
-                        if not run.flaw:
-                            yield Finding("loops", machine.name, group.role, place, run=run)
-                    for reason in moment.failures:
-                        if (machine.name, reason) in told:
-                            continue
-                        told.add((machine.name, reason))
-                        run = self._run(number, step.move)
-                        place = self._place(machine, moment.taken)
-                        if not run.flaw:
-                            yield Finding("fails", machine.name, group.role, place, reason, run)
-
     def _answers(self, budget: Budget) -> Iterator[Finding]:
         """Find robots that answer each other without end."""
         if self._model.doubts(self._network.groups):
@@ -151,30 +144,30 @@ class _Part:
         place = None
         for moment in step.move.moments:
             machine = group.automaton.whole.kind.cast[moment.actor].machine
-            place = place or self._place(machine, moment.taken)
+            place = place or place_of_taken(machine, moment.taken)
         yield Finding("answers", step.move.given.name, group.role, place, run=run)
 
     def _trapped(self) -> Iterator[tuple[tuple[int, int], Finding]]:
         """Find states that nothing leads on from, whatever comes."""
         told: dict[tuple[int, int], None] = {}
+        tried: Counter[tuple[int, int]] = Counter()
         for number in sorted(self._graph.first, key=self._graph.first.__getitem__):
             group_number, state, _ = self._network.places[number]
             group = self._network.groups[group_number]
             key = (group_number, state)
-            if key in told or not self._is_trap(group, state):
+            if key in told or tried[key] == MOST_RUNS or not self._is_trap(group, state):
                 continue
-            told[key] = None
+            tried[key] += 1
             run = self._run(number)
-            if run.flaw:
-                continue
             cast = group.automaton.whole.kind.cast
             actor, name = group.automaton.look(state).innermost[0]
-            yield (
-                key,
-                Finding(
-                    "waits", name, group.role, self._origin(cast[actor].machine, name), run=run
-                ),
-            )
+            found = Finding("waits", name, group.role, self._origin(cast[actor].machine, name))
+            if run.flaw:
+                self.open.setdefault(key, (found, run.flaw))
+                continue
+            told[key] = None
+            self.open.pop(key, None)
+            yield key, replace(found, run=run)
 
     def _is_trap(self, group: Group, state: int) -> bool:
         automaton = group.automaton
@@ -210,14 +203,16 @@ class _Part:
             if not waiting or set(waiting) & trapped:
                 continue
             run = play(self._network, self._steps(number), is_whole=True)
-            if run.flaw:
-                continue
             group, local = waiting[0]
             whole = self._network.groups[group].automaton
             actor, name = whole.look(local).innermost[0]
             machine = whole.whole.kind.cast[actor].machine
-            role = whole.whole.kind.role
-            yield Finding("stuck", name, role, self._origin(machine, name), run=run)
+            found = Finding("stuck", name, whole.whole.kind.role, self._origin(machine, name))
+            if run.flaw:
+                self.open.setdefault("stuck", (found, run.flaw))
+                continue
+            self.open.pop("stuck", None)
+            yield replace(found, run=run)
             return
 
     def _waiting(self, state: int) -> list[tuple[int, int]]:
@@ -270,8 +265,11 @@ class _Part:
                 None,
             )
             run = self._run(*first) if first is not None else None
-            if run is None or not run.flaw:
-                yield Finding("lost", name, "", place, run=run)
+            found = Finding("lost", name, "", place)
+            if run is not None and run.flaw:
+                self.open[name] = (found, run.flaw)
+            else:
+                yield replace(found, run=run)
 
     # ---- runs and places
 
@@ -288,12 +286,6 @@ class _Part:
 
     def _origin(self, machine: Machine, state: str) -> Span | None:
         return self._model.subject.place(machine.states[machine.numbers[state]].origin)
-
-    def _place(self, machine: Machine, taken: tuple[str, ...]) -> Span | None:
-        for transition in transitions_of(machine).items():
-            if transition[0] in taken:
-                return transition[1].origin
-        return None
 
 
 def _edges(machine: Machine, state: str) -> Iterator[Any]:

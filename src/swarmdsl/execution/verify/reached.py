@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from swarmdsl import ir
+from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.verify.finding import Finding
 
@@ -17,6 +18,14 @@ def transitions_of(machine: Machine) -> dict[str, ir.Transition]:
             if isinstance(each.origin, ir.Transition) and (each.origin.triggers or each.guard):
                 found[machine.called(each)] = each.origin
     return found
+
+
+def place_of_taken(machine: Machine, taken: Collection[str]) -> Span | None:
+    """Return the place of the first of some transitions, by their names in traces."""
+    for name, transition in transitions_of(machine).items():
+        if name in taken:
+            return transition.origin
+    return None
 
 
 class Reached:
