@@ -155,6 +155,7 @@ class _Session:
             self._written,
             tuple(bounds(subject, self._request.sizes)),
             model.environment.faults,
+            tuple(diagnostics.open_finding(*each) for found in surveys for each in found.open),
         )
         search = Search(
             tuple(surveys),

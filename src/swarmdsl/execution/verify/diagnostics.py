@@ -18,7 +18,7 @@ from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.reached import transitions_of
 from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.timing import Bounds
-from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.execution.verify.verdict import Verdict, not_run
 
 _MOST_LINES = 40
 """Maximum number of lines of a run in a diagnostic."""
@@ -61,15 +61,16 @@ def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
     )
 
 
-def in_words(finding: Finding) -> str:
-    """Return what is wrong, and where."""
+def open_finding(finding: Finding, flaw: str) -> str:
+    """Return what may be wrong, and where, with the flaw of the run to it."""
     message = CODES[_CODES[finding.fault]].message.format(
         name=finding.name,
         who=f"`{finding.role}`" if finding.role else "robot",
         reason=finding.detail,
     )
     place = finding.place
-    return f"{message} ({place.source.name}:{place.line})" if place is not None else message
+    where = f" ({place.source.name}:{place.line})" if place is not None else ""
+    return f"{message}{where}? {not_run(flaw)}"
 
 
 def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:

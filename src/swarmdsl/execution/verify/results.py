@@ -22,7 +22,7 @@ class Results:
     """Results of the command; `runs` has the written files by the names of their runs.
 
     Properties are proved for any number of members of the roles `free`, with at most
-    so many `faults`: robots that are lost.
+    so many `faults`: robots that are lost. `open` says what may be wrong, though no run shows it.
     """
 
     subject: str
@@ -33,6 +33,7 @@ class Results:
     runs: Mapping[str, Path]
     free: tuple[str, ...] = ()
     faults: int = 0
+    open: tuple[str, ...] = ()
 
 
 def as_document(results: Results) -> str:
@@ -45,6 +46,7 @@ def as_document(results: Results) -> str:
         "conditions": list(results.conditions),
         "properties": [_property(each, results.runs) for each in results.verdicts],
         "findings": [_finding(each, results.runs) for each in results.findings],
+        **({"open": list(results.open)} if results.open else {}),
     }
     return f"{json.dumps(values, indent=2)}\n"
 

@@ -11,7 +11,7 @@ from swarmdsl.execution.verify import diagnostics
 from swarmdsl.execution.verify.findings import Survey
 from swarmdsl.execution.verify.results import Results
 from swarmdsl.execution.verify.sizes import shown
-from swarmdsl.execution.verify.verdict import INTERRUPTED, not_run
+from swarmdsl.execution.verify.verdict import INTERRUPTED
 
 
 @dataclass(frozen=True)
@@ -38,8 +38,8 @@ def summary(subject: Subject, results: Results, search: Search) -> Iterator[str]
         steps = diagnostics.counted_in_thousands(found.transitions, "step")
         rest = f"there are more, as {found.missing}" if found.missing else "all there are"
         yield f"  {states}, {steps}: {rest}"
-        for finding, flaw in found.open:
-            yield printable(f"  open: {diagnostics.in_words(finding)}? {not_run(flaw)}")
+        for each in found.open:
+            yield printable(f"  open: {diagnostics.open_finding(*each)}")
     if search.left:
         sizes_left = diagnostics.counted_in_thousands(search.left, "larger size")
         why = INTERRUPTED if search.interrupted else "the search came to its limit"
