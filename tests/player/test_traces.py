@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import json
+import zlib
+from base64 import b64decode
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from swarmdsl.cli import run
 
 MODEL = """package lab
-statemachine Blink {
-  initial state Off { on Go -> On }
+event Go : std_msgs/Empty
+endless statemachine Blink {
+  var count : int32 = 0
+  initial Off
+  state Off { on Go [count < 9] / count = count + 1 -> On }
   state On { on Go -> Off }
 }
-event Go {}
 """
 Played = Callable[..., tuple[int, str, Path]]
 
@@ -58,3 +63,100 @@ def test_clocks_that_differ_are_told(played: Played) -> None:
     assert err.count("SW1023") == 2
     assert "`Go` of `b[0]` arrives 3 s before it was sent" in err
     assert "its time goes back by 1.5 s" in err
+
+
+def recording_of(page: Path) -> dict[str, Any]:
+    """Return the recording in a page, as its script reads it."""
+    text = page.read_text(encoding="utf-8")
+    packed = text.partition('id="recording">')[2].partition("</script>")[0]
+    recording: dict[str, Any] = json.loads(zlib.decompress(b64decode(packed)))
+    return recording
+
+
+GOOD = [line(0, None, None, "Off"), line(1000, None, "Go", "On", exited=["Off"])]
+
+
+def test_a_trace_of_the_model_has_its_variables_and_places(played: Played) -> None:
+    code, err, page = played("\n".join(GOOD), model=MODEL)
+    assert (code, err) == (0, "run.html\n")
+    recording = recording_of(page)
+    assert recording["notes"] == []
+    assert [each["name"] for each in recording["members"]] == ["Blink"]
+    assert recording["count"] == 2
+    assert recording["lines"]["values"] == [{"count": 0}, {"count": 1}]
+    (source,) = recording["sources"]
+    assert recording["machines"]["Blink"]["places"]["On"] == [source, 7]
+
+
+@pytest.mark.parametrize(
+    ("lines", "said", "shown"),
+    [
+        ([*GOOD, line(2000, None, "Go", "Broken", exited=["On"])], "SW1011", 3),
+        ([*GOOD, '{"t": 2000, "member": nul'], "SW1010", 2),
+        ([*GOOD, line(3000, None, "Go", "Off", at=["x", 1], moved=3, lost=[1])], "SW1011", 3),
+    ],
+    ids=["another version", "cut", "odd values"],
+)
+def test_what_is_wrong_is_told_in_the_page_and_the_rest_is_shown(
+    played: Played, lines: list[str], said: str, shown: int
+) -> None:
+    code, err, page = played("\n".join(lines), model=MODEL)
+    assert code == 1
+    assert f"error[{said}]" in err
+    assert "0.jsonl:3:1" in err
+    recording = recording_of(page)
+    assert [each["code"] for each in recording["notes"]] == [said]
+    assert recording["notes"][0]["place"] == "0.jsonl:3:1"
+    assert recording["count"] == shown
+
+
+def test_a_trace_of_other_robots_is_told_and_shown(played: Played) -> None:
+    swarm = f"{MODEL}member Lamp {{ behavior Blink }}\nswarm Lamps {{ lamp : Lamp[1..4] }}\n"
+    lines = [line(0, "uav[0]", None, "Up"), line(0, "lamp[3]", None, "Off")]
+    code, err, page = played("\n".join(lines), model=swarm)
+    assert code == 1
+    assert "error[SW0202]: no member called `uav[0]`" in err
+    recording = recording_of(page)
+    assert [each["name"] for each in recording["members"]] == ["uav[0]", "lamp[3]"]
+    assert recording["machines"]["uav"]["states"] == ["Up"]
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"", "SW1019"),
+        (b"\x00\xff\x7fELF" * 50, "SW0006"),
+        (b"\xff\xfe{\x00", "SW0006"),
+        (None, "SW0001"),
+    ],
+    ids=["empty", "binary", "UTF-16", "missing"],
+)
+def test_a_file_without_lines_gives_no_page(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], content: bytes | None, said: str
+) -> None:
+    trace, page = tmp_path / "run.jsonl", tmp_path / "run.html"
+    if content is not None:
+        trace.write_bytes(content)
+    assert run(["play", "--trace", str(trace), "-o", str(page)]) == 1
+    err = capsys.readouterr().err
+    assert f"[{said}]" in err
+    assert "Traceback" not in err
+    assert not page.exists()
+
+
+def test_many_invalid_lines_are_counted(played: Played) -> None:
+    code, err, page = played("\n".join([*GOOD, *["?"] * 500]), model=MODEL)
+    assert code == 1
+    assert err.count("SW1010") == 21
+    assert "480 more lines are no lines of a trace" in err
+    assert recording_of(page)["count"] == 2
+
+
+def test_an_output_in_the_place_of_an_input_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    trace = tmp_path / "run.jsonl"
+    trace.write_text("\n".join(GOOD), encoding="utf-8")
+    assert run(["play", "--trace", str(trace), "-o", str(trace)]) == 2
+    assert "is an input of this command" in capsys.readouterr().err
+    assert trace.read_text(encoding="utf-8") == "\n".join(GOOD)

@@ -9,6 +9,7 @@ from typing import Any, Protocol
 
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import MILLISECOND
+from swarmdsl.execution.simulate.expressions import SELF
 from swarmdsl.execution.simulate.packets import Transmission
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, as_json
@@ -31,6 +32,32 @@ class Recorder(Protocol):
         """Note when the run was over, in nanoseconds."""
 
 
+class Changes:
+    """Variables of machines, as far as they change."""
+
+    def __init__(self) -> None:
+        self._told: dict[Actor, dict[str, str]] = {}
+
+    def of(self, actor: Actor, data: Any) -> dict[str, Any]:
+        """Return the variables and params that have changed since the last call.
+
+        What the world keeps beside them in the data of a machine is the robot itself, or has no
+        identifier.
+        """
+        if not isinstance(data, Mapping):
+            return {}
+        told = self._told.setdefault(actor, {})
+        changed = {}
+        for name, value in data.items():
+            if name == SELF or not name.isidentifier():
+                continue
+            text = json.dumps(named_numbers(value), ensure_ascii=False, default=str)
+            if told.get(name) != text:
+                told[name] = text
+                changed[name] = json.loads(text)
+        return changed
+
+
 class RunLines:
     """Make the lines of a run.
 
@@ -41,17 +68,11 @@ class RunLines:
     def __init__(self, world: World, write: Callable[[str], object]) -> None:
         self._world = world
         self._write = write
-        self._told: dict[Actor, dict[str, str]] = {}
+        self._changes = Changes()
 
     def step(self, line: Line) -> None:
         """Write a step, with the variables that it has changed."""
-        told = self._told.setdefault(line.actor, {})
-        changed = {}
-        for name, value in self._variables(line.actor):
-            text = _written(value)
-            if told.get(name) != text:
-                told[name] = text
-                changed[name] = json.loads(text)
+        changed = self._changes.of(line.actor, self._world.data(line.actor))
         self._write(f"{as_json(line, {'variables': changed} if changed else None)}\n")
 
     def transmitted(self, crossing: Transmission) -> None:
@@ -70,17 +91,6 @@ class RunLines:
         """Write a verdict so far on a property."""
         self._tell(time, {"property": name, "verdict": verdict})
 
-    def _variables(self, actor: Actor) -> list[tuple[str, Any]]:
-        """Return variables and params of a machine, without what the world keeps beside them."""
-        data = self._world.data(actor)
-        if not isinstance(data, Mapping):
-            return []
-        return [(name, value) for name, value in data.items() if name.isidentifier()]
-
     def _tell(self, time: int, about: Mapping[str, object]) -> None:
         line = {"t": time // MILLISECOND, **about}
         self._write(f"{json.dumps(line, ensure_ascii=False)}\n")
-
-
-def _written(value: Any) -> str:
-    return json.dumps(named_numbers(value), ensure_ascii=False, default=str)

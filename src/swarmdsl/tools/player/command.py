@@ -10,8 +10,7 @@ from swarmdsl.base.read_files import MOST_RECORDED
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.simulate.command import simulate
-from swarmdsl.execution.simulate.prepare import Request, prepare
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
 from swarmdsl.project.read_source import read_source
 from swarmdsl.tools.player.page import page
 from swarmdsl.tools.player.record import RunRecorder, record_traces
@@ -52,8 +51,8 @@ def play_traces(request: Request, traces: Sequence[Path], out: Path, tell: Tell)
         source = read_source(path, None, report, "a trace", MOST_RECORDED)
         if source is not None:
             sources.append(source)
-    subject = _subject(replace(request, replay=tuple(traces)), report)
-    recording = record_traces(sources, subject, report) if sources else None
+    prepared = _prepared(replace(request, replay=tuple(traces)), report)
+    recording = record_traces(sources, prepared, report) if sources else None
     if recording is None and sources:
         for source in sources:
             report.report("empty-trace", path=source.name)
@@ -63,13 +62,13 @@ def play_traces(request: Request, traces: Sequence[Path], out: Path, tell: Tell)
     return _written(recording, out, tell, not report.has_errors)
 
 
-def _subject(request: Request, report: Diagnostics) -> Subject | None:
+def _prepared(request: Request, report: Diagnostics) -> Prepared | None:
     """Return the subject of traces; None without a model, which shows the traces alone."""
     found = Diagnostics()
     prepared = prepare(request, found)
     if request.paths or not found.count_of("nothing-to-compile"):
         report.include(found)
-    return prepared.subject if prepared is not None else None
+    return prepared
 
 
 def _written(recording: Recording, out: Path, tell: Tell, succeeded: bool | None) -> Played:

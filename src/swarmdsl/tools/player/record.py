@@ -9,8 +9,10 @@ from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import MILLISECOND
+from swarmdsl.execution.simulate.prepare import Prepared
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace_line import is_beside_steps
+from swarmdsl.tools.player.follow_model import follow
 from swarmdsl.tools.player.model import Model
 from swarmdsl.tools.player.recording import Machine, Member, Note, Recording, Step
 from swarmdsl.tools.player.trace_lines import read_steps
@@ -68,26 +70,35 @@ class RunRecorder:
 
 def record_traces(
     sources: Sequence[Source],
-    subject: Subject | None,
+    prepared: Prepared | None,
     report: Diagnostics,
-    notes: Iterable[Diagnostic] = (),
 ) -> Recording | None:
     """Return the recording of traces, of a model if it is known; None if they have no line.
 
-    Members that the model does not have are reported, and shown all the same.
+    It tells what is in `report`. Members that the model does not have, or that leave it, are
+    reported and shown all the same.
     """
     steps = read_steps(sources, report)
     if not any("configuration" in step for step, _ in steps):
         return None
-    model = Model(subject) if subject is not None else None
+    model = Model(prepared.subject) if prepared is not None else None
     alone = model.alone if model is not None else None
-    lines = [_named(step, alone) for step, _ in steps]
+    names = [step["member"] for step, _ in steps if step.get("member") is not None]
+    variables = None
+    if prepared is not None:
+        subject, scenario = prepared.subject, prepared.scenario
+        variables = follow(sources, dict.fromkeys(names), subject, scenario, report)
+    lines = []
     first: dict[str, Span] = {}
-    for line, (_, place) in zip(lines, steps, strict=True):
+    for step, place in steps:
+        line = _named(step, alone)
+        changed = variables.get((place.source.name, place.start)) if variables else None
+        lines.append(line if changed is None else {**line, "variables": changed})
         if not is_beside_steps(line):
             first.setdefault(line["member"], place)
-    members = [_member(name, place, model, report) for name, place in first.items()]
-    return _recording(lines, members, model, [*notes, *report])
+    own = report if variables is None else Diagnostics()  # else they are told already
+    members = [_member(name, place, model, own) for name, place in first.items()]
+    return _recording(lines, members, model, report)
 
 
 def _named(line: Step, alone: str | None) -> Step:

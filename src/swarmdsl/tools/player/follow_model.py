@@ -1,0 +1,70 @@
+"""Follow traces on their model: what it says that traces do not, and where they differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.replay import replay
+from swarmdsl.execution.simulate.run_lines import Changes
+from swarmdsl.execution.simulate.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace import Line
+
+_INVALID = "bad-trace-line"
+"""Told when the lines were read."""
+
+Variables = Mapping[tuple[str, int], Mapping[str, Any]]
+"""Variables that lines have changed, by the name of the trace and the place in it."""
+
+
+def follow(
+    sources: Iterable[Source],
+    robots: Iterable[str],
+    subject: Subject,
+    scenario: Scenario,
+    report: Diagnostics,
+) -> Variables | None:
+    """Return the variables that lines have changed; report where members leave the model.
+
+    None if nothing is compared, because a machine has params without a value.
+    """
+    robots = list(robots)
+    if not _cast(robots, subject, scenario):
+        return None
+    found: dict[tuple[str, int], Mapping[str, Any]] = {}
+    for source in sources:
+        changes = Changes()
+
+        def see(
+            line: Line,
+            data: Mapping[str, Any],
+            at: int,
+            name: str = source.name,
+            changes: Changes = changes,
+        ) -> None:
+            changed = changes.of(line.actor, data)
+            if changed:
+                found[name, at] = changed
+
+        # A replay changes the data of its machines.
+        told = Diagnostics()
+        replay(source, subject, _cast(robots, subject, scenario), told, see)
+        report.include(each for each in told if each.name != _INVALID)
+    return found
+
+
+def _cast(robots: Iterable[str], subject: Subject, scenario: Scenario) -> list[Actor]:
+    """Return the machines of as many robots as the traces have."""
+    counts = dict(scenario.counts)
+    for name in robots:
+        robot = Robot.called(name)
+        if robot.role:
+            counts[robot.role] = max(counts.get(robot.role, 0), robot.count)
+    report = Diagnostics()
+    made = subject.create_robots(counts, scenario.alone)
+    cast = actors(subject, made, scenario, report)
+    return [] if report.has_errors else cast
