@@ -264,7 +264,7 @@ def test_ctrl_c_ends_with_what_there_is(
     monkeypatch.setattr(Search, "_measure", interrupted)
     assert run([*write(searched), "--jobs", "1", "-o", "cut"]) == 130
     said = capsys.readouterr().err
-    assert "interrupted, after 27 candidates; the best so far: count of robot = 3" in said
+    assert "interrupted, after 27 candidates; the best so far: 2.75 with count of robot = 3" in said
     monkeypatch.undo()
     os.chdir(searched)
     assert run([*write(searched), "--jobs", "1", "-o", "cut", "--resume"]) == 0
@@ -276,7 +276,16 @@ def test_the_page_shows_the_search_and_plays_its_worst_runs(
 ) -> None:
     page = (searched / "one" / "report.html").read_text(encoding="utf-8")
     titles = re.findall("<h2>(.*?)</h2>", page)
-    assert titles == ["Convergence", "Candidates", "The winner on fresh seeds", "Runs worth a look"]
+    fresh = "The winner on fresh seeds"
+    assert titles == [
+        "Convergence",
+        "Candidates",
+        "What matters for Worth",
+        fresh,
+        "Runs worth a look",
+    ]
+    importance = data(searched / "one")["importance"]
+    assert importance["count of robot"] > importance["robot.patience"] > 0.1
     # All candidates are there, the winner and the model as it is among them.
     assert page.count('<polyline class="path') == 9 * 3
     assert page.count('class="path best"') == page.count('class="path today"') == 1

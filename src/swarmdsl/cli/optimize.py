@@ -45,6 +45,16 @@ _MOST_SEEDS = 100_000
     help="Value of several scenarios: their mean, or the worst of them.",
 )
 @click.option(
+    "--maximize",
+    metavar="NAME",
+    multiple=True,
+    help="An objective instead of the fitness: one of its inputs, `fitness` or a property; may be "
+    "repeated, for a front of several objectives.",
+)
+@click.option(
+    "--minimize", metavar="NAME", multiple=True, help="As `--maximize`; less of it is better."
+)
+@click.option(
     "--subject-to",
     "properties",
     metavar="NAME",
@@ -54,10 +64,11 @@ _MOST_SEEDS = 100_000
 )
 @click.option(
     "--method",
-    type=Choice(("auto", "cma", "tpe", "grid", "random")),
+    type=Choice(("auto", "cma", "nsga", "tpe", "grid", "random")),
     default="auto",
     show_default=True,
-    help="How candidates are found; `auto` tries all of them where they are few, else `cma`.",
+    help="How candidates are found; `auto` tries all of them where they are few, else `cma`, or "
+    "`nsga` for several objectives.",
 )
 @click.option(
     "--evaluations",
@@ -107,6 +118,12 @@ _MOST_SEEDS = 100_000
 )
 @click.option("--resume", is_flag=True, help="Use the runs that are in the folder.")
 @click.option("--apply", is_flag=True, help="Write the winner into the model.")
+@click.option(
+    "--point",
+    type=options.Integer(1, 1000),
+    metavar="N",
+    help="Point of the front that `--apply` writes.",
+)
 @options.diagnostics_format
 @options.debug
 def optimize(
@@ -114,6 +131,8 @@ def optimize(
     swarm: str | None,
     scenarios: tuple[Path, ...],
     together: Together,
+    maximize: tuple[str, ...],
+    minimize: tuple[str, ...],
     properties: tuple[str, ...],
     method: Name,
     evaluations: int | None,
@@ -125,11 +144,12 @@ def optimize(
     jobs: int | None,
     cluster: str | None,
     limit: float | None,
+    feed: Path | None,
+    is_json: bool,
     output: Path | None,
     resume: bool,
     apply: bool,
-    feed: Path | None,
-    is_json: bool,
+    point: int | None,
     format_: str,
 ) -> int:
     """Search for the params and numbers of robots with the best fitness.
@@ -138,8 +158,8 @@ def optimize(
     seeds; those that are worse leave the race. The winner runs with seeds that the search has not
     seen, beside the model as it is. The result does not depend on the number of processes.
     """
-    from swarmdsl.execution.experiments.search.command import Request
     from swarmdsl.execution.experiments.search.command import optimize as run_search
+    from swarmdsl.execution.experiments.search.problem import Request
 
     if jobs is not None and cluster is not None:
         raise click.UsageError("`--jobs` and `--cluster` conflict")
@@ -147,6 +167,13 @@ def optimize(
         raise click.UsageError("`--resume` needs `-o`, the folder with the runs")
     if len(set(scenarios)) != len(scenarios):
         raise click.UsageError("a `--scenario` is given twice")
+    objectives = (*maximize, *minimize)
+    if len(set(objectives)) != len(objectives):
+        raise click.UsageError("an objective is given twice")
+    if len(objectives) > 1 and method == "cma":
+        raise click.UsageError("`--method cma` has one objective: `nsga` and `tpe` take several")
+    if point is not None and (not apply or len(objectives) < 2):
+        raise click.UsageError("`--point` needs `--apply` and several objectives")
     is_document = format_ in DOCUMENTS
     if is_document and is_json:
         raise click.UsageError(f"`--format {format_}` and `--json` both print")
@@ -172,6 +199,9 @@ def optimize(
         feed,
         is_json,
         limit,
+        maximize,
+        minimize,
+        point,
     )
     if not is_document:
         done = run_search(request, lambda report: render(report, format_, sys.stderr))

@@ -424,6 +424,7 @@ CODES: dict[str, Code] = {
         "warning",
         "`{name}` is searched in {taken}, not in {range}: the role is {allowed}",
     ),
+    "no-point": Code("SW1812", "error", "{fault}: the front has {count}"),
     "no-factors": Code("SW1821", "error", "the experiment varies nothing"),
     "no-levels": Code("SW1822", "error", "factor `{name}` has no levels to combine"),
     "too-large-study": Code("SW1823", "error", "{count} are too many: at most {most}"),

@@ -46,6 +46,11 @@ class Candidate:
         return hash(self.text)
 
 
+def settings_text(candidate: Candidate) -> str:
+    """Write settings as a reader sees them."""
+    return ", ".join(f"{name} = {value}" for name, value in candidate.settings) or "as it is"
+
+
 @dataclass(frozen=True)
 class Task:
     """Runs of a candidate of a model in a scenario, with some seeds."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from swarmdsl.execution.estimation.intervals import Interval
 from swarmdsl.execution.experiments.report.canvas import Canvas, short, ticks
@@ -166,6 +167,61 @@ def distributions(groups: Sequence[tuple[str, Sequence[float]]], name: str) -> s
         mean = across.at(sum(values) / len(values))
         canvas.line(mean, top + 18, mean, base, "mean")
         canvas.line(_LEFT, base, width - _RIGHT, base, "axis")
+    return canvas.finish()
+
+
+@dataclass(frozen=True)
+class Spot:
+    """Candidate by two objectives, with intervals as far as they are known.
+
+    `kind` is `front`, `near`, `today`, or empty for one of the search.
+    """
+
+    title: str
+    x: float
+    y: float
+    x_interval: Interval | None = None
+    y_interval: Interval | None = None
+    kind: str = ""
+    label: str = ""
+
+
+_STYLES = {"front": "dot", "near": "first", "today": "second", "": "faint"}
+
+
+def front_chart(
+    names: tuple[str, str], goals: tuple[str, str], spots: Sequence[Spot], *, is_whole: bool
+) -> str:
+    """Draw candidates by two objectives; `is_whole` draws the line that the front has reached."""
+    width, height = 560, 380
+    canvas = Canvas(width, height, f"Front of {names[0]} and {names[1]}")
+    xs = [x for each in spots for x in (each.x, *(each.x_interval or ()))]
+    ys = [y for each in spots for y in (each.y, *(each.y_interval or ()))]
+    across = _around(xs, _LEFT, width - _RIGHT)
+    up = _around(ys, height - _BOTTOM - 16, _TOP)
+    _grid(canvas, up, width)
+    for number in ticks(across.low, across.high):
+        canvas.text(across.at(number), height - 32, short(number), "tick middle")
+    words = {"maximize": "more is better", "minimize": "less is better"}
+    canvas.text(_LEFT, 14, f"{_cut(names[1], 40)} ({words[goals[1]]})")
+    canvas.text(width - _RIGHT, height - 10, f"{_cut(names[0], 40)} ({words[goals[0]]})", "end")
+    front = sorted((each for each in spots if each.kind == "front"), key=lambda each: each.x)
+    if is_whole:
+        choose_x, choose_y = (min if goal == "maximize" else max for goal in goals)
+        line = [(each.x, each.y) for each in front[:1]]
+        for before, each in pairwise(front):
+            line += [(choose_x(before.x, each.x), choose_y(before.y, each.y)), (each.x, each.y)]
+        canvas.path([(across.at(x), up.at(y)) for x, y in line], "line")
+    for each in sorted(spots, key=lambda spot: list(_STYLES).index(spot.kind), reverse=True):
+        x, y = across.at(each.x), up.at(each.y)
+        if each.x_interval is not None:
+            low, high = map(across.at, each.x_interval)
+            canvas.line(low, y, high, y, "whisker")
+        if each.y_interval is not None:
+            low, high = map(up.at, each.y_interval)
+            canvas.line(x, low, x, high, "whisker")
+        canvas.dot(x, y, _STYLES[each.kind], each.title, 4 if each.kind else 3)
+        canvas.text(x + 6, y - 6, each.label)
     return canvas.finish()
 
 

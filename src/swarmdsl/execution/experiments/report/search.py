@@ -12,6 +12,8 @@ from swarmdsl.execution.experiments.report.coordinates import Scored, caption_of
 from swarmdsl.execution.experiments.report.page import Figure, Section, Table, text_table
 
 _FEWEST = 2
+FRESH = "The winner on fresh seeds"
+"""Title of the section about the winner."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ def search_sections(search: Search) -> Iterator[Section]:
     groups = [(name, values) for name, values in groups if values]
     if groups:
         yield Section(
-            "The winner on fresh seeds",
+            FRESH,
             [_summary(groups, search.level), _distribution(groups, search.name)],
         )
     if search.worst:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from cmaes import CMAwM
 
+from swarmdsl.execution.experiments.search.domination import Losses
 from swarmdsl.execution.experiments.search.space import Dimension, Point, SearchSpace
 
 _WIDTH = 0.3
@@ -44,10 +45,11 @@ class Cma:
         self._asked = [inner for _, inner in pairs]
         return [self._point(outer) for outer, _ in pairs]
 
-    def tell(self, points: Sequence[Point], losses: Sequence[float]) -> None:
+    def tell(self, points: Sequence[Point], losses: Sequence[Losses]) -> None:
         """Move the distribution to the better half of a whole generation."""
         if len(points) == self._inner.population_size:
-            self._inner.tell(list(zip(self._asked, losses, strict=True)))
+            first = [each for each, *_ in losses]
+            self._inner.tell(list(zip(self._asked, first, strict=True)))
 
     def _point(self, found: Any) -> Point:
         places = [0.0] * self._width

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -58,6 +58,16 @@ def files_of(
     yield "best.toml", scenario_text(candidate)
     yield "candidate.json", _json(candidate_data(candidate, system))
     yield "parameters.json", _json(parameters_data(optimization, system))
+
+
+def point_files(
+    candidates: Sequence[Candidate], optimization: Optimization, system: System
+) -> Iterator[tuple[str, str]]:
+    """Yield the names and the texts of the files of a front, two for each point."""
+    for number, candidate in enumerate(candidates, 1):
+        yield f"front/{number}.toml", scenario_text(candidate)
+        yield f"front/{number}.json", _json(candidate_data(candidate, system))
+    yield f"{_PARAMETERS}.json", _json(parameters_data(optimization, system))
 
 
 def _json(data: Any) -> str:

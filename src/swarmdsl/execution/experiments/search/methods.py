@@ -13,10 +13,12 @@ from random import Random
 from typing import Literal, Protocol
 
 from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.search.domination import Losses
+from swarmdsl.execution.experiments.search.nsga import Nsga
 from swarmdsl.execution.experiments.search.space import Point, SearchSpace
 
-Name = Literal["auto", "cma", "tpe", "grid", "random"]
-NAMES: tuple[Name, ...] = ("auto", "cma", "tpe", "grid", "random")
+Name = Literal["auto", "cma", "nsga", "tpe", "grid", "random"]
+NAMES: tuple[Name, ...] = ("auto", "cma", "nsga", "tpe", "grid", "random")
 GENERATION = 20
 """Points of a generation, for methods that do not care."""
 
@@ -27,7 +29,7 @@ class Method(Protocol):
     def ask(self, most: int) -> list[Point]:
         """Return the points of a generation, at most so many; none if there are no more."""
 
-    def tell(self, points: Sequence[Point], losses: Sequence[float]) -> None:
+    def tell(self, points: Sequence[Point], losses: Sequence[Losses]) -> None:
         """Learn how bad the points of the generation are: the least loss is the best."""
 
 
@@ -41,7 +43,7 @@ class Listed:
         """Return the next points."""
         return list(islice(self._points, min(most, GENERATION)))
 
-    def tell(self, points: Sequence[Point], losses: Sequence[float]) -> None:
+    def tell(self, points: Sequence[Point], losses: Sequence[Losses]) -> None:
         """Learn nothing."""
 
 
@@ -52,17 +54,21 @@ def random_points(space: SearchSpace, seed: int) -> Iterator[Point]:
         yield tuple(chance.random() for _ in space.dimensions)
 
 
-def method_of(name: Name, space: SearchSpace, evaluations: int, seed: int) -> Method:
+def method_of(
+    name: Name, space: SearchSpace, evaluations: int, seed: int, objectives: int = 1
+) -> Method:
     """Return a method; raise StoppedError if a package is missing."""
     if name == "grid":
         return Listed(space.grid(evaluations))
     if name == "random":
         return Listed(random_points(space, seed))
+    if name == "nsga":
+        return Nsga(space, seed)
     if name == "tpe":
         _require("optuna", "tpe", "--method tpe")
         from swarmdsl.execution.experiments.search.tpe import Tpe
 
-        return Tpe(space, seed)
+        return Tpe(space, seed, objectives)
     _require("cmaes", "optimize", "--method cma")
     from swarmdsl.execution.experiments.search.cma import Cma
 

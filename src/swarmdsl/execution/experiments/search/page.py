@@ -10,16 +10,18 @@ from typing import Any
 import tomli
 
 from swarmdsl.base.diagnostics.render import counted
+from swarmdsl.base.records import dataclass
 from swarmdsl.execution.experiments.designs.factors import Value
 from swarmdsl.execution.experiments.report.coordinates import Scored
+from swarmdsl.execution.experiments.report.importance import importance_section
 from swarmdsl.execution.experiments.report.page import Page, html
-from swarmdsl.execution.experiments.report.search import Search, Worst, search_sections
+from swarmdsl.execution.experiments.report.search import FRESH, Search, Worst, search_sections
 from swarmdsl.execution.experiments.search.evaluation import Evaluation
+from swarmdsl.execution.experiments.search.importance import importances
 from swarmdsl.execution.experiments.search.optimizing import Found, Plan
-from swarmdsl.execution.experiments.search.report import settings_text
 from swarmdsl.execution.experiments.settings import merged
 from swarmdsl.execution.experiments.study.tables import number, verdict
-from swarmdsl.execution.experiments.task import Candidate
+from swarmdsl.execution.experiments.task import Candidate, settings_text
 from swarmdsl.execution.experiments.toml_text import toml_text
 from swarmdsl.execution.simulate.durations import SECOND, duration
 
@@ -55,7 +57,13 @@ def search_page(
         worst,
     )
     answers = list(_answers(found))
-    return html(Page(f"Search: {subject}", facts, answers, list(search_sections(search))))
+    sections = list(search_sections(search))
+    first = [(candidate, means[0]) for candidate, means in found.observed]
+    matters = importance_section(importances(first, plan.space), fitness)
+    if matters is not None:
+        at = next((n for n, each in enumerate(sections) if each.title == FRESH), len(sections))
+        sections.insert(at, matters)
+    return html(Page(f"Search: {subject}", facts, answers, sections))
 
 
 def _answers(found: Found) -> Iterator[str]:
@@ -91,30 +99,46 @@ def _plain(value: Value) -> Value:
     return value if time is None else time / SECOND
 
 
+@dataclass(frozen=True)
+class Chosen:
+    """Runs to show: so many of the worst ones of a candidate, by an objective."""
+
+    why: str
+    evaluation: Evaluation
+    objective: int = 0
+    most: int = 1
+
+
+def worst_of_winner(found: Found) -> list[Chosen]:
+    """Return the runs of a winner that are worth a look."""
+    return [Chosen("worst run of the winner", found.winner, 0, _MOST_WORST)]
+
+
 def worst_runs(
-    found: Found, plan: Plan, texts: Mapping[str, str], words: Sequence[str], folder: Path
+    chosen: Sequence[Chosen],
+    plan: Plan,
+    texts: Mapping[str, str],
+    words: Sequence[str],
+    folder: Path,
 ) -> tuple[list[Worst], dict[Path, str]]:
-    """Return the worst runs of the winner, and the scenarios in a folder that play them.
+    """Return the worst runs, and the scenarios in a folder that play them.
 
     `texts` are the scenarios by name, `words` those of the command before its options.
     """
-    scenarios = {
-        folder / f"{number}.toml": toml_text(
-            merged(found.winner.candidate, tomli.loads(texts.get(name, "")))
-        )
-        for number, name in enumerate(plan.scenarios, 1)
-    }
-    by_value = sorted(
-        found.winner.values.items(), key=lambda pair: (-plan.aim.loss(pair[1]), pair[0])
-    )
-    runs = [
-        Worst(
-            "worst run of the winner",
-            seed,
-            value,
-            shlex.join([*words, "--scenario", str(path), "--seed", str(seed)]),
-        )
-        for seed, value in by_value[:_MOST_WORST]
-        for path in scenarios
-    ]
+    paths: dict[tuple[str, str], Path] = {}
+    scenarios: dict[Path, str] = {}
+    runs = []
+    for each in chosen:
+        candidate, objective = each.evaluation.candidate, plan.aim.objectives[each.objective]
+        values = each.evaluation.of_objective(each.objective)
+        by_loss = [(-objective.loss(value), seed) for seed, value in values.items()]
+        for name in plan.scenarios:
+            path = folder / f"{len(paths) + 1}.toml"
+            path = paths.setdefault((candidate.text, name), path)
+            scenarios[path] = toml_text(merged(candidate, tomli.loads(texts.get(name, ""))))
+        for _, seed in sorted(by_loss)[: each.most]:
+            for name in plan.scenarios:
+                path = paths[candidate.text, name]
+                command = shlex.join([*words, "--scenario", str(path), "--seed", str(seed)])
+                runs.append(Worst(each.why, seed, values[seed], command))
     return runs, scenarios

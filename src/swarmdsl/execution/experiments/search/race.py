@@ -1,5 +1,7 @@
 """Race of candidates on the same seeds: those that are worse than the best leave.
 
+With several objectives, those leave that another candidate dominates for certain.
+
 After each round, a paired t-test compares each candidate with the best so far. Levels are those of
 S. Holm, 1979, for the candidates of a round, shared equally by the rounds.
 """
@@ -13,6 +15,7 @@ from itertools import pairwise
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.experiments.comparing import Comparison, compare_paired
 from swarmdsl.execution.experiments.search.evaluation import Aim, Evaluation, ranked, values_of
+from swarmdsl.execution.experiments.search.front import undominated
 
 FIRST = 5
 """Seeds of the first round; later ones double what there is."""
@@ -45,13 +48,14 @@ def race(
 ) -> Iterator[Round]:
     """Run rounds until one candidate is left or the seeds are used up.
 
-    The probability to lose the best one, if there is one, is `error` at most.
+    The probability to lose the best one, if there is one, or one of the front is `error` at most.
     """
     running = list(found)
     for number, seeds in enumerate(rounds):
         add(running, seeds)
         possible = ranked(running, aim)
-        survivors = _survivors(possible, aim, error / len(rounds))
+        choose = undominated if aim.others else _survivors
+        survivors = choose(possible, aim, error / len(rounds))
         left = tuple(each for each in running if each not in survivors)
         yield Round(number, tuple(running), left, tuple(survivors))
         running = survivors

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.execution.estimation.intervals import Interval
+from swarmdsl.execution.experiments.report.importance import share_text
 from swarmdsl.execution.experiments.search.evaluation import Evaluation
-from swarmdsl.execution.experiments.search.optimizing import Found, Plan
-from swarmdsl.execution.experiments.task import Candidate
+from swarmdsl.execution.experiments.search.importance import importances
+from swarmdsl.execution.experiments.search.optimizing import Found, Observed, Plan
+from swarmdsl.execution.experiments.task import settings_text
 from swarmdsl.execution.simulate.summary import format_table
 
 _SHOWN = 5
@@ -21,22 +23,34 @@ _ANSWERS = {
 }
 
 
-def settings_text(candidate: Candidate) -> str:
-    """Write settings as a reader sees them."""
-    return ", ".join(f"{name} = {value}" for name, value in candidate.settings) or "as it is"
-
-
-def as_text(found: Found, plan: Plan, subject: str, fitness: str) -> Iterator[str]:
-    """Yield the lines of the result."""
+def conditions_text(tried: int, plan: Plan) -> str:
+    """Return the size of a search, its method and its scenarios."""
     scenarios = ", ".join(each for each in plan.scenarios if each)
     where = f", {plan.aim.together} of scenarios {scenarios}" if "," in scenarios else ""
     if not where and scenarios:
         where = f", scenario {scenarios}"
-    tried = counted(found.tried, "candidate")
-    yield f"{subject}: {tried}, method {plan.chosen}{where}"
+    return f"{counted(tried, 'candidate')}, method {plan.chosen}{where}"
+
+
+def matters_text(observed: Sequence[Observed], plan: Plan, objective: int) -> str:
+    """Return the share of each setting in the differences between candidates."""
+    pairs = [(candidate, means[objective]) for candidate, means in observed]
+    found = importances(pairs, plan.space)
+    return ", ".join(f"{each.setting} {share_text(each)}" for each in found) or "nothing"
+
+
+def importance_data(observed: Sequence[Observed], plan: Plan, objective: int) -> dict[str, Any]:
+    """Return the share of each setting in the differences between candidates, as JSON types."""
+    pairs = [(candidate, means[objective]) for candidate, means in observed]
+    return {each.setting: each.share for each in importances(pairs, plan.space)}
+
+
+def as_text(found: Found, plan: Plan, subject: str, fitness: str) -> Iterator[str]:
+    """Yield the lines of the result."""
+    yield f"{subject}: {conditions_text(found.tried, plan)}"
     yield ""
     rows = [
-        (settings_text(each.candidate), str(len(each.values)), _number(each.mean), each.reason)
+        (settings_text(each.candidate), str(len(each.values)), number_text(each.mean), each.reason)
         for each in found.finals[:_SHOWN]
     ]
     if len(found.finals) > _SHOWN:
@@ -45,8 +59,10 @@ def as_text(found: Found, plan: Plan, subject: str, fitness: str) -> Iterator[st
     named = (("winner", found.winner), ("today", found.today))
     measured = [_measured(name, each, found, plan) for name, each in named]
     if found.comparison is not None:
-        between = _interval(found.comparison.interval)
-        measured.append(("difference", _number(found.comparison.difference), between, ""))
+        between = interval_text(found.comparison.interval)
+        measured.append(("difference", number_text(found.comparison.difference), between, ""))
+    yield f"shares of the differences: {matters_text(found.observed, plan, 0)}"
+    yield ""
     head = (f"{counted(plan.fresh, 'fresh seed')}", fitness, f"{plan.level:.0%} interval", "")
     yield from format_table(head, measured)
     yield f"winner: {settings_text(found.winner.candidate)}"
@@ -58,14 +74,21 @@ def as_text(found: Found, plan: Plan, subject: str, fitness: str) -> Iterator[st
 
 def _measured(name: str, each: Evaluation, found: Found, plan: Plan) -> tuple[str, str, str, str]:
     sample = found.sample(each, plan.level)
-    return name, _number(each.mean), _interval(sample.interval if sample else None), each.reason
+    return (
+        name,
+        number_text(each.mean),
+        interval_text(sample.interval if sample else None),
+        each.reason,
+    )
 
 
-def _interval(interval: Interval | None) -> str:
+def interval_text(interval: Interval | None) -> str:
+    """Write an interval for people."""
     return f"{interval.lower:.6g} .. {interval.upper:.6g}" if interval is not None else "-"
 
 
-def _number(value: float | None) -> str:
+def number_text(value: float | None) -> str:
+    """Write a number for people."""
     return f"{value:.6g}" if value is not None else "-"
 
 
@@ -88,20 +111,22 @@ def as_data(found: Found, plan: Plan, subject: str, fitness: str) -> dict[str, A
         if comparison is None
         else {
             "mean": comparison.difference,
-            "interval": _list(comparison.interval),
+            "interval": interval_data(comparison.interval),
             "better": comparison.answer,
         },
-        "race": [each.as_data() for each in found.finals],
+        "importance": importance_data(found.observed, plan, 0),
+        "race": [each.as_data(plan.aim) for each in found.finals],
     }
 
 
 def _evaluated(each: Evaluation, found: Found, plan: Plan) -> dict[str, Any]:
     sample = found.sample(each, plan.level)
-    data = each.as_data()
-    data["interval"] = _list(sample.interval) if sample is not None else None
+    data = each.as_data(plan.aim)
+    data["interval"] = interval_data(sample.interval) if sample is not None else None
     data["by_seed"] = {str(seed): value for seed, value in each.values.items()}
     return data
 
 
-def _list(interval: Interval | None) -> list[float] | None:
+def interval_data(interval: Interval | None) -> list[float] | None:
+    """Return an interval as JSON types."""
     return list(interval) if interval is not None else None

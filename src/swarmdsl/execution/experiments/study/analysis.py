@@ -13,10 +13,11 @@ from swarmdsl.execution.experiments.designs.factors import Point, Value
 from swarmdsl.execution.experiments.designs.indices import Index, sobol_indices
 from swarmdsl.execution.experiments.designs.morris import Screened, screen
 from swarmdsl.execution.experiments.effects import Effects, Table, effects
+from swarmdsl.execution.experiments.measured import FITNESS, value_of
 from swarmdsl.execution.experiments.slopes import Slopes, slopes
-from swarmdsl.execution.experiments.study.plan import FITNESS, Study
+from swarmdsl.execution.experiments.study.plan import Study
 from swarmdsl.execution.experiments.task import Row, Task
-from swarmdsl.execution.monitor import FALSE, TRUE
+from swarmdsl.execution.monitor import FALSE
 
 MOST_COMPARED = 3
 """Number of points that are compared with the best one."""
@@ -79,17 +80,6 @@ class Analysis:
     slopes: Slopes | None = None
     screened: Sequence[Screened] = ()
     indices: Sequence[Index] = field(default=())
-
-
-def value_of(row: Row, measure: str) -> float | None:
-    """Return the value of a run: the fitness, a measure, or 1 if a property is true, else 0."""
-    if measure == FITNESS:
-        return row.fitness
-    if measure in row.measures:
-        return row.measures[measure]
-    if measure in row.verdicts:
-        return float(row.verdicts[measure] == TRUE)
-    return None
 
 
 def result_of(point: Point, task: Task, rows: Sequence[Row], measure: str, level: float) -> Result:

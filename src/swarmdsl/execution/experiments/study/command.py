@@ -13,6 +13,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.experiments.engines import Engine, cluster, local
 from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.measured import FITNESS
 from swarmdsl.execution.experiments.progress_bar import Feed, shown
 from swarmdsl.execution.experiments.report.page import html
 from swarmdsl.execution.experiments.results.records import About
@@ -22,7 +23,7 @@ from swarmdsl.execution.experiments.study.analysis import Analysis, Result, anal
 from swarmdsl.execution.experiments.study.data import as_data
 from swarmdsl.execution.experiments.study.models import OpenModel, Setting, goal_of, open_study
 from swarmdsl.execution.experiments.study.page import page
-from swarmdsl.execution.experiments.study.plan import FITNESS, Study
+from swarmdsl.execution.experiments.study.plan import Study
 from swarmdsl.execution.experiments.study.study_file import read_study
 from swarmdsl.execution.experiments.study.tables import answers, conditions, grids
 from swarmdsl.execution.experiments.study.worst import Played, worst_of

@@ -14,14 +14,14 @@ from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.driver.config.toml import Document, parse_toml
 from swarmdsl.execution.experiments.comparing import Goal
 from swarmdsl.execution.experiments.designs.factors import Point, Value
+from swarmdsl.execution.experiments.measured import FITNESS, measures
 from swarmdsl.execution.experiments.settings import EMPTY, apply_candidate
 from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
-from swarmdsl.execution.experiments.study.plan import FITNESS, Study, Varied
+from swarmdsl.execution.experiments.study.plan import Study, Varied
 from swarmdsl.execution.experiments.task import NO_SCENARIO, SCENARIO, Candidate, Task
 from swarmdsl.execution.simulate.choose_space import choose_space
-from swarmdsl.execution.simulate.measures import fitness_of, inputs_of
+from swarmdsl.execution.simulate.measures import fitness_of
 from swarmdsl.execution.simulate.prepare import Prepared
-from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.project.read_source import read_source
 
@@ -174,16 +174,6 @@ def _placed(found: Diagnostic, place: Span | None) -> Diagnostic:
     """Give a diagnostic without a place, or about a command line, the place in the study."""
     nowhere = found.primary is None or found.primary.span.source.name == COMMAND_LINE
     return replace(found, primary=Label(place)) if nowhere and place is not None else found
-
-
-def measures(subject: Subject) -> dict[str, str]:
-    """Return what can be measured of a subject, each with its kind."""
-    fitness = fitness_of(subject)
-    found = {each.name: "property" for each in watchable(subject)}
-    if fitness is not None:
-        found |= {each.name: "measure" for each in inputs_of(fitness)}
-        found[FITNESS] = "fitness"
-    return found
 
 
 def _check_measure(setting: Setting, report: Diagnostics) -> None:

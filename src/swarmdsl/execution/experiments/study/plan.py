@@ -26,8 +26,6 @@ DESIGNS: dict[Design, str] = {
     "indices": "Sobol indices",
 }
 Kind = Literal["setting", "model", "scenario", "faults"]
-FITNESS = "fitness"
-"""Name of the fitness of the swarm as what is measured."""
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,14 @@ from swarmdsl.execution.estimation.intervals import Interval
 from swarmdsl.execution.experiments.comparing import Comparison
 from swarmdsl.execution.experiments.designs.indices import Index
 from swarmdsl.execution.experiments.effects import Effect
+from swarmdsl.execution.experiments.measured import FITNESS
 from swarmdsl.execution.experiments.study.analysis import (
     Analysis,
     Answer,
     Result,
     point_text,
 )
-from swarmdsl.execution.experiments.study.plan import DESIGNS, FITNESS
+from swarmdsl.execution.experiments.study.plan import DESIGNS
 
 Rows = list[tuple[str, ...]]
 
