@@ -10,6 +10,7 @@ import random
 import re
 from collections import deque
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from swarmdsl import ir
@@ -33,6 +34,18 @@ WALKS, STEPS = 10, 40
 
 APART = 50_000_000
 """Minimum time between the ends of delays, in ns; documents use milliseconds."""
+
+NEVER = {
+    ("everything", "Work"): ["on done   -> Stop"],
+    ("language", "Market"): ["on F [offers[1].price > 2] / clear offers -> Open"],
+    ("language", "B"): ["[n > 3 and mine < self.count and self.role != self.id] -> A"],
+}
+"""Transitions of models that no script takes, because they cannot be."""
+
+
+def titled(path: Path) -> str:
+    """Return the name of a model in a folder of its own."""
+    return (path.parent if path.suffix else path).name
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from ..exchange.scxml_machines import with_documents
 from .engines import ENGINES, with_values
 from .known import MODELS
 from .replay import difference, engines
-from .scripts import Script, Subject
+from .scripts import NEVER, Script, Subject, titled
 
 ROOT = Path(__file__).resolve().parents[2]
 MEMBERS = ROOT / "tests" / "golden" / "members" / "model.swarm"
@@ -26,12 +26,6 @@ FILES = [
     # Machines are alone here, without members to count.
     *sorted(set((ROOT / "tests" / "golden").glob("*/model.swarm")) - {MEMBERS}),
 ]
-# Transitions that no script takes, because they cannot be.
-NEVER = {
-    ("everything", "Work"): ["on done   -> Stop"],
-    ("language", "Market"): ["on F [offers[1].price > 2] / clear offers -> Open"],
-    ("language", "B"): ["[n > 3 and mine < self.count and self.role != self.id] -> A"],
-}
 
 
 @cache
@@ -50,10 +44,6 @@ def scripts(path: Path, name: str) -> tuple[list[Script], list[str]]:
     never = NEVER.get((titled(path), name), [])
     found, missing = subjects(path)[name][0].scripts(len(never))
     return found, [each.origin.text for each in missing if each.origin is not None]
-
-
-def titled(path: Path) -> str:
-    return (path.parent if path.suffix else path).name
 
 
 MACHINES = [pytest.param(path, id=titled(path)) for path in FILES]

@@ -197,21 +197,31 @@ def start_package(
 
 @pytest.fixture
 def build(start_package: Callable[..., Robot], tmp_path: Path) -> Callable[..., Robot]:
-    """Generate a system, import what was generated and build a machine."""
+    """Generate a system, import what was generated and build a machine.
+
+    The package of the last system is there when another machine of it is built.
+    """
     roots = (tmp_path / (f"out{number}" if number else "out") for number in itertools.count())
+    last: tuple[System, Path] | None = None
 
     def build(system: System, module: str, **params: Any) -> Robot:
-        files, report = emit(system)
-        assert not list(report)
-        package = files[0].path.partition("/")[0]
-        root = next(roots)
-        for file in files:
-            path = root / file.path
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(file.text, encoding="utf-8")
-        return start_package(root / package, module, system, **params)
+        nonlocal last
+        if last is None or last[0] is not system:
+            last = (system, write(system, next(roots)))
+        return start_package(last[1], module, system, **params)
 
     return build
+
+
+def write(system: System, root: Path) -> Path:
+    """Write what is generated of a system below a folder; return the folder of its package."""
+    files, report = emit(system)
+    assert not list(report)
+    for file in files:
+        path = root / file.path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(file.text, encoding="utf-8")
+    return root / files[0].path.partition("/")[0]
 
 
 @pytest.fixture
