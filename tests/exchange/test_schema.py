@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -12,9 +13,11 @@ from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[2]
-MODELS = sorted(
-    [*(ROOT / "examples").iterdir(), *(ROOT / "tests" / "golden").glob("*/model.swarm")]
-)
+FILES = [
+    *(path for path in (ROOT / "examples").iterdir() if path.is_dir()),
+    *(ROOT / "tests" / "golden").glob("*/model.swarm"),
+]
+MODELS = [pytest.param(path, id=str(path.relative_to(ROOT))) for path in sorted(FILES)]
 
 
 @pytest.fixture(scope="session")
@@ -22,9 +25,11 @@ def schema(corpus: Path) -> etree.XMLSchema:
     return etree.XMLSchema(etree.parse(corpus / "scxml-xsd" / "scxml.xsd"))
 
 
-def systems() -> list[tuple[str, System]]:
-    checked = [(str(model.relative_to(ROOT)), pipeline.check([model])) for model in MODELS]
-    return [(name, result.system) for name, result in checked if result.system is not None]
+@cache
+def system_of(model: Path) -> System:
+    system = pipeline.check([model]).system
+    assert system is not None
+    return system
 
 
 def deferrals(system: System) -> list[str]:
@@ -33,10 +38,11 @@ def deferrals(system: System) -> list[str]:
     return ["no-place" for state in states for _ in state.deferred]
 
 
-@pytest.mark.parametrize(("name", "system"), systems())
+@pytest.mark.parametrize("model", MODELS)
 def test_portable_files_are_valid(
-    name: str, system: System, schema: etree.XMLSchema, emit: Callable[..., dict[str, str]]
+    model: Path, schema: etree.XMLSchema, emit: Callable[..., dict[str, str]]
 ) -> None:
+    system = system_of(model)
     files = emit(system, expected=deferrals(system))
 
     assert files or not system.machines
@@ -86,12 +92,12 @@ def test_every_construct_is_valid(
         assert schema.validate(etree.fromstring(text.encode())), (path, schema.error_log)
 
 
-@pytest.mark.parametrize(("name", "system"), systems())
+@pytest.mark.parametrize("model", MODELS)
 def test_the_same_model_gives_the_same_files(
-    name: str, system: System, emit: Callable[..., dict[str, str]]
+    model: Path, emit: Callable[..., dict[str, str]]
 ) -> None:
-    again = dict(systems())[name]
-
+    system, again = system_of(model), pipeline.check([model]).system
+    assert again is not None
     expected = deferrals(system)
 
     assert emit(again, expected=expected) == emit(system, expected=expected)

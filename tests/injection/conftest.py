@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
+from functools import cache
 
 import pytest
 
@@ -27,12 +27,13 @@ class Made:
 Make = Callable[..., Made]
 
 
-@pytest.fixture
-def checked(tmp_path: Path) -> Callable[..., System]:
-    """Compile a model without errors."""
+@pytest.fixture(scope="session")
+def checked(tmp_path_factory: pytest.TempPathFactory) -> Callable[..., System]:
+    """Compile a model without errors, once for all targets."""
 
+    @cache
     def check(text: str, name: str = "model.swarm") -> System:
-        path = tmp_path / name
+        path = tmp_path_factory.mktemp("model") / name
         path.write_text(text, encoding="utf-8", newline="")
         result = pipeline.check([path])
         assert result.system is not None, [found.message for found in result.report]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from functools import cache
 
 import pytest
 
@@ -38,6 +39,7 @@ INLINE = {
 }
 
 
+@cache
 def common_rules() -> dict[str, set[str]]:
     return {
         rule.__name__: set(rule._tx_attrs)
