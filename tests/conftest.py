@@ -61,12 +61,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--proofs", type=int, default=0, help="how many more random swarms are played in all ways"
     )
     parser.addoption(
-        "--mutants", type=int, default=400, help="how many models with random mistakes are checked"
+        "--mutants", type=int, default=200, help="how many models with random mistakes are checked"
     )
     parser.addoption(
         "--cases",
         type=int,
-        default=300,
+        default=150,
         help="how many commands run with odd files, documents with mistakes, and any arguments",
     )
 

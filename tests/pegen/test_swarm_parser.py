@@ -31,7 +31,7 @@ from .sentences import Sentences, reachable
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("examples", "tests", "src/swarmdsl/project/library")
-SEEDS = 10
+SEEDS = 5
 _START = re.compile(r"^(?=[a-z])", re.MULTILINE)
 
 
