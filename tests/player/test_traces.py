@@ -132,8 +132,13 @@ def test_a_trace_of_other_robots_is_told_and_shown(played: Played) -> None:
     ids=["empty", "binary", "UTF-16", "missing"],
 )
 def test_a_file_without_lines_gives_no_page(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], content: bytes | None, said: str
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    content: bytes | None,
+    said: str,
 ) -> None:
+    monkeypatch.chdir(tmp_path)
     trace, page = tmp_path / "run.jsonl", tmp_path / "run.html"
     if content is not None:
         trace.write_bytes(content)

@@ -51,11 +51,13 @@ def play_traces(request: Request, traces: Sequence[Path], out: Path, tell: Tell)
         source = read_source(path, None, report, "a trace", MOST_RECORDED)
         if source is not None:
             sources.append(source)
-    prepared = _prepared(replace(request, replay=tuple(traces)), report)
-    recording = record_traces(sources, prepared, report) if sources else None
-    if recording is None and sources:
-        for source in sources:
+    for source in sources:
+        if not source.text.strip():
             report.report("empty-trace", path=source.name)
+    recording = None
+    if any(source.text.strip() for source in sources):
+        prepared = _prepared(replace(request, replay=tuple(traces)), report)
+        recording = record_traces(sources, prepared, report)
     tell(report)
     if recording is None:
         return Played(False)

@@ -11,7 +11,7 @@
                                          })();
 
 Imports and exports must have these forms, one a line: no default, no star, no list of exports.
-Comments that have lines of their own and indentation are left out.
+Comments that have lines of their own are left out, and blanks that mean nothing.
 """
 
 from __future__ import annotations
@@ -25,7 +25,13 @@ from swarmdsl.base.read_files import read_text
 _IMPORT = re.compile(r'^import \{([^}]*)\} from "\./([\w/.-]+\.js)";$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:const|let|function\*?|class) (\w+))", re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*(?://.*|/\*\*?(?s:.*?)\*/)[ \t]*\n", re.MULTILINE)
-_INDENTED = re.compile(r"^[ \t]+", re.MULTILINE)
+_SIGNS = r"{}()\[\];,:=<>&|?*%!"
+_STRING = re.compile(r""""(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'""")
+_PATTERN = r"/(?![/*])(?:[^/\\\[\n]|\\.|\[(?:[^\]\\\n]|\\.)*\])+/[a-z]*"
+_TOKEN = re.compile(
+    rf"(?P<kept>{_STRING.pattern}|(?<=[(,=:\[!&|?{{}};\n])[ ]?{_PATTERN})"
+    rf"|(?P<line>\n\s*)|(?P<blank>[ ]+(?=[{_SIGNS}\n])|(?<=[{_SIGNS}])[ ]+)|(?P<other>.)"
+)
 _ANY = re.compile(r"^(?:import|export)\b.*$", re.MULTILINE)
 
 
@@ -58,8 +64,49 @@ def _scoped(name: str, text: str) -> str:
     odd = _ANY.search(body)
     if odd is not None:
         raise BadModuleError(f"{name}: {odd[0]}")
-    body = _INDENTED.sub("", _COMMENT.sub("", body)).replace("</script", r"<\/script")
+    body = _shortened(_COMMENT.sub("", body)).replace("</script", r"<\/script")
     return f"const {_called(name)} = (() => {{\n{body}return {{ {names} }};\n}})();"
+
+
+def _shortened(text: str) -> str:
+    """Leave out blanks; those in strings, templates and regular expressions stay."""
+    parts, at = [], 0
+    while at < len(text):
+        if text[at] == "`":
+            end = _template_end(text, at + 1)
+            parts.append(text[at:end])
+        else:
+            found = _TOKEN.match(text, at)
+            assert found is not None  # it matches anything
+            end = found.end()
+            parts.append({"line": "\n", "blank": ""}.get(found.lastgroup or "", found[0]))
+        at = end
+    return "".join(parts)
+
+
+def _template_end(text: str, at: int) -> int:
+    """Return the end of a template, which may have templates in its holes."""
+    while text[at] != "`":
+        if text[at] == "\\":
+            at += 2
+        elif text.startswith("${", at):
+            at = _hole_end(text, at + 2)
+        else:
+            at += 1
+    return at + 1
+
+
+def _hole_end(text: str, at: int) -> int:
+    """Return the end of an expression in a template."""
+    depth = 1
+    while depth:
+        if text[at] == "`":
+            at = _template_end(text, at + 1)
+            continue
+        string = _STRING.match(text, at)
+        depth += {"{": 1, "}": -1}.get(text[at], 0) if string is None else 0
+        at = string.end() if string is not None else at + 1
+    return at
 
 
 def _exported(text: str) -> Iterator[str]:

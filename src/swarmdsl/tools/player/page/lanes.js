@@ -7,6 +7,8 @@ const GAP = 4;
 const HEAD = 22; // height of the head of a role, and of the axis
 const LETTER = 6.3;
 const MOST_ROWS = 500; // of one role; others are found by search
+const PROPERTIES = "\n"; // the group of properties, which is no role
+const SOME = 6; // properties that are shown without folding; a violated one always is
 const FEW = 60; // members that are shown without folding
 const BUNDLE = 5; // pixels
 const CROWD = 3; // receivers from which on a bundle is a trunk
@@ -26,6 +28,7 @@ class Lanes {
     [this.from, this.to] = [0, this.end];
     this.verdicts = this.#verdicts();
     const roles = [...new Set(recording.members.map((each) => each.role))];
+    if (recording.properties.length > SOME) this.folded.add(PROPERTIES);
     if (recording.members.length > FEW) roles.forEach((each) => this.folded.add(each));
     this.#build(element);
     new ResizeObserver(() => this.draw()).observe(this.scroller);
@@ -104,7 +107,12 @@ class Lanes {
       if (numbers.length > MOST_ROWS)
         add({ name: `and ${numbers.length - MOST_ROWS} more: search for them`, members: [] }, ROW);
     }
-    properties.forEach((each, number) => add({ name: each.name, property: number, members: [] }, ROW - 4));
+    const folded = this.folded.has(PROPERTIES);
+    if (properties.length) add({ role: PROPERTIES, name: "properties", members: [], count: properties.length, folded }, HEAD - 6);
+    properties.forEach((each, number) => {
+      const violated = this.verdicts[number].some(({ verdict }) => verdict === "false");
+      if (!folded || violated) add({ name: each.name, property: number, members: [] }, ROW - 4);
+    });
     this.bottom = top;
     this.of = new Map();
     for (const row of this.rows) for (const each of row.members) this.of.set(each, row);
@@ -141,7 +149,7 @@ class Lanes {
     for (const row of this.rows) {
       if (row.top + row.height < this.scroller.scrollTop || row.top > this.scroller.scrollTop + height) continue;
       if (row.property !== undefined) this.#property(pen, row);
-      else if (row.folded) this.#crowd(pen, row);
+      else if (row.folded && row.members.length) this.#crowd(pen, row);
       else if (row.members.length) this.#lane(pen, row);
     }
     if (this.arrows) this.#arrows(pen);
@@ -202,7 +210,7 @@ class Lanes {
       if (brush !== null) return;
       const row = this.rowAt(y);
       player.goTime(this.time(x));
-      if (row) player.select(row.members.length === 1 ? row.name : (row.role ?? null));
+      if (row) player.select(row.members.length === 1 ? row.name : row.members.length ? row.role : null);
     });
     this.body.addEventListener("pointermove", (event) => {
       const [x, y] = place(event);
@@ -229,7 +237,7 @@ class Lanes {
     const made = this.rows.map((row) => {
       row.state = el("span", { class: "state" });
       const style = row.role ? "role" : row.property !== undefined ? "property" : "member";
-      const chosen = () => this.player.select(row.role ?? (row.members.length ? row.name : null));
+      const chosen = () => this.player.select(row.name);
       const inside = row.role
         ? el("button", { type: "button", "aria-expanded": String(!row.folded), onclick: () => this.fold(row.role) }, `${row.folded ? "\u25b8" : "\u25be"} ${row.name} (${row.count})`)
         : row.members.length
@@ -367,6 +375,8 @@ class Lanes {
     if (this.bundled !== key) this.drawn = bundles(messages, this.from, this.to, near);
     this.bundled = key;
     pen.strokeStyle = pen.fillStyle = this.ink;
+    const { selected } = this.player;
+    const chosen = selected === null ? [] : this.recording.selected(selected);
     for (const each of this.drawn) {
       const source = this.of.get(each.from);
       const targets = each.to.flatMap((to) => {
@@ -374,7 +384,8 @@ class Lanes {
         return to.fate === "nobody" ? [{ ...to, row: source }] : row && row !== source ? [{ ...to, row }] : [];
       });
       if (!source || !targets.length) continue;
-      pen.globalAlpha = 0.75;
+      const own = chosen.includes(each.from) || each.to.some((to) => chosen.includes(to.member));
+      pen.globalAlpha = !chosen.length || own ? 0.75 : 0.12;
       pen.lineWidth = Math.min(1 + Math.log2(each.count) / 3, 3);
       if (targets.length > CROWD) this.#trunk(pen, each, source, targets);
       else for (const to of targets) this.#arrow(pen, each, source, to);
