@@ -125,8 +125,8 @@ def test_a_trace_of_other_robots_is_told_and_shown(played: Played) -> None:
     ("content", "said"),
     [
         (b"", "SW1019"),
-        (b"\x00\xff\x7fELF" * 50, "SW0006"),
-        (b"\xff\xfe{\x00", "SW0006"),
+        (b"\x00\xff\x7fELF" * 50, "SW0004"),
+        (b"\xff\xfe{\x00", "SW0004"),
         (None, "SW0001"),
     ],
     ids=["empty", "binary", "UTF-16", "missing"],
