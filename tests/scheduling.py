@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+from collections.abc import Iterable
 from typing import Any
 
 import pytest
@@ -17,6 +18,18 @@ def unit(nodeid: str) -> str:
     """The file of a test, or the folder whose tests share a worker."""
     file = nodeid.partition("::")[0]
     return next((folder for folder in TOGETHER if file.startswith(folder)), file)
+
+
+def spread(units: Iterable[str]) -> dict[str, float]:
+    """The place of each unit between 0 and 1, at even distances within its folder."""
+    folders: dict[str, list[str]] = {}
+    for each in dict.fromkeys(units):
+        folders.setdefault(each.split("/")[1], []).append(each)
+    return {
+        each: (number + 0.5) / len(found)
+        for found in folders.values()
+        for number, each in enumerate(found)
+    }
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -36,9 +49,18 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Begin with the slow tests on several workers, so that these end at about the same time."""
+    """Begin with the slow tests on several workers, so that these end at about the same time.
+
+    Tests of each folder are spread over the run: some folders wait for nodes while others compute.
+    """
     if hasattr(config, "workerinput"):
-        items.sort(key=lambda item: item.get_closest_marker("long") is None)
+        units = [unit(item.nodeid) for item in items]
+        places = spread(units)
+        keys = {
+            id(item): (item.get_closest_marker("long") is None, places[each])
+            for item, each in zip(items, units, strict=True)
+        }
+        items.sort(key=lambda item: keys[id(item)])
 
 
 def pytest_collection_finish() -> None:
