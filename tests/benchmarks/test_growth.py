@@ -18,7 +18,7 @@ from growth_phases import PHASES, Model  # noqa: E402
 
 sys.path.remove(str(BENCHMARKS))
 
-FEW = 50
+FEW = 25
 MENDED = [
     ("print", "final states with done"),
     ("plantuml", "regions with events out"),

@@ -22,7 +22,7 @@ _VALUES = (
     *('""', '[""]', '"1 s"', '"0 s"', '"9999999 h"', '"Off"', '"\\u0000"', '"*"', '"."', '".."'),
     "99999999999999999999",
 )
-_MUTANTS = 100
+_MUTANTS = 40
 
 
 def mutant(text: str, chance: random.Random) -> str:
