@@ -5,7 +5,7 @@ Elements of the model text are counted: a reused machine is counted once, wherev
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
@@ -16,7 +16,7 @@ from swarmdsl.ir import State as ModelState
 from swarmdsl.ir import Transition as ModelTransition
 
 _HISTORIES = (Kind.HISTORY, Kind.DEEP_HISTORY)
-_Key = tuple[str, int]
+Key = tuple[str, int]
 """Source name and offset of an element; for a document, its file and a number."""
 
 
@@ -25,11 +25,11 @@ class MachineCoverage:
     """States and transitions of a machine as strings, and the reached ones."""
 
     name: str
-    states: dict[_Key, str] = field(default_factory=dict)
-    transitions: dict[_Key, str] = field(default_factory=dict)
-    origins: dict[_Key, object] = field(default_factory=dict)
-    entered: set[_Key] = field(default_factory=set)
-    taken: set[_Key] = field(default_factory=set)
+    states: dict[Key, str] = field(default_factory=dict)
+    transitions: dict[Key, str] = field(default_factory=dict)
+    origins: dict[Key, object] = field(default_factory=dict)
+    entered: set[Key] = field(default_factory=set)
+    taken: set[Key] = field(default_factory=set)
 
     @property
     def missed(self) -> Iterator[str]:
@@ -52,8 +52,8 @@ class MachineCoverage:
 class _Elements:
     """Elements of the model text for the states and transitions of a table."""
 
-    states: dict[str, tuple[MachineCoverage, _Key]] = field(default_factory=dict)
-    transitions: dict[int, tuple[MachineCoverage, _Key]] = field(default_factory=dict)
+    states: dict[str, tuple[MachineCoverage, Key]] = field(default_factory=dict)
+    transitions: dict[int, tuple[MachineCoverage, Key]] = field(default_factory=dict)
 
 
 class Coverage:
@@ -102,6 +102,17 @@ class Coverage:
                 found, key = known.transitions[_identity(transition)]
                 found.taken.add(key)
 
+    def elements(self, machine: Machine) -> Mapping[str, tuple[MachineCoverage, Key]]:
+        """Return what is counted of a machine, by the names that trace lines have for it."""
+        known = self._of(machine)
+        found = dict(known.states)
+        for state in machine.states[1:]:
+            for transition in state.transitions:
+                element = known.transitions.get(_identity(transition))
+                if element is not None:
+                    found[machine.called(transition)] = element
+        return found
+
     @property
     def machines(self) -> list[MachineCoverage]:
         """The machines, in order of their first appearance."""
@@ -146,7 +157,7 @@ class Coverage:
                     row.origins.setdefault(key, transition.origin)
                     known.transitions[_identity(transition)] = row, key
 
-    def _key(self, origin: object, machine: Machine, number: int) -> _Key:
+    def _key(self, origin: object, machine: Machine, number: int) -> Key:
         place = _place(origin)
         if place is None:
             # Two documents may have machines with the same name.

@@ -53,7 +53,7 @@ text { fill: #e3e8ee }
 .link { stroke: #9aa5b4 }
 }
 """
-_DEFINITIONS = """<defs>
+DEFINITIONS = """<defs>
 <pattern id="forbidden" width="8" height="8" patternUnits="userSpaceOnUse"
  patternTransform="rotate(45)">
 <rect width="8" height="8" fill="#c0362c" opacity="0.08"/>
@@ -150,7 +150,7 @@ class MapDrawing:
         self.parts = [
             f'<svg xmlns="http://www.w3.org/2000/svg" {size}>',
             f"<style>{self.style}</style>",
-            _DEFINITIONS,
+            DEFINITIONS,
             '<rect class="paper" width="100%" height="100%"/>',
         ]
         self.text(16, 26, self.title, "title")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Protocol
 
@@ -24,6 +24,7 @@ from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.space import Space
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.ir import Environment
 from swarmdsl.ir.space import Point
 
 _MARGIN = 2.0
@@ -143,6 +144,10 @@ class RunMap:
 
     # ---- internal
 
+    def _ground(self, tracks: list[Track]) -> Ground:
+        places = (place for track in tracks for _, place in track.places)
+        return ground_of(self._subject.environment, places)
+
     def _until(self, robot: Robot, now: int) -> list[tuple[int, Place]]:
         """Return the trail of a robot, up to where it is now."""
         places, place = self._trails[robot], self._world.space.at(robot)
@@ -190,38 +195,41 @@ class RunMap:
                 self._found.setdefault(name, now)
 
     def _pairs(self) -> Iterator[tuple[int, int]]:
-        """Yield the numbers of robots that reach each other, if there are radios."""
-        world = self._world
-        if not world.space.has_radio:
-            return
-        there = [each for each in enumerate(self._trails) if not self._is_gone(each[1])]
-        for number, (one, first) in enumerate(there):
-            for other, second in there[number + 1 :]:
-                if world.network.reaches(first, second) and world.network.reaches(second, first):
-                    yield one, other
+        return linked_pairs(self._world, list(self._trails))
 
     def _is_gone(self, robot: Robot) -> bool:
         return robot in self._world.network.gone
 
-    def _ground(self, tracks: list[Track]) -> Ground:
-        environment = self._subject.environment
-        if environment is None or environment.size is None:
-            places = [place for track in tracks for _, place in track.places]
-            low, high = (
-                Point(pick(x for x, _, _ in places), pick(y for _, y, _ in places))
-                for pick in (min, max)
-            )
-            low = Point(low.x - _MARGIN, low.y - _MARGIN)
-            high = Point(high.x + _MARGIN, high.y + _MARGIN)
-        else:
-            low, high = Point(0.0, 0.0), Point(environment.size[0], environment.size[1])
-        if environment is None:
-            return Ground(low, high)
-        return Ground(
-            low,
-            high,
-            [(each.name, each.box) for each in environment.areas],
-            [(each.name, each.box) for each in environment.zones],
-            [each.points for each in environment.walls],
-            [(each.name or "", each.shape) for each in environment.obstacles],
+def linked_pairs(world: Filmed, robots: Sequence[Robot]) -> Iterator[tuple[int, int]]:
+    """Yield the numbers of robots that reach each other, if there are radios."""
+    if not world.space.has_radio:
+        return
+    network = world.network
+    there = [each for each in enumerate(robots) if each[1] not in network.gone]
+    for number, (one, first) in enumerate(there):
+        for other, second in there[number + 1 :]:
+            if network.reaches(first, second) and network.reaches(second, first):
+                yield one, other
+
+
+def ground_of(environment: Environment | None, places: Iterable[Place]) -> Ground:
+    """Return the geometry of an environment; without a size, that around the places of robots."""
+    if environment is None or environment.size is None:
+        found = list(places)
+        low, high = (
+            Point(pick(x for x, _, _ in found), pick(y for _, y, _ in found)) for pick in (min, max)
         )
+        low = Point(low.x - _MARGIN, low.y - _MARGIN)
+        high = Point(high.x + _MARGIN, high.y + _MARGIN)
+    else:
+        low, high = Point(0.0, 0.0), Point(environment.size[0], environment.size[1])
+    if environment is None:
+        return Ground(low, high)
+    return Ground(
+        low,
+        high,
+        [(each.name, each.box) for each in environment.areas],
+        [(each.name, each.box) for each in environment.zones],
+        [each.points for each in environment.walls],
+        [(each.name or "", each.shape) for each in environment.obstacles],
+    )
