@@ -191,7 +191,8 @@ class _Play:
                 last = self._outputs.live(stack)
                 watched = bool(self._watched) or self._fitness is not None
                 if watched and self._listeners:
-                    self._listeners.append(monitors.see)  # the last one: it can end the run
+                    self._listeners.append(monitors.see)  # it can end the run
+                    self._outputs.follow_measures(monitors, self._fitness)
                 elif watched:
                     observe(self._world.trace, monitors, self._world.clock)
                 try:
@@ -220,7 +221,7 @@ class _Play:
                     picture({each.property.name: each.remark for each in results})
                 maps()
                 self._outputs.draw_robots(stack, report)
-                self._outputs.end_recording()
+                self._outputs.end_recording(results, fitness)
                 last()
         except OSError as error:
             if error.filename is None:

@@ -200,6 +200,7 @@ class RunMap:
     def _is_gone(self, robot: Robot) -> bool:
         return robot in self._world.network.gone
 
+
 def linked_pairs(world: Filmed, robots: Sequence[Robot]) -> Iterator[tuple[int, int]]:
     """Yield the numbers of robots that reach each other, if there are radios."""
     if not world.space.has_radio:

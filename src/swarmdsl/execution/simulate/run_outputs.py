@@ -12,16 +12,20 @@ from typing import TextIO
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.write_stream import report_unwritten, write_stream
-from swarmdsl.execution.monitor import Property, Verdict
+from swarmdsl.execution.monitor import Property, PropertyResult, Verdict, Watch
 from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.measure_lines import MeasureLines, tell_results
+from swarmdsl.execution.simulate.measures import FitnessResult
 from swarmdsl.execution.simulate.moved_lines import MovedLines
 from swarmdsl.execution.simulate.packets import Transmission
 from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Prepared, Request
 from swarmdsl.execution.simulate.run_lines import RunLines
+from swarmdsl.execution.simulate.scene_lines import SceneLines
 from swarmdsl.execution.simulate.space import NoPictureError
 from swarmdsl.execution.simulate.timeline import Timeline
 from swarmdsl.execution.simulate.trace import Line, as_json, as_text
 from swarmdsl.execution.simulate.world import World
+from swarmdsl.ir import Fitness
 
 
 class Outputs:
@@ -48,6 +52,7 @@ class Outputs:
         of = f"scenario {printable(scenario.name)}, " if scenario is not None else ""
         self._conditions = f"{of}seed {seed}"
         self._history: dict[str, list[tuple[int, Verdict]]] = {}
+        self._measures: MeasureLines | None = None
         """Verdicts so far by property, each with the time from which on it held."""
         self._seed = seed
 
@@ -75,7 +80,10 @@ class Outputs:
             recorder.begin(self._subject, self._cast, self._request.scenario, self._seed)
             self._listeners.append(lines.step)
             self._tell_transmissions(lines.transmitted)
-            self._world.space.viewers += (MovedLines(self._world, recorder.write),)
+            self._world.space.viewers += (
+                MovedLines(self._world, recorder.write),
+                SceneLines(self._world, recorder.write),
+            )
 
         def note(property_: Property, verdict: Verdict, time: int) -> None:
             self._history.setdefault(property_.name, []).append((time, verdict))
@@ -84,10 +92,25 @@ class Outputs:
 
         return note
 
-    def end_recording(self) -> None:
-        """Tell the recorder when the run was over, if there is one."""
-        if self._request.recorder is not None:
-            self._request.recorder.end(self._world.clock.now)
+    def follow_measures(self, monitors: Watch, fitness: Fitness | None) -> None:
+        """Let the recorder have the values of measures; the monitors are listeners already."""
+        recorder = self._request.recorder
+        if recorder is not None and fitness is not None:
+            self._measures = MeasureLines(fitness, self._world.space, recorder.write)
+            self._listeners.append(self._measures.listener(monitors))
+
+    def end_recording(
+        self, results: Sequence[PropertyResult], fitness: FitnessResult | None
+    ) -> None:
+        """Tell the recorder how the run ended, if there is one."""
+        recorder, now = self._request.recorder, self._world.clock.now
+        if recorder is None:
+            return
+        told = {name: changes[-1][1] for name, changes in self._history.items()}
+        tell_results(results, told, now, recorder.write)
+        if self._measures is not None and fitness is not None:
+            self._measures.tell(now, fitness)
+        recorder.end(now)
 
     def timeline(
         self, stack: ExitStack, report: Diagnostics

@@ -36,16 +36,15 @@ class SceneLines:
         if now < self._next:
             return
         self._next = (now // SECOND + 1) * SECOND
-        world, changed = self._world, {}
+        world = self._world
+        changed: dict[str, Any] = {}
         if len(world.robots) <= _MOST_LINKED:
             names = [each.name or "" for each in world.robots]
             pairs = linked_pairs(world, world.robots)
             links = [[names[one], names[other]] for one, other in pairs]
             if links != self._links:
                 self._links = changed["links"] = links
-        targets = {
-            name: [*_rounded(place), found] for name, place, found in world.space.targets()
-        }
+        targets = {name: [*_rounded(place), found] for name, place, found in world.space.targets()}
         if targets != self._targets:
             self._targets = changed["targets"] = targets
         if changed:

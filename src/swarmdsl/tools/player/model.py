@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
-from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine as Table
-from swarmdsl.execution.simulate.measures import fitness_of, inputs_of
-from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.state_colours import state_colours
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir import StateMachine
-from swarmdsl.tools.diagram.layout import lay_out
-from swarmdsl.tools.diagram.map import maps
-from swarmdsl.tools.diagram.svg import draw
-from swarmdsl.tools.diagram.views import diagrams
-from swarmdsl.tools.player.recording import Machine
-
-_MAX_NODES = 2_000
-"""Larger diagrams are slow to lay out and unreadable."""
+from swarmdsl.tools.player.machine_pictures import machine_picture
+from swarmdsl.tools.player.recording import Machine, Step
+from swarmdsl.tools.player.view_data import view_data
 
 
 class Model:
@@ -26,7 +19,6 @@ class Model:
 
     def __init__(self, subject: Subject) -> None:
         self._subject = subject
-        self._system = subject.system
         self.sources: dict[str, str] = {}
         """Texts of the model by the name of the file, as far as something in them is shown."""
 
@@ -49,7 +41,7 @@ class Model:
                 machine.name,
                 _states(table),
                 state_colours(table),
-                self._picture(machine.name),
+                machine_picture(machine),
                 places,
             )
         return found
@@ -65,22 +57,9 @@ class Model:
             return self._subject.document.machine.name
         return self._subject.machine.name if self._subject.machine is not None else None
 
-    def properties(self) -> dict[str, str]:
-        """Return the comment of each property, or the line that it begins on, by its name."""
-        return {
-            each.name: each.doc or _line(each.origin) or each.name
-            for each in watchable(self._subject)
-        }
-
-    def measures(self) -> tuple[str, ...]:
-        """Return the names of the measures."""
-        return tuple(each.name for each in inputs_of(fitness_of(self._subject)))
-
-    def map(self) -> str:
-        """Return the map of the environment as SVG, or an empty string."""
-        around = self._subject.environment
-        drawn = maps(self._system) if self._system is not None and around is not None else ()
-        return next((each.svg(lambda _: None) for each in drawn if each.environment is around), "")
+    def view_data(self, lines: Iterable[Step]) -> dict[str, Any]:
+        """Return what views show beside the lines."""
+        return view_data(self._subject, lines)
 
     def _behaviours(self) -> Iterator[tuple[str, StateMachine]]:
         """Yield the roles, and the parts of their members, with their machines."""
@@ -89,15 +68,6 @@ class Model:
         for robot in subject.create_robots({role.name: 1 for role in roles}):
             for part, machine in subject.behaviours(robot):
                 yield robot.role if part is None else f"{robot.role}.{part.name}", machine
-
-    def _picture(self, name: str) -> str:
-        assert self._system is not None
-        for each in diagrams(self._system):
-            if each.kind == "statechart" and each.name == name:
-                if sum(1 for _ in each.frame.walk()) > _MAX_NODES:
-                    return ""
-                return draw(lay_out(each), lambda _: None)
-        return ""
 
     def _places(self, table: Table) -> Iterator[tuple[str, tuple[str, int]]]:
         """Yield the lines of states and transitions by their ids; keep the texts they are in."""
@@ -112,14 +82,6 @@ class Model:
             span = span.absolute
             self.sources.setdefault(span.source.name, span.source.text)
             yield id_, (span.source.name, span.source.line_column(span.start)[0])
-
-
-def _line(origin: Span | None) -> str:
-    """Return the line of a place."""
-    if origin is None:
-        return ""
-    span = origin.absolute
-    return span.source.line_text(span.source.line_column(span.start)[0]).strip()
 
 
 def _states(table: Table) -> tuple[str, ...]:

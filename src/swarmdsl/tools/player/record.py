@@ -154,9 +154,7 @@ def _recording(
         scenario=scenario,
         seed=seed,
         sources=model.sources if model is not None else {},
-        properties=model.properties() if model is not None else {},
-        measures=model.measures() if model is not None else (),
-        map=model.map() if model is not None else "",
+        views=model.view_data(lines) if model is not None else {},
         notes=[_note(each) for each in list(notes)[:_MOST_NOTES]],
     )
 

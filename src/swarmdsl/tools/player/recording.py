@@ -60,8 +60,8 @@ class Note:
 class Recording:
     """Lines of a run with their model; `end` is in nanoseconds.
 
-    `sources` are texts of the model by name, `properties` texts by name, `tables` the tables of the
-    machines for an engine.
+    `sources` are texts of the model by name, `views` what views need (`view_data`), `tables` the
+    tables of the machines for an engine.
     """
 
     title: str
@@ -73,9 +73,7 @@ class Recording:
     scenario: str = ""
     seed: int | None = None
     sources: Mapping[str, str] = field(default_factory=dict)
-    properties: Mapping[str, str] = field(default_factory=dict)
-    measures: Sequence[str] = ()
-    map: str = ""
+    views: Mapping[str, Any] = field(default_factory=dict)
     tables: Mapping[str, Any] = field(default_factory=dict)
     notes: Sequence[Note] = ()
 
@@ -103,9 +101,12 @@ class Recording:
             ],
             "machines": machines,
             "sources": self.sources,
-            "properties": [{"name": name, "text": text} for name, text in self.properties.items()],
-            "measures": self.measures,
-            "map": self.map,
+            "properties": [],
+            "measures": [],
+            "coverage": None,
+            "map": None,
+            "keywords": [],
+            **self.views,
             "tables": self.tables,
             "notes": [
                 {

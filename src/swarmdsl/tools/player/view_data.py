@@ -1,4 +1,4 @@
-"""Parts of a recording that views need beside its lines: properties, measures, coverage, the map."""
+"""Parts of a recording beside its lines: properties, measures, coverage, the ground of the map."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _tables(subject: Subject) -> list[Machine]:
 def _places(lines: Iterable[Mapping[str, Any]]) -> Iterator[Place]:
     """Yield all places of robots; one without a height is on the ground."""
     for line in lines:
-        for x, y, *z in ([line["at"]] if "at" in line else line.get("moved", {}).values()):
+        for x, y, *z in [line["at"]] if "at" in line else line.get("moved", {}).values():
             yield x, y, z[0] if z else 0.0
 
 

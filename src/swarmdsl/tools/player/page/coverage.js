@@ -56,6 +56,6 @@ export const view = {
       found += count;
       there += items.length;
     }
-    write(this.all, `${Math.round((100 * found) / there)} % of all states and transitions until now`);
+    write(this.all, `${Math.floor((100 * found) / there)} % of all states and transitions until now`);
   },
 };

@@ -42,7 +42,6 @@ export const view = {
       this.draw();
     }).observe(this.list);
     element.append(el("p", { class: "bar" }, this.sought, el("label", {}, this.only, " selected only"), this.said), this.list);
-    player.on("selection", () => this.only.checked && this.seek());
   },
 
   lines() {
@@ -78,6 +77,9 @@ export const view = {
   },
 
   show(moment) {
+    const { selected } = this.player;
+    if (this.only.checked && this.selected !== selected) this.seek();
+    this.selected = selected;
     if (this.index === moment.index && this.count === this.lines().length) return;
     this.index = moment.index;
     this.follow();

@@ -13,17 +13,16 @@ export const view = {
   mount(element, player) {
     this.player = player;
     this.machine = null;
-    this.lit = [];
-    this.choice = el("select", { "aria-label": "State machine", onchange: () => this.turn(this.choice.value) });
+    this.choice = el("select", { "aria-label": "State machine", onchange: () => this.change() });
     this.said = el("p", { class: "said" });
     this.drawing = el("div", { class: "drawing fit", tabindex: "0", role: "region", "aria-label": "Picture of the states" });
     const fit = el("input", { type: "checkbox", checked: true, onchange: () => this.drawing.classList.toggle("fit", fit.checked) });
     element.append(el("p", { class: "bar" }, this.choice, el("label", {}, fit, " fit"), this.said), this.drawing);
-    this.offer();
-    player.on("selection", () => {
-      this.offer();
-      this.show(player.moment);
-    });
+  },
+
+  change() {
+    this.turn(this.choice.value);
+    this.show(this.player.moment);
   },
 
   /** Offer the machines of the selected members. */
@@ -63,11 +62,12 @@ export const view = {
       for (const each of rows) note(each, "nodes");
       this.drawing.replaceChildren(el("ul", { class: "states" }, ...rows));
     }
-    if (this.player.index >= 0) this.show(this.player.moment);
   },
 
   show(moment) {
-    const { recording } = this.player;
+    const { recording, selected } = this.player;
+    if (this.selected !== selected || !this.chosen) this.offer();
+    this.selected = selected;
     const numbers = this.chosen.get(this.machine) ?? [];
     const inside = new Map(); // numbers of members by state
     for (const number of numbers)

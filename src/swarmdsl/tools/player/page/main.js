@@ -113,6 +113,7 @@ function notes(element, recording) {
 
 function start(recording) {
   const player = new Player(recording);
+  player.views = VIEWS;
   const about = [
     recording.model,
     recording.scenario && `scenario ${recording.scenario}`,

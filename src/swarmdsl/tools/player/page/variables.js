@@ -18,10 +18,6 @@ export const view = {
     this.head = el("thead");
     this.body = el("tbody");
     element.append(this.note, el("div", { class: "scrolled" }, el("table", {}, this.head, this.body)));
-    player.on("selection", () => {
-      this.names = null;
-      this.show(player.moment);
-    });
   },
 
   show(moment) {
