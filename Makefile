@@ -29,7 +29,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-xmpp test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o build/demo
@@ -90,6 +90,10 @@ proofs: $(READY) ## Compare `swarmc verify` with all runs of random swarms on th
 test-ray: $(READY) ## Run the tests of the engine for Ray with Ray itself, of 260 MB.
 	$(BIN)/python -m pip install --quiet "ray>=2.9"
 	$(BIN)/pytest tests/experiments/test_ray.py $(ARGS)
+
+test-xmpp: $(READY) ## Run the tests of `swarmc serve --xmpp`, which need Debian's package prosody.
+	$(BIN)/python -m pip install --quiet --editable '.[xmpp]'
+	$(BIN)/pytest tests/experiments/test_xmpp.py $(ARGS)
 
 w3c: $(READY) ## Run the SCXML tests of the W3C in a folder: W3C=folder.
 	$(BIN)/python -m tests.scxml.suite $(W3C)

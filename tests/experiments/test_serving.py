@@ -127,6 +127,23 @@ def test_fields_of_other_types_are_refused(change: dict[str, Any], reason: str) 
 
 
 def test_the_presence_is_that_of_a_simulation_manager() -> None:
-    status = json.loads(status_text("sar", None, 2, 8))
-    capabilities = {"dimensions": 2, "maxAgents": 8}
-    assert status == {"type": "SimulationManager", "SCID": "sar", "capabilities": capabilities}
+    status = json.loads(status_text())
+    assert status == {
+        "type": "SimulationManager",
+        "capabilities": {"dimensions": 2, "maxAgents": 0},
+    }
+
+
+def test_accounts_are_checked_before_anything_is_done(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["serve", "--xmpp", "manager1@example.org:5222"]
+    monkeypatch.delenv("SWARMDSL_XMPP_PASSWORD", raising=False)
+    assert run_command(words) == 2
+    assert "needs the password in SWARMDSL_XMPP_PASSWORD" in capsys.readouterr().err
+    monkeypatch.setenv("SWARMDSL_XMPP_PASSWORD", "secret")
+    assert run_command(["serve", "--xmpp", "manager1"]) == 2
+    assert "no account like `manager1@example.org`" in capsys.readouterr().err
+    monkeypatch.setattr("swarmdsl.cli.serve.find_spec", lambda name: None)
+    assert run_command(words) == 1
+    assert "error[SW1810]: `--xmpp` needs package `slixmpp`" in capsys.readouterr().err

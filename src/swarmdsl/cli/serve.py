@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import io
+import os
+import re
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,9 +20,16 @@ from swarmdsl.cli.simulate import parse_duration
 from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.execution.experiments.search.evaluation import Together
+    from swarmdsl.execution.experiments.serving.command import Answers
+    from swarmdsl.execution.experiments.serving.xmpp import Account
 
 _MOST_SEEDS = 100_000
+_PASSWORD = "SWARMDSL_XMPP_PASSWORD"
+_ADDRESS = re.compile(r"[^@:/\s]+@[^@:/\s]+(:[0-9]{1,5})?")
 
 
 @click.command(
@@ -68,6 +78,12 @@ _MOST_SEEDS = 100_000
     type=Choice(("abstract", "flat", "physics")),
     help="Space of the runs, as for `swarmc simulate`.",
 )
+@click.option(
+    "--xmpp",
+    metavar="ACCOUNT",
+    help="Take messages by XMPP, as `manager1@example.org` or with a port behind `:`; the password "
+    "is in the environment: SWARMDSL_XMPP_PASSWORD.",
+)
 @processes
 @options.debug
 def serve(
@@ -80,6 +96,7 @@ def serve(
     until: int | None,
     world: str | None,
     limit: float | None,
+    xmpp: str | None,
     jobs: int | None,
     cluster: str | None,
 ) -> int:
@@ -108,8 +125,38 @@ def serve(
         jobs or 1,
         cluster,
     )
-    lines = io.TextIOWrapper(sys.stdin.buffer, encoding="utf-8", errors="replace")
-    done = answer_lines(
-        request, lines, sys.stdout, lambda report: render(report, "text", sys.stderr)
-    )
-    return OK if done else ERRORS
+    lines: Iterable[str]
+    out: Answers = sys.stdout
+    if xmpp is None:
+        lines = io.TextIOWrapper(sys.stdin.buffer, encoding="utf-8", errors="replace")
+    else:
+        account = _account(xmpp)
+        if account is None:
+            return ERRORS
+        lines, out = account.lines(), account
+    return OK if answer_lines(request, lines, out, _tell) else ERRORS
+
+
+def _tell(report: Diagnostics) -> None:
+    render(report, "text", sys.stderr)
+
+
+def _account(address: str) -> Account | None:
+    """Return the account with an address; None if there is nothing to connect with."""
+    password = os.environ.get(_PASSWORD, "")
+    if _ADDRESS.fullmatch(address) is None:
+        message = f"`{address}` is no account like `manager1@example.org`"
+        raise click.BadParameter(message, param_hint="'--xmpp'")
+    if not password:
+        raise click.UsageError(f"`--xmpp` needs the password in {_PASSWORD}")
+    if find_spec("slixmpp") is None:
+        from swarmdsl.base.diagnostics.collector import Diagnostics
+
+        report = Diagnostics()
+        help_ = "`pip install 'swarmdsl[xmpp]'` installs it; without `--xmpp` nothing is needed"
+        report.report("missing-package", what="--xmpp", package="slixmpp", help=help_)
+        _tell(report)
+        return None
+    from swarmdsl.execution.experiments.serving.xmpp import Account
+
+    return Account(address, password)

@@ -432,4 +432,5 @@ CODES: dict[str, Code] = {
     "unfit-level": Code("SW1825", "error", "`{name}` cannot be {value}: {reason}"),
     "unfit-message": Code("SW1831", "error", "this is no message of an optimizer: {reason}"),
     "no-fitness": Code("SW1832", "warning", "the candidate has no fitness: {reason}"),
+    "no-connection": Code("SW1833", "error", "cannot serve as `{address}`: {reason}"),
 }

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TextIO
+from typing import Protocol
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
@@ -23,6 +23,16 @@ from swarmdsl.execution.experiments.task import NO_SCENARIO
 from swarmdsl.execution.simulate.measures import fitness_of
 
 Tell = Callable[[Diagnostics], None]
+
+
+class Answers(Protocol):
+    """Takes answers, one for each line: standard output, or a connection."""
+
+    def write(self, text: str, /) -> object:
+        """Take an answer."""
+
+    def flush(self) -> None:
+        """Send it."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +52,7 @@ class Request:
     cluster: str | None = None
 
 
-def serve(request: Request, lines: Iterable[str], out: TextIO, tell: Tell) -> bool:
+def serve(request: Request, lines: Iterable[str], out: Answers, tell: Tell) -> bool:
     """Answer each line with a line, until there are no more; return True without errors.
 
     A message that is not understood, and a candidate without a fitness, is no error of the

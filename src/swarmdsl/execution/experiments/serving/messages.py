@@ -17,7 +17,8 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass
 
-RUN, RESULT, STATUS = "RunSimulation", "SimulationResult", "SimulationManager"
+RUN, RESULT = "RunSimulation", "SimulationResult"
+STATUS, CONFIGURED = "SimulationManager", "SimulatorConfigured"
 _LARGEST_SEED = 2**63
 _LARGEST = 1e300
 
@@ -88,10 +89,14 @@ def result_text(of: RunSimulation, fitness: float | None) -> str:
     return json.dumps(data)
 
 
-def status_text(swarm: str, simulation: str | None, dimensions: int, robots: int) -> str:
-    """Return the presence of a simulation manager: what it can do, and what it does now."""
-    data: dict[str, Any] = {"type": STATUS, "SCID": swarm}
-    if simulation is not None:
-        data["SID"] = simulation
-    data["capabilities"] = {"dimensions": dimensions, "maxAgents": robots}
-    return json.dumps(data)
+def status_text() -> str:
+    """Return the presence of a simulation manager: what it can do.
+
+    Without a configuration it is fit for all of them, and with 0 agents for any number.
+    """
+    return json.dumps({"type": STATUS, "capabilities": {"dimensions": 2, "maxAgents": 0}})
+
+
+def configured_text() -> str:
+    """Return the answer to the files of a configuration."""
+    return json.dumps({"type": CONFIGURED, "success": True})
