@@ -25,6 +25,7 @@ import importing
 import large
 import parsing
 import peers
+import player
 import ros1
 import ros2
 import simulation
@@ -47,6 +48,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "lsp": editing.section,
     "import": importing.section,
     "diagram": drawing.section,
+    "player": player.section,
     "growth": growth.section,
     "ros1": ros1.section,
     "ros2": ros2.section,
