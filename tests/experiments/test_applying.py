@@ -34,6 +34,7 @@ def test_the_winner_is_written_into_the_model(
     said = capsys.readouterr()
     assert "warning[SW1811]: `count of robot` is searched in 3 .. 3, not in 1 .. 3" in said.err
     assert "Crew: 1 candidate," in said.out
+    assert "today:  count of robot = 3\nthe winner is the model as it is\n" in said.out
     few = MODEL.replace("Robot[1..6]", "Robot[4..6]")
     assert run([*write(tmp_path, last, few), "--jobs", "1"]) == 1
     assert "error[SW1806]: swarm `Crew` has `Robot[4..6]`" in capsys.readouterr().err

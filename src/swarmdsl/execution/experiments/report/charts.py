@@ -216,10 +216,10 @@ def front_chart(
         x, y = across.at(each.x), up.at(each.y)
         if each.x_interval is not None:
             low, high = map(across.at, each.x_interval)
-            canvas.line(low, y, high, y, "whisker")
+            canvas.line(low, y, high, y, "axis")
         if each.y_interval is not None:
             low, high = map(up.at, each.y_interval)
-            canvas.line(x, low, x, high, "whisker")
+            canvas.line(x, low, x, high, "axis")
         canvas.dot(x, y, _STYLES[each.kind], each.title, 4 if each.kind else 3)
         canvas.text(x + 6, y - 6, each.label)
     return canvas.finish()

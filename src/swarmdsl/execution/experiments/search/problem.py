@@ -117,7 +117,9 @@ def problem_of(request: Request, report: Diagnostics) -> Problem | None:
     assert system is not None
     optimization = next((o for o in system.optimizations if o.swarm == subject.name), None)
     if optimization is None:
-        help_ = f"declare its ranges: `optimize {subject.name} {{ count of role in 1 .. 5 }}`"
+        roles = subject.swarm.roles if subject.swarm is not None else ()
+        role = roles[0].name if roles else "role"
+        help_ = f"declare its ranges: `optimize {subject.name} {{ count of {role} in 1 .. 5 }}`"
         report.report("nothing-to-optimize", name=subject.name, reason="no `optimize`", help=help_)
         return None
     fitness = fitness_of(subject)

@@ -11,7 +11,7 @@ from swarmdsl.execution.experiments.report.importance import share_text
 from swarmdsl.execution.experiments.search.evaluation import Evaluation
 from swarmdsl.execution.experiments.search.importance import importances
 from swarmdsl.execution.experiments.search.optimizing import Found, Observed, Plan
-from swarmdsl.execution.experiments.task import settings_text
+from swarmdsl.execution.experiments.task import Candidate, settings_text
 from swarmdsl.execution.simulate.summary import format_table
 
 _SHOWN = 5
@@ -66,7 +66,12 @@ def as_text(found: Found, plan: Plan, subject: str, fitness: str) -> Iterator[st
     head = (f"{counted(plan.fresh, 'fresh seed')}", fitness, f"{plan.level:.0%} interval", "")
     yield from format_table(head, measured)
     yield f"winner: {settings_text(found.winner.candidate)}"
-    if found.comparison is not None:
+    known = {each.name: each.today_value for each in plan.space.dimensions}
+    today = Candidate.of({name: value for name, value in known.items() if value is not None})
+    yield f"today:  {settings_text(today)}"
+    if not plan.space.changed(found.winner.candidate).settings:
+        yield "the winner is the model as it is"
+    elif found.comparison is not None:
         yield f"with {plan.level:.0%} confidence: {_ANSWERS[found.comparison.answer]}"
     elif found.today.broken:
         yield f"today's model is out: {found.today.reason}"
