@@ -52,3 +52,9 @@ def engine(function: _Decorated) -> _Decorated:
     """Add the options for the processes that do the runs, and for what is told of them."""
     told = reduce(lambda inner, add: add(inner), reversed(_TOLD), function)
     return processes(told)
+
+
+def check_processes(jobs: int | None, cluster: str | None) -> None:
+    """Raise UsageError for processes in two places."""
+    if jobs is not None and cluster is not None:
+        raise click.UsageError("`--jobs` and `--cluster` conflict")

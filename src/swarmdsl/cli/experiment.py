@@ -15,7 +15,7 @@ import click
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.base.read_files import exists
 from swarmdsl.cli import options
-from swarmdsl.cli.engine_options import engine
+from swarmdsl.cli.engine_options import check_processes, engine
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 
 if TYPE_CHECKING:
@@ -54,8 +54,7 @@ def experiment(
     """
     from swarmdsl.execution.experiments.study.command import Request, run_study
 
-    if jobs is not None and cluster is not None:
-        raise click.UsageError("`--jobs` and `--cluster` conflict")
+    check_processes(jobs, cluster)
     is_document = format_ in DOCUMENTS
     if is_document and is_json:
         raise click.UsageError(f"`--format {format_}` and `--json` both print")

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 import click
 
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
-from swarmdsl.cli import options
-from swarmdsl.cli.engine_options import engine
+from swarmdsl.cli import options, run_options
+from swarmdsl.cli.engine_options import check_processes, engine
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
-from swarmdsl.cli.simulate import parse_duration
 from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
@@ -28,22 +27,7 @@ _MOST_SEEDS = 100_000
     epilog="Example: swarmc optimize examples/storage --scenario shift.toml --jobs 2 -o results"
 )
 @options.files
-@click.option("--swarm", metavar="NAME", help="Optimize this swarm.")
-@click.option(
-    "--scenario",
-    "scenarios",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    multiple=True,
-    help="Environment of the runs, as TOML; may be repeated.",
-)
-@click.option(
-    "--together",
-    type=Choice(("mean", "worst")),
-    default="mean",
-    show_default=True,
-    help="Value of several scenarios: their mean, or the worst of them.",
-)
+@run_options.candidates
 @click.option(
     "--maximize",
     metavar="NAME",
@@ -53,14 +37,6 @@ _MOST_SEEDS = 100_000
 )
 @click.option(
     "--minimize", metavar="NAME", multiple=True, help="As `--maximize`; less of it is better."
-)
-@click.option(
-    "--subject-to",
-    "properties",
-    metavar="NAME",
-    multiple=True,
-    help="A property that no run of a candidate may violate, beside those of `optimize`; may be "
-    "repeated.",
 )
 @click.option(
     "--method",
@@ -96,17 +72,6 @@ _MOST_SEEDS = 100_000
     "--seed",
     type=options.Integer(0, 2**31 - 1),
     help="First seed, also of the search.  [default: that of `optimize`, or 0]",
-)
-@click.option(
-    "--until",
-    metavar="DURATION",
-    callback=parse_duration,
-    help="End each run after this virtual time.  [default: the scenario's, or 10min]",
-)
-@click.option(
-    "--world",
-    type=Choice(("abstract", "flat", "physics")),
-    help="Space of the runs, as for `swarmc simulate`.",
 )
 @engine
 @click.option(
@@ -161,12 +126,10 @@ def optimize(
     from swarmdsl.execution.experiments.search.command import optimize as run_search
     from swarmdsl.execution.experiments.search.problem import Request
 
-    if jobs is not None and cluster is not None:
-        raise click.UsageError("`--jobs` and `--cluster` conflict")
+    check_processes(jobs, cluster)
     if resume and output is None:
         raise click.UsageError("`--resume` needs `-o`, the folder with the runs")
-    if len(set(scenarios)) != len(scenarios):
-        raise click.UsageError("a `--scenario` is given twice")
+    run_options.check_scenarios(scenarios)
     objectives = (*maximize, *minimize)
     if len(set(objectives)) != len(objectives):
         raise click.UsageError("an objective is given twice")

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import click
 
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
-from swarmdsl.cli import options
+from swarmdsl.cli import options, run_options
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
-from swarmdsl.cli.simulate import parse_duration
 
 if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
@@ -50,14 +49,8 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Events from outside, as JSON lines.",
 )
-@click.option("--seed", type=int, help="Seed of random decisions.  [default: the scenario's, or 0]")
-@click.option(
-    "--until",
-    metavar="DURATION",
-    callback=parse_duration,
-    help="End after this virtual time.  [default: the scenario's, or 10min after the last of "
-    "`--events`]",
-)
+@run_options.one_seed
+@run_options.until_after_events
 @click.option(
     "-o",
     "--output",

@@ -13,11 +13,9 @@ from typing import TYPE_CHECKING
 import click
 
 from swarmdsl.base.diagnostics.render import render
-from swarmdsl.cli import options
-from swarmdsl.cli.engine_options import processes
+from swarmdsl.cli import options, run_options
+from swarmdsl.cli.engine_options import check_processes, processes
 from swarmdsl.cli.exit_code import ERRORS, OK
-from swarmdsl.cli.simulate import parse_duration
-from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -36,29 +34,7 @@ _ADDRESS = re.compile(r"[^@:/\s]+@[^@:/\s]+(:[0-9]{1,5})?")
     epilog="Example: swarmc serve examples/storage --scenario examples/storage/shift.toml --seeds 5"
 )
 @options.files
-@click.option("--swarm", metavar="NAME", help="Run candidates of this swarm.")
-@click.option(
-    "--scenario",
-    "scenarios",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    multiple=True,
-    help="Environment of the runs, as TOML; may be repeated.",
-)
-@click.option(
-    "--together",
-    type=Choice(("mean", "worst")),
-    default="mean",
-    show_default=True,
-    help="Value of several scenarios: their mean, or the worst of them.",
-)
-@click.option(
-    "--subject-to",
-    "properties",
-    metavar="NAME",
-    multiple=True,
-    help="A property that no run of a candidate may violate; may be repeated.",
-)
+@run_options.candidates
 @click.option(
     "--seeds",
     type=options.Integer(1, _MOST_SEEDS),
@@ -66,17 +42,6 @@ _ADDRESS = re.compile(r"[^@:/\s]+@[^@:/\s]+(:[0-9]{1,5})?")
     default=1,
     show_default=True,
     help="Runs of a candidate, from the seed of its message on; the answer is their mean.",
-)
-@click.option(
-    "--until",
-    metavar="DURATION",
-    callback=parse_duration,
-    help="End each run after this virtual time.  [default: the scenario's, or 10min]",
-)
-@click.option(
-    "--world",
-    type=Choice(("abstract", "flat", "physics")),
-    help="Space of the runs, as for `swarmc simulate`.",
 )
 @click.option(
     "--xmpp",
@@ -108,10 +73,8 @@ def serve(
     from swarmdsl.execution.experiments.serving.command import Request
     from swarmdsl.execution.experiments.serving.command import serve as answer_lines
 
-    if jobs is not None and cluster is not None:
-        raise click.UsageError("`--jobs` and `--cluster` conflict")
-    if len(set(scenarios)) != len(scenarios):
-        raise click.UsageError("a `--scenario` is given twice")
+    check_processes(jobs, cluster)
+    run_options.check_scenarios(scenarios)
     request = Request(
         paths,
         swarm,

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
-from swarmdsl.cli import options
+from swarmdsl.cli import options, run_options
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 from swarmdsl.cli.many_runs import many_of, many_runs
 from swarmdsl.cli.suggestions import Choice
@@ -32,18 +32,6 @@ _NOT_WITH_ROS2 = (
     "real_time",
     "picture",
 )
-
-
-def parse_duration(
-    _context: click.Context, _param: click.Parameter, text: str | None
-) -> int | None:
-    """Parse a duration with its unit, to nanoseconds."""
-    from swarmdsl.execution.simulate.durations import duration
-
-    length = duration(text) if text is not None else None
-    if text is not None and length is None:
-        raise click.BadParameter(f"`{text}` is not a duration like `90s`, `500ms` or `10min`")
-    return length
 
 
 def _check_alone(many: bool) -> None:
@@ -138,14 +126,8 @@ def _opened(port: int, system: System | None, title: str, map_: str | None) -> I
     multiple=True,
     help="Compare a recorded trace of robots, JSON lines, with the model; may be repeated.",
 )
-@click.option("--seed", type=int, help="Seed of random decisions.  [default: the scenario's, or 0]")
-@click.option(
-    "--until",
-    metavar="DURATION",
-    callback=parse_duration,
-    help="End after this virtual time.  [default: the scenario's, or 10min after the last of "
-    "`--events`]",
-)
+@run_options.one_seed
+@run_options.until_after_events
 @click.option(
     "--property",
     "properties",
