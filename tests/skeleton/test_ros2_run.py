@@ -55,14 +55,14 @@ def test_cpp_compiles_against_stubs(cpp: Path, name: str) -> None:
     assert compiled(sources, cpp / name, "-fsyntax-only") == ""
 
 
-@pytest.mark.parametrize("optimisation", ["-O0", "-O2"])
-def test_cpp_goals_end_on_stubs(cpp: Path, tmp_path: Path, optimisation: str) -> None:
+def test_cpp_goals_end_on_stubs(cpp: Path, tmp_path: Path) -> None:
+    """Optimised: the compiler warns most then."""
     sources = [
         cpp / "climb" / "src" / "climb_base.cpp",
         *((HERE / "code" / "ros2" / name) for name in ("climb.cpp", "drive.cpp")),
     ]
     program = tmp_path / "drive"
-    assert compiled(sources, cpp / "climb", optimisation, "-o", program) == ""
+    assert compiled(sources, cpp / "climb", "-O2", "-o", program) == ""
     run = subprocess.run([program], capture_output=True, text=True, timeout=60, check=True)
 
     assert run.stdout.splitlines() == [
