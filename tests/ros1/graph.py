@@ -64,7 +64,6 @@ class Graph:
             **kept,
             "PATH": "/usr/sbin:/usr/bin:/sbin:/bin",
             "PYTHONPATH": os.pathsep.join(folders),
-            "PYTHONDONTWRITEBYTECODE": "1",
             "ROS_MASTER_URI": self.uri,
             "ROS_IP": "127.0.0.1",
             "ROS_HOME": str(self.home),
