@@ -31,6 +31,7 @@ _NOT_WITH_ROS2 = (
     "stop_on_violation",
     "real_time",
     "picture",
+    "play",
 )
 
 
@@ -116,6 +117,12 @@ def _opened(port: int, system: System | None, title: str, map_: str | None) -> I
     help="Draw the robots at the end as MuJoCo sees them, as PNG, with `--world physics`.",
 )
 @click.option(
+    "--play",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write a page that plays the run, or the traces of `--replay`: see `swarmc play`.",
+)
+@click.option(
     "--results",
     type=click.Path(path_type=Path),
     help="Write verdicts on properties, measures and fitness to a file, as JSON.",
@@ -182,6 +189,7 @@ def simulate(
     map_file: Path | None,
     animation: Path | None,
     picture: Path | None,
+    play: Path | None,
     results: Path | None,
     replay: tuple[Path, ...],
     seed: int | None,
@@ -235,6 +243,8 @@ def simulate(
         raise click.UsageError("`--port` needs `--live`")
     if ros2:
         _check_alone(many is not None)
+    if play is not None and many is not None:
+        raise click.UsageError("`--play` and `--runs` conflict: a page plays one run")
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
     if map_file is not None:
@@ -254,6 +264,7 @@ def simulate(
         "--map": map_file,
         "--animation": animation,
         "--picture": picture,
+        "--play": play,
         "--results": results,
         "--histogram": many_options["histogram"],
     }
@@ -292,6 +303,10 @@ def simulate(
         from swarmdsl.execution.simulate.many import simulate_many
 
         simulate_ = partial(simulate_many, many)
+    if play is not None:
+        from swarmdsl.cli.play_pages import simulate_and_play
+
+        simulate_ = partial(simulate_and_play, play)
     if not is_document:
         succeeded = simulate_(request, lambda report: render(report, format_, sys.stderr))
     else:

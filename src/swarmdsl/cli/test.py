@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.exit_code import ERRORS, OK
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.testing.verdict import Verdict
 
 
 @click.command(epilog="Example: swarmc test examples/search_and_rescue -k abort --trace")
@@ -34,6 +38,12 @@ from swarmdsl.cli.exit_code import ERRORS, OK
     help="Fail if the coverage of states and transitions is lower.",
 )
 @click.option(
+    "--play",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write a page that plays the first test that fails, as HTML.",
+)
+@click.option(
     "--junit",
     type=click.Path(path_type=Path),
     metavar="FILE",
@@ -48,6 +58,7 @@ def test(
     trace: bool,
     coverage: bool,
     fail_under: float | None,
+    play: Path | None,
     junit: Path | None,
     format_: str,
 ) -> int:
@@ -58,6 +69,22 @@ def test(
     """
     from swarmdsl.execution.testing import command
 
-    options.check_outputs({"--junit": junit}, paths)
-    request = command.Request(paths, pattern, seed, junit, trace, coverage, fail_under, format_)
-    return OK if command.run(request, sys.stdout, sys.stderr) else ERRORS
+    options.check_outputs({"--play": play, "--junit": junit}, paths)
+    failed: list[Verdict] = []
+    request = command.Request(
+        paths,
+        pattern,
+        seed,
+        junit,
+        trace,
+        coverage,
+        fail_under,
+        format_,
+        failed.append if play is not None else None,
+    )
+    passed = command.run(request, sys.stdout, sys.stderr)
+    if play is not None and failed:
+        from swarmdsl.cli.play_pages import play_failed
+
+        play_failed(failed[0], play)
+    return OK if passed else ERRORS

@@ -161,6 +161,12 @@ def _new_test(_context: click.Context, _param: click.Parameter, path: Path | Non
     "mended: NAME.swarmtest.toml.",
 )
 @click.option(
+    "--play",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write a page that plays the first run that shows what is wrong, as HTML.",
+)
+@click.option(
     "--results",
     type=click.Path(path_type=Path),
     metavar="FILE",
@@ -189,6 +195,7 @@ def verify(
     limits: Limits,
     output: Path | None,
     saved_test: Path | None,
+    play: Path | None,
     results: Path | None,
     junit: Path | None,
     format_: str,
@@ -204,8 +211,9 @@ def verify(
 
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` conflict")
-    outputs = {"--save-test": saved_test, "--results": results, "--junit": junit}
+    outputs = {"--save-test": saved_test, "--play": play, "--results": results, "--junit": junit}
     options.check_outputs(outputs, paths)
+    shown: list[tuple[str, str]] = []
     request = Request(
         paths,
         machine,
@@ -224,6 +232,12 @@ def verify(
         results,
         junit,
         saved_test,
+        (lambda name, trace: shown.append((name, trace))) if play is not None else None,
     )
     succeeded = run_verification(request, sys.stdout, sys.stderr)
+    if play is not None:
+        from swarmdsl.cli.play_pages import play_counterexample
+
+        if not play_counterexample(request, shown, play):
+            return ERRORS
     return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import TextIO
 
@@ -20,7 +21,7 @@ from swarmdsl.execution.testing.junit import junit
 from swarmdsl.execution.testing.models import Models
 from swarmdsl.execution.testing.outcome import FileOutcome
 from swarmdsl.execution.testing.reading import read_tests
-from swarmdsl.execution.testing.verdict import judge
+from swarmdsl.execution.testing.verdict import Verdict, judge
 from swarmdsl.project.read_source import read_source
 
 
@@ -36,6 +37,8 @@ class Request:
     coverage: bool = False
     fail_under: float | None = None
     format: str = "text"
+    show: Callable[[Verdict], object] | None = None
+    """Gets the verdict on the first test that fails."""
 
 
 def run(request: Request, stdout: TextIO, stderr: TextIO) -> bool:
@@ -53,6 +56,7 @@ class _Session:
         self._coverage = Coverage()
         self._outcomes: list[FileOutcome] = []
         self._left_out = 0
+        self._show = request.show
 
     def run(self) -> bool:
         began = time.perf_counter()
@@ -102,6 +106,9 @@ class _Session:
             found = Diagnostics()
             verdict.report(found)
             outcome.verdicts.append((verdict, tuple(found)))
+            if not verdict.passed and self._show is not None:
+                self._show(verdict)
+                self._show = None
         self._console.remarks(outcome)
 
     @property

@@ -13,6 +13,8 @@ from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_of
 from swarmdsl.execution.simulate.properties import plan, watch
+from swarmdsl.execution.simulate.run_lines import Recorder as Recording
+from swarmdsl.execution.simulate.run_lines import RunLines
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.verdicts import violation_fields
 from swarmdsl.execution.simulate.world import World
@@ -78,9 +80,14 @@ class _ViolatedError(Exception):
         self.violation = violation
 
 
-def run_case(case: Case, seed: int, listener: Callable[[Line], None]) -> RunResult:
-    """Run a test until its end or first failure."""
-    return _CaseRun(case, seed, listener).run_case()
+def run_case(
+    case: Case, seed: int, listener: Callable[[Line], None], recorder: Recording | None = None
+) -> RunResult:
+    """Run a test until its end or first failure; the recorder keeps the lines of the run."""
+    run = _CaseRun(case, seed, listener)
+    if recorder is not None:
+        run.tell(recorder, seed)
+    return run.run_case()
 
 
 class _CaseRun:
@@ -90,11 +97,12 @@ class _CaseRun:
         # Actors are not reusable: a run changes their data.
         self._cast = actors(case.subject, robots, case.scenario, Diagnostics())
         self._recorder = Recorder(self._cast, lambda actor: self._world.data(actor))
-        listeners = [self._recorder.see, listener]
+        self._listeners = [self._recorder.see, listener]
         watched = [each for each, _ in (*case.properties, *case.violates)]
         self._watch: Watch | None = None
         self._remarks: dict[str, str] = {}
         self._skipped = 0
+        self._recording: Recording | None = None
         self._arrivals: dict[tuple[str, str | None], int] = {}
         """Events and receivers that steps name, with the last of these steps."""
         for number, step in enumerate(case.steps):
@@ -105,19 +113,29 @@ class _CaseRun:
         if watched or self._fitness is not None:
             planned = plan(watched, measures_of(self._fitness))
             self._watch = watch(planned, lambda actor: self._world.data(actor))
-            listeners.append(self._watch.see)
+            self._listeners.append(self._watch.see)
         self._world = World(
             case.subject.system,
             self._cast,
             case.scenario,
             seed,
-            listeners,
+            self._listeners,
             case.subject.heartbeat,
             case.spaces.alone(seed),
         )
 
+    def tell(self, recorder: Recording, seed: int) -> None:
+        """Let a recorder keep the lines of the run."""
+        lines = RunLines(self._world, recorder.write)
+        recorder.begin(self._case.subject, self._cast, None, seed)
+        self._listeners.append(lines.step)
+        self._world.network.transmitted = lines.transmitted
+        self._recording = recorder
+
     def run_case(self) -> RunResult:
         failure = self._failed()
+        if self._recording is not None:
+            self._recording.end(self._world.clock.now)
         return RunResult(failure, tuple(self._world.failures), self._remarks, self._skipped)
 
     def _failed(self) -> Failure | None:

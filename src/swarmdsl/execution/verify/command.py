@@ -71,6 +71,8 @@ class Request:
     results: Path | None = None
     junit: Path | None = None
     saved_test: Path | None = None
+    show: Callable[[str, str], object] | None = None
+    """Gets the name and the trace of each run that shows what is wrong."""
 
 
 def verify(request: Request, stdout: TextIO, stderr: TextIO) -> bool | None:
@@ -293,12 +295,12 @@ class _Session:
 
     def _write(self, name: str, run: Run | None) -> None:
         """Write a run as a trace."""
-        folder = self._request.output
-        if folder is None or run is None:
-            return
-        path = folder / f"{name}.jsonl"
-        if self._write_file(path, "".join(f"{line}\n" for line in written(run))):
-            self._written[name] = path
+        folder, show = self._request.output, self._request.show
+        text = "".join(f"{line}\n" for line in written(run)) if run is not None else ""
+        if text and show is not None:
+            show(name, text)
+        if text and folder is not None and self._write_file(folder / f"{name}.jsonl", text):
+            self._written[name] = folder / f"{name}.jsonl"
 
     def _save_test(self, subject: Subject) -> None:
         """Write what is wrong as behaviour tests."""

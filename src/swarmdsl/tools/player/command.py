@@ -8,9 +8,12 @@ from pathlib import Path
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 from swarmdsl.base.read_files import MOST_RECORDED
 from swarmdsl.base.records import dataclass, replace
+from swarmdsl.base.source import Source
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.simulate.command import simulate
 from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
+from swarmdsl.execution.testing.run_case import run_case
+from swarmdsl.execution.testing.verdict import Verdict
 from swarmdsl.project.read_source import read_source
 from swarmdsl.tools.player.page import page
 from swarmdsl.tools.player.record import RunRecorder, record_traces
@@ -29,6 +32,14 @@ class Played:
 
 def play_run(request: Request, out: Path, tell: Tell) -> Played:
     """Simulate a run and write its page; a run that fails is shown up to where it did."""
+    request = replace(request, trace="none")
+    return recorded(
+        lambda keep, recorder: simulate(replace(request, recorder=recorder), keep), out, tell
+    )
+
+
+def recorded(run: Callable[[Tell, RunRecorder], bool | None], out: Path, tell: Tell) -> Played:
+    """Run something that tells a recorder, and write the page of what it has told."""
     recorder = RunRecorder()
     found: list[Diagnostic] = []
 
@@ -36,11 +47,20 @@ def play_run(request: Request, out: Path, tell: Tell) -> Played:
         found.extend(report)
         tell(report)
 
-    succeeded = simulate(replace(request, trace="none", recorder=recorder), keep)
+    succeeded = run(keep, recorder)
     recording = recorder.recording(found)
     if recording is None:
         return Played(succeeded)
     return _written(recording, out, tell, succeeded)
+
+
+def play_lines(request: Request, name: str, text: str, out: Path, tell: Tell) -> Played:
+    """Write the page of a trace that is in memory, by a name for it."""
+    prepared = _prepared(request, Diagnostics())
+    recording = record_traces([Source(name, text)], prepared, Diagnostics())
+    if recording is None:
+        return Played(False)
+    return _written(recording, out, tell, True)
 
 
 def play_traces(request: Request, traces: Sequence[Path], out: Path, tell: Tell) -> Played:
@@ -62,6 +82,19 @@ def play_traces(request: Request, traces: Sequence[Path], out: Path, tell: Tell)
     if recording is None:
         return Played(False)
     return _written(recording, out, tell, not report.has_errors)
+
+
+def play_test(verdict: Verdict, out: Path, tell: Tell) -> Played:
+    """Run a test again with the first seed with which it fails, and write the page of that run."""
+
+    def run(keep: Tell, recorder: RunRecorder) -> bool:
+        report = Diagnostics()
+        run_case(verdict.case, next(iter(verdict.failures)), lambda line: None, recorder)
+        verdict.report(report)
+        keep(report)
+        return True
+
+    return recorded(run, out, tell)
 
 
 def _prepared(request: Request, report: Diagnostics) -> Prepared | None:
