@@ -180,10 +180,11 @@ class Environment:
                 yield Doubt(f"`{message.event}` from the scenario is not covered")
         if any(fault.is_loss and fault.lasts is not None for fault in self._faults):
             yield Doubt("robots that come back are not covered: leave out `lasts` of the scenario")
+        lost = "prove what robots do without each other with `--faults`, instead of"
         if follows and any(fault.apart for fault in self._faults):
-            yield Doubt("heartbeats between robots apart are not covered")
+            yield Doubt(f"heartbeats between robots apart are not covered: {lost} `apart`")
         if follows and self._scenario.loss >= 1:
-            yield Doubt("heartbeats that are lost are not covered")
+            yield Doubt(f"heartbeats that are lost are not covered: {lost} `loss = 1`")
 
     def noted(self, found: Values, doubts: list[Doubt]) -> Sequence[dict[str, Any]]:
         """Return representatives; keep what is said of them."""
