@@ -10,10 +10,11 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
+from swarmdsl.cli import run
 from swarmdsl.tools.player.page import page
 from swarmdsl.tools.player.record import record_traces
 
-from .conftest import Visit
+from .conftest import ROOT, Visit
 from .lines import lines_of, moment
 
 LONG = 100_000
@@ -34,6 +35,9 @@ def written(folder: Path, lines: list[dict[str, Any]]) -> Path:
 
 def test_a_mission_opens_at_the_moment_of_its_address(browser: Any, sar: Path) -> None:
     assert sar.stat().st_size <= 250_000
+    text = sar.read_text(encoding="utf-8")
+    recording = text.partition('id="recording">')[2].partition("</script>")[0]
+    assert len(text) - len(recording) <= 80_000
     visit = Visit(browser, sar, "#t=10min&m=uav[1]")
     assert visit.value("[player.time, player.selected]") == [600e9, "uav[1]"]
     states = visit.value("player.moment.members.map((each) => each.states)")
@@ -132,4 +136,30 @@ def test_names_of_a_trace_are_text(browser: Any, tmp_path: Path, key: str) -> No
     assert visit.value("document.querySelectorAll('img, #main script').length") == 0
     assert "\u202e" not in visit.value("document.body.innerText")
     assert visit.page.title() == "Run"
+    visit.close()
+
+
+def test_a_browser_that_cannot_unpack_says_so(browser: Any, sar: Path) -> None:
+    tab = browser.new_page()
+    tab.add_init_script("delete globalThis.DecompressionStream")
+    tab.goto(sar.as_uri())
+    tab.wait_for_selector("[role=alert] >> text=This browser cannot unpack the recording")
+    tab.close()
+
+
+def test_a_machine_alone_and_dark_colours(browser: Any, tmp_path: Path) -> None:
+    """Everything that a click does is a button, a tab, a box or a slider with a name."""
+    path = tmp_path / "run.html"
+    model = ROOT / "examples" / "minimal"
+    assert run(["play", str(model), "--machine", "Blinking", "--until", "5s", "-o", str(path)]) == 0
+    visit = Visit(browser, path, color_scheme="dark")
+    assert visit.value("getComputedStyle(document.body).backgroundColor") == "rgb(22, 25, 29)"
+    unnamed = """[...document.querySelectorAll("button, input, select, canvas, [role=tab]")]
+      .filter((each) => !(each.ariaLabel || each.textContent.trim() || each.labels?.length
+        || each.getAttribute("aria-hidden"))).map((each) => each.outerHTML)"""
+    assert visit.value(unnamed) == []
+    visit.page.keyboard.press("End")
+    visit.page.wait_for_function(
+        "document.querySelector('[role=status]').textContent.includes('Blinking: ')"
+    )
     visit.close()

@@ -100,4 +100,9 @@ def as_document(recording: Recording) -> Mapping[str, Any]:
 def encode(recording: Recording) -> str:
     """Return a recording as base64 of deflated JSON, which has nothing that HTML could take."""
     text = json.dumps(as_document(recording), ensure_ascii=False, separators=(",", ":"))
+    return pack(text)
+
+
+def pack(text: str) -> str:
+    """Return base64 of a deflated text, which `unpack.js` reads."""
     return b64encode(zlib.compress(text.encode("utf-8", "surrogatepass"), 9)).decode()

@@ -43,7 +43,8 @@ def join(folder: Path, name: str) -> str:
     """Return a module and what it imports as one script."""
     done: dict[str, str] = {}
     _add(folder, name, done, ())
-    return "\n".join(['"use strict";', *done.values(), ""])
+    # A block, so that two scripts of a page can have the same modules.
+    return "\n".join(['"use strict";', "{", *done.values(), "}", ""])
 
 
 def _add(folder: Path, name: str, done: dict[str, str], above: tuple[str, ...]) -> None:

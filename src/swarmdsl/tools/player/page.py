@@ -11,7 +11,7 @@ from swarmdsl import __version__
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.read_files import read_text
 from swarmdsl.tools.diagram.svg import style
-from swarmdsl.tools.player.encoding import encode
+from swarmdsl.tools.player.encoding import encode, pack
 from swarmdsl.tools.player.modules import join
 from swarmdsl.tools.player.recording import Recording
 
@@ -21,21 +21,23 @@ _FILES = Path(__file__).resolve().parent / "page"
 def page(recording: Recording) -> str:
     """Return the page of a recording as HTML; nothing of the recording is markup or script in it.
 
-    The policy lets nothing be loaded, and nothing run but the script with this hash.
+    The policy lets nothing be loaded, and nothing run but the two scripts with these hashes: one
+    unpacks the other.
     """
-    script = join(_FILES, "main.js")
+    script, loader = join(_FILES, "main.js"), join(_FILES, "loader.js")
     sheets = sorted(each for each in _FILES.glob("*.css") if each.name != "player.css")
     styles = style() + "".join(map(read_text, (_FILES / "player.css", *sheets)))
     policy = (
-        f"default-src 'none'; style-src {_hash(styles)}; script-src {_hash(script)}; "
-        "base-uri 'none'; form-action 'none'"
+        f"default-src 'none'; style-src {_hash(styles)}; script-src {_hash(loader)} "
+        f"{_hash(script)}; base-uri 'none'; form-action 'none'"
     )
     return read_text(_FILES / "index.html").format(
         policy=policy,
         version=__version__,
         title=escape(printable(recording.title)),
         style=styles,
-        script=script,
+        script=pack(script),
+        loader=loader,
         recording=encode(recording),
     )
 

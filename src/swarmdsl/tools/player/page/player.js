@@ -91,13 +91,15 @@ export class Player {
     this.#tell("playing");
   }
 
-  /** The moment in words: time, member, event and its states. */
+  /** The last step in words: member, event and its states; or a lost event, or a verdict. */
   said() {
-    if (this.index < 0) return "nothing has happened yet";
-    const line = this.recording.line(this.index);
+    let at = this.index;
+    const tells = ({ configuration, lost, property }) => configuration ?? lost ?? property;
+    while (at >= 0 && tells(this.recording.step(at)) === undefined) at--;
+    if (at < 0) return "nothing has happened yet";
+    const line = this.recording.line(at);
     if (line.lost) return printable(`${line.lost.event} from ${line.lost.sender} to ${line.lost.member} is lost`);
     if (line.property !== undefined) return printable(`property ${line.property}: ${line.verdict}`);
-    if (!line.configuration) return "robots have moved";
     const fate = line.ignored ? " (ignored)" : line.deferred ? " (deferred)" : line.recalled ? " (recalled)" : "";
     const moved = line.entered?.length || line.exited?.length ? ` \u2192 ${line.configuration.join(", ")}` : "";
     const sent = line.sent?.length ? `; sends ${line.sent.join(", ")}` : "";

@@ -1,19 +1,13 @@
 // Recording of a run: lines of a trace, and the moment after each of them.
+import { unpack } from "./unpack.js";
+
 const EVERY = 512; // lines from one snapshot to the next
 const MILLISECOND = 1e6;
 const THOUSAND = 1000;
 const NOBODY = { states: [], variables: {}, place: null, alive: false, line: -1, since: -1 };
 
 /** Return the recording in a text of base64 of deflated JSON. */
-export async function load(text) {
-  if (typeof DecompressionStream === "undefined")
-    throw new Error("This browser cannot unpack the recording: open the page in one of 2023 or later.");
-  const packed = atob(text);
-  const bytes = new Uint8Array(packed.length);
-  for (let at = 0; at < packed.length; at++) bytes[at] = packed.charCodeAt(at);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Recording(JSON.parse(await new Response(stream).text()));
-}
+export const load = async (text) => new Recording(JSON.parse(await unpack(text)));
 
 /** Return the role of a name like `uav[3]`, and the name of its robot without the part. */
 export const robotOf = (name) => (/^[^\].]*\[\d+\]/.exec(name) ?? [name])[0];
