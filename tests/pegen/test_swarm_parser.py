@@ -31,7 +31,7 @@ from .sentences import Sentences, reachable
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("examples", "tests", "src/swarmdsl/project/library")
-SEEDS = 5
+SEEDS = 3
 _START = re.compile(r"^(?=[a-z])", re.MULTILINE)
 
 
