@@ -86,6 +86,13 @@ def test_the_best_candidate_wins_and_is_measured_with_fresh_seeds(searched: Path
         {"name": "robot", "meta": "command_line", "value": 3},
         {"name": "patience", "meta": "file:test_behavior", "value": 5.0},
     ]
+    # What the orchestrator of CPSwarm writes at the end, and reads before a search.
+    package = (searched / "one" / "test_behavior.yaml").read_text(encoding="utf-8")
+    assert package == "patience: 5.0\n"
+    frevo = json.loads((searched / "one" / "frevoConfiguration.json").read_text(encoding="utf-8"))
+    varied = {each["name"]: each for each in frevo["representationBuilder"]["parameters"]}
+    assert (varied["robot"]["minimum"], varied["robot"]["maximum"]) == (1, 3)
+    assert (varied["patience"]["maximum"], frevo["evolutionSeed"]) == (9, 3)
 
 
 def test_kept_runs_are_about_the_goal_of_the_search(

@@ -99,6 +99,15 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
         yield OutputFile(f"{folder}/{swarm.name}.xml", text, origin=swarm.origin)
 
 
+def configuration(optimization: Optimization, system: System) -> str | None:
+    """Return the configuration of a search with the defaults of the target; None if it is empty."""
+    report = Diagnostics()
+    parameters = list(search_parameters(optimization, system, "", "frevo", report))
+    if not parameters:
+        return None
+    return document(_configuration(optimization, parameters, Options(), report))
+
+
 def _configuration(
     optimization: Optimization,
     parameters: list[SearchParameter],

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.exchange.frevo import configuration
 from swarmdsl.codegen.exchange.search_space import behaviour_package, search_parameters
 from swarmdsl.execution.experiments.settings import merged
 from swarmdsl.execution.experiments.task import COUNT, Candidate
@@ -58,6 +59,18 @@ def files_of(
     yield "best.toml", scenario_text(candidate)
     yield "candidate.json", _json(candidate_data(candidate, system))
     yield "parameters.json", _json(parameters_data(optimization, system))
+    if (text := configuration(optimization, system)) is not None:
+        yield "frevoConfiguration.json", text
+    if text := package_text(candidate, system):
+        yield f"{behaviour_package(system, '')}.yaml", text
+
+
+def package_text(candidate: Candidate, system: System) -> str:
+    """Return the params as a parameter file of ROS, as the orchestrator writes it at the end."""
+    found = candidate_data(candidate, system)
+    return "".join(
+        f"{each['name']}: {each['value']}\n" for each in found if "file:" in each["meta"]
+    )
 
 
 def point_files(
