@@ -38,7 +38,9 @@ demo: $(READY) ## Compile an example, show what was made, and simulate it.
 		--scenario examples/search_and_rescue/mission.toml --trace none --timeline build/demo/mission.svg
 	$(BIN)/swarmc simulate examples/search_and_rescue \
 		--scenario examples/search_and_rescue/flat.toml --trace none --map build/demo/map.svg
-	@echo "build/demo/mission.svg shows the mission, build/demo/map.svg where robots searched in the flat world. Next: . $(BIN)/activate, and docs/tutorial.md; make help lists the rest."
+	$(BIN)/swarmc play examples/search_and_rescue \
+		--scenario examples/search_and_rescue/mission.toml -o build/demo/mission.html
+	@echo "build/demo/mission.html plays the mission, build/demo/mission.svg shows it on one page, build/demo/map.svg where robots searched in the flat world. Next: . $(BIN)/activate, and docs/tutorial.md; make help lists the rest."
 
 help: ## List what can be made.
 	@sed -n 's/^\([a-z0-9-]*\):.*## /\1: /p' Makefile

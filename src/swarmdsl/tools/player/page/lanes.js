@@ -492,4 +492,5 @@ export const view = {
 export const act = {
   zoom: (factor) => lanes.zoom(factor),
   search: () => lanes.search.focus(),
+  window: () => [lanes.from, lanes.to],
 };

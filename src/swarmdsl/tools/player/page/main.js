@@ -1,6 +1,7 @@
 // The page: recording, player, views and controls together.
 import { controls } from "./controls.js";
 import { el } from "./dom.js";
+import { exports } from "./exports.js";
 import { Player } from "./player.js";
 import { load } from "./recording.js";
 import { MAIN, VIEWS } from "./views.js";
@@ -128,6 +129,7 @@ function start(recording) {
   MAIN.mount(lanes, player);
   const panels = panelsOf(byId("panels"), player);
   const showControls = controls(byId("controls"), player);
+  exports(byId("controls"), player);
   let waiting = false;
   const show = () => {
     waiting = false;

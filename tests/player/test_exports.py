@@ -1,0 +1,83 @@
+"""Windows that a page saves: as a behaviour test, events from outside, and a picture."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from swarmdsl.cli import run
+
+from .conftest import Visit
+
+MODEL = """
+event Go : std_msgs/Empty
+endless statemachine Work {
+  initial Off
+  state Off { on Go -> On }
+  parallel state On {
+    region Do {
+      initial Walk
+      state Walk { do walk; on succeeded -> Rest; on aborted -> Rest }
+      state Rest { after 3 s -> Walk }
+    }
+    region Hear {
+      initial Quiet
+      state Quiet { on Go -> Loud }
+      state Loud {}
+    }
+  }
+}
+function walk : abstraction { action "cmd/walk" : lab_msgs/Walk }
+member Robot { behavior Work }
+swarm Crew { robot : Robot[2] }
+"""
+
+
+def test_a_window_is_saved(browser: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("model.swarm").write_text(MODEL, encoding="utf-8")
+    events = [
+        {"event": "Go", "after": 1000},
+        {"event": "Go", "after": 1500, "member": "robot[1]"},
+    ]
+    text = "".join(f"{json.dumps(each)}\n" for each in events)
+    Path("go.jsonl").write_text(text, encoding="utf-8")
+    words = ["model.swarm", "--events", "go.jsonl", "--until", "10s"]
+    assert run(["play", *words, "--seed", "7"]) == 0
+    visit = Visit(browser, tmp_path / "run.html")
+    visit.page.get_by_text("Save", exact=True).click()
+
+    def save(title: str) -> Path:
+        with visit.page.expect_download() as found:
+            visit.page.get_by_role("button", name=title).click()
+        path = tmp_path / found.value.suggested_filename
+        found.value.save_as(path)
+        return path
+
+    saved = save("Behaviour test")
+    assert "scenario = { seed = 7 }" in saved.read_text(encoding="utf-8")
+    assert run(["test", saved.name]) == 0
+    # It is no empty test: it fails for another model.
+    Path("model.swarm").write_text(MODEL.replace("after 3 s", "after 2 s"), encoding="utf-8")
+    assert run(["test", saved.name]) == 1
+    Path("model.swarm").write_text(MODEL, encoding="utf-8")
+
+    inputs = [json.loads(line) for line in save("Events file").read_text().splitlines()]
+    assert inputs == [
+        {"event": "Go", "after": 1000, "member": "robot[0]"},
+        {"event": "Go", "after": 0, "member": "robot[1]"},
+        {"event": "Go", "after": 1500, "member": "robot[1]"},
+    ]
+    assert run(["simulate", "model.swarm", "--events", "events.jsonl", "--until", "10s"]) == 0
+
+    root = ElementTree.parse(save("Picture")).getroot()
+    titles = [each.text for each in root.iter("{http://www.w3.org/2000/svg}title")]
+    assert titles[:2] == ["robot[0]: Off", "robot[0]: On.Do.Walk"]
+    asked = [each for each in visit.asked if not each.startswith("blob:")]
+    assert {each.partition("#")[0] for each in asked} == {visit.address}
+    assert visit.wrong == []
+    visit.page.close()
