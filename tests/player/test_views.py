@@ -8,21 +8,24 @@ import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
 from swarmdsl.cli import run
 from swarmdsl.execution.simulate.command import simulate
 from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.prepare import Request
+from swarmdsl.execution.simulate.prepare import Request, prepare
 from swarmdsl.tools.player.page import page
-from swarmdsl.tools.player.record import RunRecorder
+from swarmdsl.tools.player.record import RunRecorder, record_traces
 from swarmdsl.tools.player.recording import Recording
 
 from .conftest import SAR, Visit
 
+AGRICULTURE = SAR.parent / "agriculture"
 UNTIL = 100
 VIEWS = (
     ("machine", "State machine"),
@@ -351,3 +354,47 @@ def test_each_view_is_fast(flat: Run) -> None:
     for view, _ in VIEWS:
         flat.show(view, 5)
         assert flat.visit.page.evaluate(script, view) < 5, view
+
+
+def test_a_trace_is_judged_as_its_run(flat: Run, tmp_path: Path) -> None:
+    trace, results = tmp_path / "run.jsonl", tmp_path / "results.json"
+    steps = [line for line in flat.lines if "configuration" in line]
+    plain = [{key: line[key] for key in line.keys() - {"variables"}} for line in steps]
+    trace.write_text("".join(f"{json.dumps(line)}\n" for line in plain), encoding="utf-8")
+    scenario = ["--scenario", str(SAR / "flat.toml")]
+    run(["simulate", str(SAR), *scenario, "--replay", str(trace), "--results", str(results)])
+    expected = json.loads(results.read_text())
+    prepared = prepare(Request((SAR,), scenario=SAR / "flat.toml"), Diagnostics())
+    source = Source(str(trace), trace.read_text(encoding="utf-8"))
+    recording = record_traces([source], prepared, Diagnostics())
+    assert recording is not None
+    lines = list(recording.lines)
+    assert [line for line in lines if "configuration" in line] == steps
+    last = {line["property"]: line for line in lines if "property" in line}
+    for each in expected["properties"]:
+        assert last[each["name"]]["verdict"] == each["verdict"]
+        assert last[each["name"]].get("remark") == each.get("remark")
+    measured = [line for line in lines if "measures" in line]
+    assert len(measured) > 20
+    assert measured[-1]["measures"] == expected["measures"]
+    times = [line["t"] for line in lines]
+    assert times == sorted(times)
+
+
+def test_what_has_nothing_to_show_has_no_tab(browser: Any, tmp_path: Path) -> None:
+    for model, options, missing in (
+        ("minimal", ["--machine", "Blinking", "--until", "3s"], {"Map", "Measures", "Properties"}),
+        (
+            "agriculture",
+            ["--scenario", str(AGRICULTURE / "season.toml"), "--until", "5min"],
+            {"Map"},
+        ),
+    ):
+        path = tmp_path / f"{model}.html"
+        assert run(["play", str(AGRICULTURE.parent / model), *options, "-o", str(path)]) == 0
+        visit = Visit(browser, path)
+        tabs = visit.page.get_by_role("tablist").first.get_by_role("tab").all_text_contents()
+        shown = {title for _, title in VIEWS} - missing
+        assert set(tabs) <= shown
+        assert shown - set(tabs) <= {"Variables"}
+        visit.close()

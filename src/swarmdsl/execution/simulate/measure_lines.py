@@ -26,16 +26,12 @@ class MeasureLines:
         self._next = 0
         self._told: dict[str, Any] = {}
 
-    def listener(self, monitors: Watch) -> Callable[[Line], None]:
-        """Return a listener of the run, which hears of a line after the monitors."""
-
-        def see(line: Line) -> None:
-            if line.time >= self._next and monitors.has_begun:
-                self._next = (line.time // SECOND + 1) * SECOND
-                readings = monitors.readings(line.time)
-                self.tell(line.time, evaluate(self._fitness, readings, self._space))
-
-        return see
+    def see(self, monitors: Watch, line: Line) -> None:
+        """Write the values after a line that the monitors have seen."""
+        if line.time >= self._next and monitors.has_begun:
+            self._next = (line.time // SECOND + 1) * SECOND
+            readings = monitors.readings(line.time)
+            self.tell(line.time, evaluate(self._fitness, readings, self._space))
 
     def tell(self, time: int, result: FitnessResult) -> None:
         """Write the values at a time, if they are others than before."""

@@ -97,7 +97,7 @@ class Outputs:
         recorder = self._request.recorder
         if recorder is not None and fitness is not None:
             self._measures = MeasureLines(fitness, self._world.space, recorder.write)
-            self._listeners.append(self._measures.listener(monitors))
+            self._listeners.append(partial(self._measures.see, monitors))
 
     def end_recording(
         self, results: Sequence[PropertyResult], fitness: FitnessResult | None

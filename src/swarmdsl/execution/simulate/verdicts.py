@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.monitor import FALSE, TRUE, PropertyResult, Violation
+from swarmdsl.execution import monitor
+from swarmdsl.execution.monitor import (
+    FALSE,
+    TRUE,
+    PropertyResult,
+    Verdict,
+    Violation,
+    Watch,
+)
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.measures import FitnessResult, evaluate, measures_of
@@ -80,18 +88,24 @@ class Recording:
             self._lines.append((place, line, dict(data or {})))
 
     def results(
-        self, end: int, loop: int | None = None, space: Space = ABSTRACT
+        self,
+        end: int,
+        loop: int | None = None,
+        space: Space = ABSTRACT,
+        *,
+        told: Callable[[monitor.Property, Verdict, int], None] | None = None,
+        heard: Callable[[Watch, Line], None] | None = None,
     ) -> tuple[list[PropertyResult], FitnessResult | None]:
         """Return verdicts and fitness of the traces until a time; a log can end at any time.
 
         The last `loop` lines repeat for ever; with 0, nothing happens after them. Measures of space
-        are those of `space`.
+        are those of `space`. `told` is called with verdicts so far, `heard` after each line.
         """
         if not self._lines:
             return [], None
         known: dict[Actor, Mapping[str, Any]] = {}
         planned = plan(self._properties, measures_of(self._fitness))
-        monitors = watch(planned, lambda actor: known[actor])
+        monitors = watch(planned, lambda actor: known[actor], told=told)
         lines = sorted(self._lines, key=_order)
         endings = [watch(planned, lambda actor: known[actor]) for _ in range(loop or 0)]
         ends: list[list[PropertyResult]] = []
@@ -99,6 +113,8 @@ class Recording:
             known[line.actor] = data
             for each in (monitors, *endings):
                 each.see(line)
+            if heard is not None:
+                heard(monitors, line)
             if endings and number > len(lines) - (loop or 0):
                 ends.append(endings.pop(0).results(line.time, ended=True))
         results = monitors.results(end, ended=loop == 0)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
@@ -13,22 +13,30 @@ from swarmdsl.execution.simulate.run_lines import Changes
 from swarmdsl.execution.simulate.scenario import Robot, Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.tools.player.judged_lines import Judge
 
 _INVALID = "bad-trace-line"
 """Told when the lines were read."""
 
-Variables = Mapping[tuple[str, int], Mapping[str, Any]]
-"""Variables that lines have changed, by the name of the trace and the place in it."""
+
+class Followed(NamedTuple):
+    """Variables that lines have changed, by the name of the trace and the place in it.
+
+    `judged` are lines with verdicts and measures. Times of several traces differ: they have none.
+    """
+
+    variables: Mapping[tuple[str, int], Mapping[str, Any]]
+    judged: Sequence[Mapping[str, Any]]
 
 
 def follow(
-    sources: Iterable[Source],
+    sources: Sequence[Source],
     robots: Iterable[str],
     subject: Subject,
     scenario: Scenario,
     report: Diagnostics,
-) -> Variables | None:
-    """Return the variables that lines have changed; report where members leave the model.
+) -> Followed | None:
+    """Return what the model says of traces; report where members leave the model.
 
     None if nothing is compared, because a machine has params without a value.
     """
@@ -36,8 +44,9 @@ def follow(
     if not _cast(robots, subject, scenario):
         return None
     found: dict[tuple[str, int], Mapping[str, Any]] = {}
+    judged: list[dict[str, Any]] = []
     for source in sources:
-        changes = Changes()
+        changes, judge = Changes(), Judge(subject)
 
         def see(
             line: Line,
@@ -45,16 +54,20 @@ def follow(
             at: int,
             name: str = source.name,
             changes: Changes = changes,
+            judge: Judge = judge,
         ) -> None:
+            judge.see(line, data, at)
             changed = changes.of(line.actor, data)
             if changed:
                 found[name, at] = changed
 
         # A replay changes the data of its machines.
         told = Diagnostics()
-        replay(source, subject, _cast(robots, subject, scenario), told, see)
+        replayed = replay(source, subject, _cast(robots, subject, scenario), told, see)
         report.include(each for each in told if each.name != _INVALID)
-    return found
+        if len(sources) == 1:
+            judged = judge.lines(replayed)
+    return Followed(found, judged)
 
 
 def _cast(robots: Iterable[str], subject: Subject, scenario: Scenario) -> list[Actor]:

@@ -84,19 +84,21 @@ def record_traces(
     model = Model(prepared.subject) if prepared is not None else None
     alone = model.alone if model is not None else None
     names = [step["member"] for step, _ in steps if step.get("member") is not None]
-    variables = None
+    followed = None
     if prepared is not None:
         subject, scenario = prepared.subject, prepared.scenario
-        variables = follow(sources, dict.fromkeys(names), subject, scenario, report)
+        followed = follow(sources, dict.fromkeys(names), subject, scenario, report)
     lines = []
     first: dict[str, Span] = {}
     for step, place in steps:
         line = _named(step, alone)
-        changed = variables.get((place.source.name, place.start)) if variables else None
+        changed = followed.variables.get((place.source.name, place.start)) if followed else None
         lines.append(line if changed is None else {**line, "variables": changed})
         if not is_beside_steps(line):
             first.setdefault(line["member"], place)
-    own = report if variables is None else Diagnostics()  # else they are told already
+    if followed is not None and not any("property" in line for line in lines):
+        lines = sorted([*lines, *followed.judged], key=lambda line: int(line["t"]))
+    own = report if followed is None else Diagnostics()  # else they are told already
     members = [_member(name, place, model, own) for name, place in first.items()]
     return _recording(lines, members, model, report)
 

@@ -5,6 +5,7 @@ import { robotOf } from "./recording.js";
 import { press, shape, upTo, write } from "./shapes.js";
 
 const SIZE = 5;
+const MOST_LINKS = 60;
 
 export const view = {
   id: "map",
@@ -72,7 +73,7 @@ export const view = {
       this.trail(each, past.trails.get(each.name), moment.index);
     }
     const scene = this.targetsAt(past, moment.index);
-    this.linksAt(past, moment);
+    this.linksAt(past, moment, selected);
     this.seenAt(past, moment.index);
     write(this.said, `${there} robots${scene}`);
   },
@@ -105,10 +106,13 @@ export const view = {
     return said;
   },
 
-  linksAt({ links }, moment) {
+  linksAt({ links }, moment, selected) {
     const at = upTo(links.map((each) => each.at), moment.index) - 1;
     const place = (name) => moment.members[this.marks.get(name)?.numbers[0]]?.place;
-    const lines = (links[at]?.pairs ?? []).flatMap(([one, other]) => {
+    const pairs = links[at]?.pairs ?? [];
+    // Those of all are too many to be seen apart.
+    const shown = pairs.length > MOST_LINKS || selected.length ? pairs.filter((pair) => pair.some((name) => selected.includes(this.marks.get(name)?.numbers[0]))) : pairs;
+    const lines = shown.flatMap(([one, other]) => {
       const ends = [place(one), place(other)];
       return ends.every(Boolean) ? [ends.map(([x, y]) => `${this.x(x).toFixed(1)},${this.y(y).toFixed(1)}`).join("L")] : [];
     });

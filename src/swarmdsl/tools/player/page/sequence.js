@@ -47,8 +47,8 @@ export const view = {
     const [width, height] = [LEFT + wide * numbers.length + 20, TOP + ROW * rows.length + 8];
     const heads = numbers.map((number) => {
       const x = columns.get(number);
-      const { name } = members[number];
-      const label = wide > 6 * name.length ? name : String(number);
+      const { name, role, index } = members[number];
+      const label = wide > 6.5 * name.length ? name : `${role[0]}${index}`;
       return shape("g", {}, shape("title", {}, name), shape("text", { class: "head", x, y: 14 }, label), shape("line", { class: "life", x1: x, x2: x, y1: TOP - 6, y2: height }));
     });
     const drawn = rows.map((row, at) => this.row(row, TOP + ROW * at, columns, wide, row.line > moment.index ? "later" : at === now ? "now" : ""));
