@@ -18,10 +18,11 @@ Together = Literal["mean", "worst"]
 
 @dataclass(frozen=True)
 class Objective:
-    """What is measured, and what is better."""
+    """What is measured, and what is better. A property is 1 in a run where it is true, else 0."""
 
     measure: str
     goal: Goal
+    is_property: bool = False
 
     def loss(self, value: float) -> float:
         """Return a number that is less for a better value."""
@@ -32,7 +33,7 @@ class Objective:
 class Aim:
     """Goal of a search, the value of several scenarios together, and properties to keep.
 
-    `others` are further objectives, beside the goal for `measure`.
+    `others` are further objectives, beside the goal for `measure`. `is_property` says so of that.
     """
 
     goal: Goal
@@ -40,11 +41,12 @@ class Aim:
     properties: tuple[str, ...] = ()
     measure: str = FITNESS
     others: tuple[Objective, ...] = ()
+    is_property: bool = False
 
     @property
     def objectives(self) -> tuple[Objective, ...]:
         """All objectives, at least one."""
-        return (Objective(self.measure, self.goal), *self.others)
+        return (Objective(self.measure, self.goal, self.is_property), *self.others)
 
     def loss(self, value: float) -> float:
         """Return a number that is less for a better value of the first objective."""

@@ -12,27 +12,47 @@ from swarmdsl.execution.experiments.comparing import Answer, compare_paired
 from swarmdsl.execution.experiments.search.domination import fronts
 from swarmdsl.execution.experiments.search.evaluation import Aim, Evaluation
 
-_SAME = 10
-"""Runs from which on values that are all equal count as no difference."""
+_SETTLED = 10
+"""Runs of each candidate from which on an objective can be known not to depend on chance."""
 
 
-def relation(a: Evaluation, b: Evaluation, aim: Aim, error: float) -> list[Answer | None]:
-    """Return if A is better than B in each objective; None if it is the same in all runs."""
+def settled(found: Sequence[Evaluation], aim: Aim) -> tuple[bool, ...]:
+    """Return which objectives do not depend on chance, such as the number of robots.
+
+    No candidate has two values of them. A property never is one of them: it may be violated in
+    the next run.
+    """
+    enough = all(len(each.by_seed) >= _SETTLED for each in found)
+    return tuple(
+        enough
+        and not objective.is_property
+        and all(len(set(each.of_objective(number).values())) == 1 for each in found)
+        for number, objective in enumerate(aim.objectives)
+    )
+
+
+def relation(
+    a: Evaluation, b: Evaluation, aim: Aim, error: float, known: Sequence[bool]
+) -> list[Answer | None]:
+    """Return if A is better than B in each objective; None if it is the same for certain.
+
+    `known` has the objectives without chance. Where chance is, equal values do not show that there
+    is no difference.
+    """
     found: list[Answer | None] = []
     common = sorted(a.by_seed.keys() & b.by_seed.keys())
     for number, objective in enumerate(aim.objectives):
         left = [a.by_seed[seed][number] for seed in common]
         right = [b.by_seed[seed][number] for seed in common]
-        if left == right:
-            found.append(None if len(common) >= _SAME else "not yet")
+        if known[number]:
+            losses = objective.loss(left[0]), objective.loss(right[0])
+            found.append(None if left == right else "yes" if losses[0] < losses[1] else "no")
         else:
             found.append(compare_paired(left, right, objective.goal, 1 - 2 * error).answer)
     return found
 
 
-def is_dominated(b: Evaluation, by: Evaluation, aim: Aim, error: float) -> bool:
-    """Return True if it is certain that a candidate is dominated."""
-    answers = relation(by, b, aim, error)
+def _all_better(answers: Sequence[Answer | None]) -> bool:
     return any(answers) and all(each in ("yes", None) for each in answers)
 
 
@@ -47,20 +67,21 @@ def undominated(possible: Sequence[Evaluation], aim: Aim, error: float) -> list[
     each_error = error / (len(possible) * (len(possible) - 1))
     losses = [aim.losses(each) for each in possible]
     first = [possible[number] for number in fronts(losses)[0]]
-    return [
-        each
-        for each in possible
-        if not any(
-            is_dominated(each, other, aim, each_error) for other in first if other is not each
-        )
-    ]
+    known = settled(possible, aim)
+
+    def is_worse(each: Evaluation) -> bool:
+        others = (other for other in first if other is not each)
+        return any(_all_better(relation(other, each, aim, each_error, known)) for other in others)
+
+    return [each for each in possible if not is_worse(each)]
 
 
 def is_certain(each: Evaluation, others: Sequence[Evaluation], aim: Aim, error: float) -> bool:
     """Return True if no other one can dominate it: it is better than each of them in something."""
     rest = [other for other in others if other is not each]
     level = error / max(len(rest) * len(aim.objectives), 1)
-    return all("yes" in relation(each, other, aim, level) for other in rest)
+    known = settled([each, *rest], aim)
+    return all("yes" in relation(each, other, aim, level, known) for other in rest)
 
 
 def beside(each: Evaluation, today: Evaluation, aim: Aim, error: float) -> Answer:
@@ -68,7 +89,9 @@ def beside(each: Evaluation, today: Evaluation, aim: Aim, error: float) -> Answe
 
     It does not if it is worse in something, or the same in all runs.
     """
-    answers = relation(each, today, aim, error)
-    if "no" in answers or not any(answers):
+    if each.by_seed == today.by_seed:
         return "no"
-    return "yes" if all(answer in ("yes", None) for answer in answers) else "not yet"
+    answers = relation(each, today, aim, error, settled([each, today], aim))
+    if "no" in answers:
+        return "no"
+    return "yes" if _all_better(answers) else "not yet"

@@ -50,7 +50,7 @@ class FrontSearch(Search):
         plan = self._plan
         survivors, left = self.finals()
         today = self._fresh(Candidate(), "today")
-        chosen = ranked(survivors, plan.aim)[:ON_FRONT]
+        chosen = ranked(self._distinct(survivors), plan.aim)[:ON_FRONT]
         measured = [self._fresh(each.candidate, "front") for each in chosen]
         possible = self._distinct([each for each in measured if each.means is not None])
         if not possible:

@@ -120,7 +120,9 @@ class FrontOutcome:
         """Return the point that the user chooses; ask for it on a terminal."""
         count = len(self._found.points)
         if point is None and sys.stdin.isatty():
-            point = click.prompt("point", type=click.IntRange(1, count), err=True)
+            point = click.prompt(
+                f"point to apply, 1 to {count}", type=click.IntRange(1, count), err=True
+            )
         if point is None or point > count:
             fault = "no point is chosen" if point is None else f"there is no point {point}"
             help_ = f"`--point N`, with N from 1 to {count}, chooses one of the table"

@@ -99,7 +99,7 @@ def _objectives(
         for name in names:
             measure = FITNESS if name == fitness.name and name not in known else name
             if measure in known:
-                yield Objective(measure, goal)
+                yield Objective(measure, goal, known[measure] == PROPERTY)
                 continue
             help_ = suggest(name, known, "measures")
             owner = f"`{subject.name}`"
@@ -152,14 +152,21 @@ def problem_of(request: Request, report: Diagnostics) -> Problem | None:
     first, *others = objectives
     kept = dict.fromkeys(each.property for each in optimization.constraints)
     properties = tuple({**kept, **dict.fromkeys(request.properties)})
-    watched = (each.measure for each in objectives if measures(subject)[each.measure] == PROPERTY)
+    watched = (each.measure for each in objectives if each.is_property)
     conditions = replace(conditions, properties=tuple(dict.fromkeys((*properties, *watched))))
     shipment = replace(shipment, conditions=conditions)
     given = {name: int(number(value)) for name, value in optimization.settings}
     seed = request.seed if request.seed is not None else given.get("seed", 0)
     plan = Plan(
         space,
-        Aim(first.goal, request.together, properties, first.measure, tuple(others)),
+        Aim(
+            first.goal,
+            request.together,
+            properties,
+            first.measure,
+            tuple(others),
+            first.is_property,
+        ),
         tuple(map(str, request.scenarios)) or (NO_SCENARIO,),
         request.method,
         request.evaluations or given.get("evaluations", 200),
