@@ -177,7 +177,7 @@ def _spent(shipment: Shipment, tasks: Sequence[Task], make: Callable[[], Engine]
 
 
 def _nothing() -> dict[str, object]:
-    return {"scenario": SCENARIO, "candidate": {}, "seeds": []}
+    return {"scenario": SCENARIO, "candidate": {}, "seeds": [], "main": os.getpid()}
 
 
 def _of_children() -> float:
