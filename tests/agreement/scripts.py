@@ -9,9 +9,12 @@ from __future__ import annotations
 import random
 import re
 from collections import deque
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+import pytest
 
 from swarmdsl import ir
 from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
@@ -35,6 +38,9 @@ WALKS, STEPS = 10, 40
 APART = 50_000_000
 """Minimum time between the ends of delays, in ns; documents use milliseconds."""
 
+EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
+MORE = {"agriculture", "cpswarm", "emergency_exit", "flocking", "meadow", "minimal"}
+"""Examples whose machines use nothing that those of other models do not use."""
 NEVER = {
     ("everything", "Work"): ["on done   -> Stop"],
     ("language", "Market"): ["on F [offers[1].price > 2] / clear offers -> Open"],
@@ -46,6 +52,18 @@ NEVER = {
 def titled(path: Path) -> str:
     """Return the name of a model in a folder of its own."""
     return (path.parent if path.suffix else path).name
+
+
+def params(paths: Iterable[Path]) -> list[Any]:
+    """Models as parameters of a test: those of most examples for a thorough one."""
+    return [
+        pytest.param(
+            path,
+            id=titled(path),
+            marks=[pytest.mark.thorough] if path.parent == EXAMPLES and path.name in MORE else [],
+        )
+        for path in paths
+    ]
 
 
 @dataclass(frozen=True)

@@ -30,6 +30,7 @@ def lint(ros_folder: Path, tmp_path: Path) -> Callable[[list[Path]], list[str]]:
     return lint
 
 
+@pytest.mark.thorough
 def test_examples_pass(lint: Callable[[list[Path]], list[str]], packages: list[Path]) -> None:
     """Modules that all packages have are read once."""
     modules = {path.read_bytes(): path for each in packages for path in each.rglob("*.py")}

@@ -33,7 +33,7 @@ from swarmdsl.ir import Array, Literal, Named, System
 from swarmdsl.syntax.types import DURATION
 
 from ..agreement.engines import Step
-from ..agreement.scripts import NEVER, WALKS, Model, Subject, Watch, titled
+from ..agreement.scripts import NEVER, WALKS, Model, Subject, Watch, params, titled
 from ..swarm_printer.systems import systems
 from .ros1 import for_ros_1
 
@@ -391,7 +391,7 @@ def clock(build: Build, monkeypatch: pytest.MonkeyPatch) -> Any:
     return hand
 
 
-@pytest.mark.parametrize("path", [pytest.param(p, id=titled(p)) for p in MODELS])
+@pytest.mark.parametrize("path", params(MODELS))
 def test_models(path: Path, build: Build, clock: Any) -> None:
     system = pipeline.check([path]).system
     assert system is not None

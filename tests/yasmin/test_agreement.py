@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from ..agreement.scripts import params
 from ..ros2_outcomes.agreement import MODELS, Build, Twin, check_model, check_models_made_by_chance
 
 SYSTEMS = 40
@@ -47,9 +48,7 @@ def _inside(container: Any, path: str) -> Iterator[str]:
             yield from _inside(state, found)
 
 
-@pytest.mark.parametrize(
-    "path", [pytest.param(p, id=(p.parent if p.suffix else p).name) for p in MODELS]
-)
+@pytest.mark.parametrize("path", params(MODELS))
 def test_models(path: Path, build: Build) -> None:
     check_model(path, build, Yasmin)
 
