@@ -54,7 +54,7 @@ def test_a_window_is_saved(browser: Any, tmp_path: Path, monkeypatch: pytest.Mon
     def save(title: str) -> Path:
         with visit.page.expect_download() as found:
             visit.page.get_by_role("button", name=title).click()
-        path = tmp_path / found.value.suggested_filename
+        path = tmp_path / str(found.value.suggested_filename)
         found.value.save_as(path)
         return path
 
@@ -81,3 +81,31 @@ def test_a_window_is_saved(browser: Any, tmp_path: Path, monkeypatch: pytest.Mon
     assert {each.partition("#")[0] for each in asked} == {visit.address}
     assert visit.wrong == []
     visit.page.close()
+
+
+def test_two_runs_side_by_side(
+    browser: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("model.swarm").write_text(MODEL, encoding="utf-8")
+    Path("go.jsonl").write_text('{"event": "Go", "after": 1000}\n', encoding="utf-8")
+    words = ["model.swarm", "--events", "go.jsonl", "--until", "10s"]
+    assert run(["simulate", *words, "--trace-file", "other.jsonl"]) == 0
+    second = '{"event": "Go", "after": 1500, "member": "robot[1]"}\n'
+    with Path("go.jsonl").open("a", encoding="utf-8") as stream:
+        stream.write(second)
+    assert run(["play", *words, "--compare", "other.jsonl"]) == 0
+    visit = Visit(browser, tmp_path / "run.html")
+    panel = visit.page.locator(".of-compare")
+    assert "differ from 0:02.500 on, first in robot[1]." in panel.inner_text()
+    panel.get_by_role("button", name="first difference").click()
+    assert visit.value("player.time") == 2.5e9
+    visit.page.wait_for_selector(".of-compare tr.differs")
+    (row,) = panel.locator("tr.differs").all()
+    assert row.locator("td").all_inner_texts()[:2] == [
+        "On.Do.Rest, On.Hear.Loud",
+        "\N{NOT EQUAL TO} On.Do.Rest, On.Hear.Quiet",
+    ]
+    visit.close()
+
+    assert run(["play", *words, "--compare", "missing.jsonl"]) == 1

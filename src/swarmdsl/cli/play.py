@@ -38,6 +38,12 @@ if TYPE_CHECKING:
     help="Play a run that `swarmc verify -o` has written.",
 )
 @click.option(
+    "--compare",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Compare with the trace of another run, JSON lines, from the first difference on.",
+)
+@click.option(
     "--scenario",
     type=click.Path(path_type=Path),
     metavar="FILE",
@@ -69,6 +75,7 @@ def play(
     swarm: str | None,
     traces: tuple[Path, ...],
     counterexample: Path | None,
+    compare: Path | None,
     scenario: Path | None,
     events: Path | None,
     seed: int | None,
@@ -83,7 +90,7 @@ def play(
     shows a new simulation, or recorded traces; what is wrong with these is told in it.
     """
     from swarmdsl.execution.simulate.prepare import Request
-    from swarmdsl.tools.player.command import play_run, play_traces
+    from swarmdsl.tools.player.command import play_run, play_traces, read_other
 
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` conflict")
@@ -92,7 +99,7 @@ def play(
         if recorded and value is not None:
             given = "--trace" if traces else "--counterexample"
             raise click.UsageError(f"`{given}` and `--{name}` conflict")
-    options.check_outputs({"-o": out}, (*paths, *recorded, scenario, events))
+    options.check_outputs({"-o": out}, (*paths, *recorded, compare, scenario, events))
     found: list[Diagnostic] = []
 
     def tell(report: Diagnostics) -> None:
@@ -110,9 +117,20 @@ def play(
         seed=seed,
         until=until,
     )
-    played = play_traces(request, recorded, out, tell) if recorded else play_run(request, out, tell)
+    other = read_other(request, compare, tell) if compare is not None else None
+    if recorded:
+        played = play_traces(request, recorded, out, tell, other)
+    else:
+        played = play_run(request, out, tell, other)
+    unread = compare is not None and other is None
     if format_ in DOCUMENTS:
         render(found, format_, sys.stdout)
     if played.written is not None:
         click.echo(played.written.as_posix(), err=True)
-    return INTERRUPTED if played.succeeded is None else OK if played.succeeded else ERRORS
+    return (
+        INTERRUPTED
+        if played.succeeded is None
+        else OK
+        if played.succeeded and not unread
+        else ERRORS
+    )

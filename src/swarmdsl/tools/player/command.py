@@ -30,15 +30,40 @@ class Played:
     written: Path | None = None
 
 
-def play_run(request: Request, out: Path, tell: Tell) -> Played:
-    """Simulate a run and write its page; a run that fails is shown up to where it did."""
+def play_run(request: Request, out: Path, tell: Tell, other: Recording | None = None) -> Played:
+    """Simulate a run and write its page; a run that fails is shown up to where it did.
+
+    The page compares it with the other run, if there is one.
+    """
     request = replace(request, trace="none")
     return recorded(
-        lambda keep, recorder: simulate(replace(request, recorder=recorder), keep), out, tell
+        lambda keep, recorder: simulate(replace(request, recorder=recorder), keep),
+        out,
+        tell,
+        other,
     )
 
 
-def recorded(run: Callable[[Tell, RunRecorder], bool | None], out: Path, tell: Tell) -> Played:
+def read_other(request: Request, path: Path, tell: Tell) -> Recording | None:
+    """Return the recording of a trace to compare with; None if it cannot be read."""
+    report = Diagnostics()
+    source = read_source(path, None, report, "a trace", MOST_RECORDED)
+    recording = None
+    if source is not None:
+        of = replace(request, replay=(path,), events=None)
+        recording = record_traces([source], _prepared(of, Diagnostics()), report)
+        if recording is None and not report.has_errors:
+            report.report("empty-trace", path=source.name)
+    tell(report)
+    return recording
+
+
+def recorded(
+    run: Callable[[Tell, RunRecorder], bool | None],
+    out: Path,
+    tell: Tell,
+    other: Recording | None = None,
+) -> Played:
     """Run something that tells a recorder, and write the page of what it has told."""
     recorder = RunRecorder()
     found: list[Diagnostic] = []
@@ -51,7 +76,7 @@ def recorded(run: Callable[[Tell, RunRecorder], bool | None], out: Path, tell: T
     recording = recorder.recording(found)
     if recording is None:
         return Played(succeeded)
-    return _written(recording, out, tell, succeeded)
+    return _written(recording, out, tell, succeeded, other)
 
 
 def play_lines(request: Request, name: str, text: str, out: Path, tell: Tell) -> Played:
@@ -63,8 +88,17 @@ def play_lines(request: Request, name: str, text: str, out: Path, tell: Tell) ->
     return _written(recording, out, tell, True)
 
 
-def play_traces(request: Request, traces: Sequence[Path], out: Path, tell: Tell) -> Played:
-    """Write the page of traces, of a model if one is named or found; show what can be read."""
+def play_traces(
+    request: Request,
+    traces: Sequence[Path],
+    out: Path,
+    tell: Tell,
+    other: Recording | None = None,
+) -> Played:
+    """Write the page of traces, of a model if one is named or found; show what can be read.
+
+    The page compares them with the other run, if there is one.
+    """
     report = Diagnostics()
     sources = []
     for path in traces:
@@ -81,7 +115,7 @@ def play_traces(request: Request, traces: Sequence[Path], out: Path, tell: Tell)
     tell(report)
     if recording is None:
         return Played(False)
-    return _written(recording, out, tell, not report.has_errors)
+    return _written(recording, out, tell, not report.has_errors, other)
 
 
 def play_test(verdict: Verdict, out: Path, tell: Tell) -> Played:
@@ -106,11 +140,17 @@ def _prepared(request: Request, report: Diagnostics) -> Prepared | None:
     return prepared
 
 
-def _written(recording: Recording, out: Path, tell: Tell, succeeded: bool | None) -> Played:
+def _written(
+    recording: Recording,
+    out: Path,
+    tell: Tell,
+    succeeded: bool | None,
+    other: Recording | None = None,
+) -> Played:
     report = Diagnostics()
     try:
         with write_stream(out) as stream:
-            stream.write(page(recording))
+            stream.write(page(recording, other))
     except OSError as error:
         report_unwritten(out, error, report)
         tell(report)

@@ -15,11 +15,14 @@ from swarmdsl.tools.player.encoding import encode, pack
 from swarmdsl.tools.player.modules import join
 from swarmdsl.tools.player.recording import Recording
 
+_OTHER = '<script type="application/octet-stream" id="other">{}</script>\n'
 _FILES = Path(__file__).resolve().parent / "page"
 
 
-def page(recording: Recording) -> str:
+def page(recording: Recording, other: Recording | None = None) -> str:
     """Return the page of a recording as HTML; nothing of the recording is markup or script in it.
+
+    It compares the run with the other one, if there is one.
 
     The policy lets nothing be loaded, and nothing run but the two scripts with these hashes: one
     unpacks the other.
@@ -39,6 +42,7 @@ def page(recording: Recording) -> str:
         script=pack(script),
         loader=loader,
         recording=encode(recording),
+        other="" if other is None else _OTHER.format(encode(other)),
     )
 
 

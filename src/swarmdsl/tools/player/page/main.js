@@ -152,8 +152,11 @@ function start(recording) {
   return player;
 }
 
-const text = byId("recording").textContent;
-load(text).then(
-  (recording) => (globalThis.player = start(recording)),
+const other = byId("other")?.textContent;
+Promise.all([load(byId("recording").textContent), other ? load(other) : null]).then(
+  ([recording, compared]) => {
+    recording.other = compared; // a run to compare with
+    globalThis.player = start(recording);
+  },
   (error) => byId("notes").append(el("p", { class: "error", role: "alert" }, error.message)),
 );

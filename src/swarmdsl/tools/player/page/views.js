@@ -1,4 +1,5 @@
 // All views. A new one is a module with an exported `view` and a line here.
+import { view as compare } from "./compare.js";
 import { view as coverage } from "./coverage.js";
 import { view as lanes } from "./lanes.js";
 import { view as log } from "./log.js";
@@ -13,4 +14,4 @@ import { view as variables } from "./variables.js";
 /** The view above all others. */
 export const MAIN = lanes;
 /** The views below it, in the order of their tabs. */
-export const VIEWS = [machine, sequence, map, properties, variables, measures, coverage, log, text];
+export const VIEWS = [compare, machine, sequence, map, properties, variables, measures, coverage, log, text];
