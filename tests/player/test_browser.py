@@ -163,3 +163,38 @@ def test_a_machine_alone_and_dark_colours(browser: Any, tmp_path: Path) -> None:
         "document.querySelector('[role=status]').textContent.includes('Blinking: ')"
     )
     visit.close()
+
+
+def test_values_that_no_simulator_writes_leave_every_view_whole(
+    browser: Any, tmp_path: Path
+) -> None:
+    odd: list[dict[str, Any]] = [
+        {"data": None, "envelope": {}, "taken": ["nope->9"]},
+        {"envelope": {"sender": "zz"}, "sent": ["X"], "nobody": ["X", 3], "scheduled": 5},
+        {"member": "__proto__", "event": "constructor", "configuration": ["toString"]},
+        {"member": "", "event": "", "configuration": [], "at": [1e308, -1e308]},
+        {"variables": {"__proto__": {"x": 1}, "v": [{"z": None}]}, "recalled": 1, "cause": 2},
+        {"event": "\ud800", "data": float("nan"), "at": [float("inf"), 1]},
+        {"event": "Go", "data": 2**70},
+    ]
+    lines = [*lines_of(20, 2)]
+    lines += [{**lines[0], "t": lines[-1]["t"] + number, **each} for number, each in enumerate(odd)]
+    beside: list[dict[str, Any]] = [
+        {"property": "P", "verdict": 3},
+        {"measures": [None, {"name": "m"}]},
+        {"moved": {"talker[0]": [1, "x"]}},
+        {"lost": {"event": "X", "sender": "talker[0]", "member": "nobody", "sent": 3}},
+        {"lost": {}, "moved": {"q[0]": [1, 2, 3]}, "links": 3, "targets": [], "saw": 1},
+    ]
+    lines += [{"t": lines[-1]["t"], **each} for each in beside]
+    visit = Visit(browser, written(tmp_path, lines))
+    count = visit.value("player.recording.count")
+    tabs = visit.page.locator(".panel").first.locator("[role=tab]")
+    assert tabs.count() > 3
+    for number in range(tabs.count()):
+        tabs.nth(number).click()
+        for index in range(20, count):
+            visit.value(f"player.go({index})")
+            visit.value("new Promise((done) => requestAnimationFrame(() => done(1)))")
+        assert visit.page.locator(".view .error").count() == 0
+    visit.close()

@@ -165,3 +165,23 @@ def test_an_output_in_the_place_of_an_input_is_refused(
     assert run(["play", "--trace", str(trace), "-o", str(trace)]) == 2
     assert "is an input of this command" in capsys.readouterr().err
     assert trace.read_text(encoding="utf-8") == "\n".join(GOOD)
+
+
+def test_bytes_that_are_no_text_and_deep_values_are_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    deep = line(2000, None, "Go", "Off", data="DEEP").replace('"DEEP"', "[" * 900 + "]" * 900)
+    text = "\n".join([*GOOD, deep, line(3000, None, "Go", "Müde")])
+    Path("run.jsonl").write_bytes(text.encode().replace(b"\\u00fc", b"\xc3"))
+    assert run(["play", "--trace", "run.jsonl"]) == 1
+    err = capsys.readouterr().err
+    assert "error[SW0004]" in err
+    assert "nested more than 100 levels deep" in err
+    recording = recording_of(Path("run.html"))
+    assert [each["code"] for each in recording["notes"]] == ["SW1010", "SW0004"]
+    assert recording["machines"]["machine"]["states"] == [
+        "Off",
+        "On",
+        "M\N{REPLACEMENT CHARACTER}de",
+    ]

@@ -14,6 +14,9 @@ NAMES = ("configuration", "entered", "exited", "started", "cancelled", "sent")
 NOT_FINITE = ("NaN", "Infinity", "-Infinity")
 """Numbers that JSON does not have, as strings; `float` reads them."""
 
+_DEEPEST = 100
+"""Levels of lists and objects in a line."""
+
 # 292 years: the maximum in ROS.
 _LONGEST = 2**63 // 1_000_000
 
@@ -50,7 +53,22 @@ def read_line(text: str | bytes) -> dict[str, Any] | str:
         value = None
     if not isinstance(value, dict):
         return "it is not a JSON object"
+    if len(text) > _DEEPEST and _is_deep(value):
+        return f"it is nested more than {_DEEPEST} levels deep"
     return _fault(value) or value
+
+
+def _is_deep(value: Any) -> bool:
+    """Return True if a value is nested so deeply that functions which call themselves fail."""
+    level = [value]
+    for _ in range(_DEEPEST):
+        lists = (each.values() if isinstance(each, dict) else each for each in level)
+        level = [
+            each for inside in lists for each in inside if each and isinstance(each, (dict, list))
+        ]
+        if not level:
+            return False
+    return True
 
 
 def is_beside_steps(value: Mapping[str, Any]) -> bool:

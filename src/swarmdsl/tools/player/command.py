@@ -14,7 +14,7 @@ from swarmdsl.execution.simulate.command import simulate
 from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
 from swarmdsl.execution.testing.run_case import run_case
 from swarmdsl.execution.testing.verdict import Verdict
-from swarmdsl.project.read_source import read_source
+from swarmdsl.project.read_source import decoded, read_bytes
 from swarmdsl.tools.player.page import page
 from swarmdsl.tools.player.record import RunRecorder, record_traces
 from swarmdsl.tools.player.recording import Recording
@@ -102,7 +102,7 @@ def play_traces(
     report = Diagnostics()
     sources = []
     for path in traces:
-        source = read_source(path, None, report, "a trace", MOST_RECORDED)
+        source = _source(path, report)
         if source is not None:
             sources.append(source)
     for source in sources:
@@ -129,6 +129,17 @@ def play_test(verdict: Verdict, out: Path, tell: Tell) -> Played:
         return True
 
     return recorded(run, out, tell)
+
+
+def _source(path: Path, report: Diagnostics) -> Source | None:
+    """Return a trace; one with bytes that are no UTF-8, which are reported, without these."""
+    data = read_bytes(path, None, report, "a trace", MOST_RECORDED)
+    if data is None:
+        return None
+    source = decoded(path, data, None, report)
+    if source is None and b"\0" not in data:
+        return Source(str(path), data.decode(errors="replace"), path)
+    return source
 
 
 def _prepared(request: Request, report: Diagnostics) -> Prepared | None:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -11,8 +10,8 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.trace_line import NOT_FINITE, named_numbers
 from swarmdsl.execution.simulate.trace_records import Record, read_records
+from swarmdsl.tools.player.trace_values import fitting
 
-_AXES = (2, 3)
 _SOON = 5 * MILLISECOND
 """Tolerance of clocks: traces have whole milliseconds."""
 _SHOWN = 20
@@ -35,7 +34,7 @@ def read_steps(sources: Sequence[Source], report: Diagnostics) -> list[tuple[dic
         if began is not None:
             zero = min(began, zero if zero is not None else began)
         records += of
-    steps = [(_plain(each, zero), each) for each in records]
+    steps = [(step, each) for each in records if (step := _plain(each, zero)) is not None]
     if any(word in source.text for source in sources for word in NOT_FINITE):
         steps = [(named_numbers(step), record) for step, record in steps]
     _report_clocks(steps, report)
@@ -55,8 +54,8 @@ def _include(found: Diagnostics, report: Diagnostics) -> None:
         report.report("bad-trace-line", place, reason=f"{more} more lines are no lines of a trace")
 
 
-def _plain(record: Record, zero: int | None) -> dict[str, Any]:
-    """Return the values of a line that a page can show, times since the beginning."""
+def _plain(record: Record, zero: int | None) -> dict[str, Any] | None:
+    """Return the values of a line that a page can show, times since the beginning, if any."""
     value = dict(record.done)
     began = value.pop("began", zero)
     offset = 0 if began is None or zero is None else began - zero
@@ -65,43 +64,11 @@ def _plain(record: Record, zero: int | None) -> dict[str, Any]:
     if envelope is not None and envelope.get("sent", 0) > _EPOCH:
         # A node fills in the time of its clock, not that since it began.
         value["envelope"] = {**envelope, "sent": envelope["sent"] - (zero or 0) * MILLISECOND}
-    for key, is_fit in _CHECKS.items():
-        if key in value and not is_fit(value[key]):
-            del value[key]
-    return value
+    return fitting(value)
 
 
 _EPOCH = 10**18
 """Nanoseconds from which on a time is one of a clock: September 2001."""
-
-
-def _is_place(value: Any) -> bool:
-    return (
-        isinstance(value, list)
-        and len(value) in _AXES
-        and all(isinstance(each, (int, float)) and math.isfinite(each) for each in value)
-    )
-
-
-def _is_moved(value: Any) -> bool:
-    return isinstance(value, dict) and all(map(_is_place, value.values()))
-
-
-def _is_lost(value: Any) -> bool:
-    return (
-        isinstance(value, dict)
-        and all(isinstance(value.get(key), str) for key in ("event", "sender", "member"))
-        and isinstance(value.get("sent"), int)
-    )
-
-
-_CHECKS: Mapping[str, Callable[[Any], bool]] = {
-    "at": _is_place,
-    "moved": _is_moved,
-    "lost": _is_lost,
-    "variables": lambda value: isinstance(value, dict),
-    "nobody": lambda value: isinstance(value, list),
-}
 
 
 def _report_clocks(steps: Iterable[tuple[Mapping[str, Any], Record]], report: Diagnostics) -> None:

@@ -35,10 +35,25 @@ function address(player, panels) {
   return read;
 }
 
+/** The view, such that a fault of it is told in its place and leaves the others alone. */
+function contained(view) {
+  let place = null;
+  const safely = (act) => (...given) => {
+    try {
+      return act(...given);
+    } catch (error) {
+      place?.replaceChildren(el("p", { class: "error" }, `this view cannot show the recording: ${error.message}`));
+      return false;
+    }
+  };
+  const mount = safely((element, player) => view.mount((place = element), player));
+  return { ...view, available: safely((recording) => view.available(recording)), mount, show: safely((moment) => view.show(moment)) };
+}
+
 /** Two panels with tabs of views; the views that are seen are shown each moment. */
 function panelsOf(element, player) {
   const { recording } = player;
-  const views = VIEWS.filter((each) => each.available(recording));
+  const views = VIEWS.map(contained).filter((each) => each.available(recording));
   const panels = [];
   const found = {
     changed: () => {},
