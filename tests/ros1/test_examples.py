@@ -39,7 +39,14 @@ MISSION = ["uav_mavros_takeoff", "uav_coverage", "auction_action", "uav_tracking
 STATES = ["Idle", "TakeOff", "Coverage", "SelectRover", "Tracking", "LocalCoverage"]
 
 
-@pytest.mark.parametrize("state", STATES)
+@pytest.mark.parametrize(
+    "state",
+    # The same transition leaves all of them.
+    [
+        pytest.param(each, marks=[pytest.mark.thorough] if each in STATES[1:-1] else [])
+        for each in STATES
+    ],
+)
 def test_mission_abort_lands_the_uav_from_every_state(state: str, world: World) -> None:
     uav = world(example="search_and_rescue")
     uav.serve()

@@ -108,7 +108,13 @@ def test_robot_that_is_launched(world: World) -> None:
 
 @pytest.mark.parametrize(
     "example",
-    ["minimal", "search_and_rescue", "emergency_exit", "flocking", "storage", "cpswarm"],
+    [
+        *("minimal", "search_and_rescue", "cpswarm"),
+        *(
+            pytest.param(each, marks=pytest.mark.thorough)
+            for each in ("emergency_exit", "flocking", "storage")
+        ),
+    ],
 )
 def test_rostest_of_an_example(example: str, world: World) -> None:
     if not Path("/usr/bin/rostest").exists():

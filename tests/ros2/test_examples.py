@@ -39,6 +39,8 @@ STEPS = 200
 FAR = 30
 GONE = 3.0
 """After how many seconds without a server a call is aborted."""
+ALIKE = {"emergency_exit", "flocking", "meadow", "minimal"}
+"""Examples whose nodes do nothing that those of others do not do."""
 _ONCE = ("event", "wait", "gone")
 _PATIENCE = {"wait": 0.5, "gone": 12.0}
 """Seconds to wait for a visible effect, by kind of deed."""
@@ -229,7 +231,14 @@ def _with_those_around(configuration: list[str]) -> list[str]:
     return list(found)
 
 
-@pytest.mark.parametrize("example", sorted(p.name for p in EXAMPLES.iterdir() if p.is_dir()))
+@pytest.mark.parametrize(
+    "example",
+    [
+        pytest.param(path.name, marks=[pytest.mark.thorough] if path.name in ALIKE else [])
+        for path in sorted(EXAMPLES.iterdir())
+        if path.is_dir()
+    ],
+)
 def test_its_nodes_come_through_all_their_states(ros: Any, example: str) -> None:
     system = pipeline.check([EXAMPLES / example]).system
     assert system is not None
