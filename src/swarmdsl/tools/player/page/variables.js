@@ -24,7 +24,7 @@ export const view = {
     const { recording, selected } = this.player;
     const all = selected === null ? recording.members.map((_, at) => at) : recording.selected(selected);
     const numbers = all.filter((each) => Object.keys(moment.members[each]?.variables ?? {}).length).slice(0, MOST);
-    const names = [...new Set(numbers.flatMap((each) => Object.keys(moment.members[each].variables)))];
+    const names = [...new Set(numbers.flatMap((each) => Object.keys(moment.members[each].variables)))].filter((each) => each !== "self");
     const shown = `${numbers.join()}\n${names.join("\n")}`;
     if (shown !== this.names) {
       this.names = shown;
