@@ -47,7 +47,7 @@ def play_run(request: Request, out: Path, tell: Tell, other: Recording | None = 
 def read_other(request: Request, path: Path, tell: Tell) -> Recording | None:
     """Return the recording of a trace to compare with; None if it cannot be read."""
     report = Diagnostics()
-    source = read_source(path, None, report, "a trace", MOST_RECORDED)
+    source = _source(path, report)
     recording = None
     if source is not None:
         of = replace(request, replay=(path,), events=None)

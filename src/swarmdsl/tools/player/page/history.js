@@ -67,7 +67,7 @@ class History {
     for (const robot in moved) this.#move(at, robot, moved[robot]);
     if (step.links) this.links.push({ at, pairs: step.links });
     if (step.targets) this.targets.push({ at, targets: step.targets });
-    if (step.saw) this.seen.push({ at, ...step.saw, place: moved[step.saw.member] });
+    if (step.saw && moved[step.saw.member]) this.seen.push({ at, ...step.saw, place: moved[step.saw.member] });
   }
 
   #move(at, robot, [x, y]) {
