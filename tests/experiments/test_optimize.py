@@ -302,6 +302,7 @@ def test_the_page_shows_the_search_and_plays_its_worst_runs(
     assert worst[0] == seed
     # A property of the model may be violated in this run.
     assert run([*words, seed, "--trace", "none", "--results", "played.json"]) in (0, 1)
+    assert 'id="recording"' in Path(words[words.index("--play") + 1]).read_text(encoding="utf-8")
     capsys.readouterr()
     played = json.loads(Path("played.json").read_text(encoding="utf-8"))
     assert played["fitness"]["value"] == worst[1]

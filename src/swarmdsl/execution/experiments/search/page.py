@@ -121,7 +121,7 @@ def worst_runs(
     words: Sequence[str],
     folder: Path,
 ) -> tuple[list[Worst], dict[Path, str]]:
-    """Return the worst runs, and the scenarios in a folder that play them.
+    """Return the worst runs, and the scenarios in a folder for the commands that play them.
 
     `texts` are the scenarios by name, `words` those of the command before its options.
     """
@@ -139,6 +139,8 @@ def worst_runs(
         for _, seed in sorted(by_loss)[: each.most]:
             for name in plan.scenarios:
                 path = paths[candidate.text, name]
-                command = shlex.join([*words, "--scenario", str(path), "--seed", str(seed)])
+                page = str(path.with_name(f"{path.stem}-{seed}.html"))
+                given = ("--scenario", str(path), "--play", page, "--seed", str(seed))
+                command = shlex.join([*words, *given])
                 runs.append(Worst(each.why, seed, values[seed], command))
     return runs, scenarios
