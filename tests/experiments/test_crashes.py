@@ -57,12 +57,12 @@ def test_runs_that_end_their_process_fail_alone(
         Path(name).write_text(text, encoding="utf-8")
 
     # One job runs in a process of its own, because the project has code that may end it.
-    words = ["experiment", "study.toml", "--jobs", "1", "--limit", "0.2", "-o", "out", "--json"]
+    words = ["experiment", "study.toml", "--jobs", "1", "--limit", "1.5", "-o", "out", "--json"]
     assert run(words) == 1
     said = capsys.readouterr()
     assert "error[SW1611]: 3 of 4 runs have no result: its process ends" in said.err
     points = json.loads(said.out)["points"]
     reasons = [each["failures"][0]["reason"] if "failures" in each else "" for each in points]
-    gone = "its process ends, or it does not return within 0.2 s"
+    gone = "its process ends, or it does not return within 1.5 s"
     assert reasons == [gone, "", gone, reasons[3]]
     assert "RuntimeError: no luck" in reasons[3]
