@@ -1,0 +1,102 @@
+"""A branch in which nothing is changed goes on as the recording did."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.execution.monitor import LOST
+from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.prepare import Request, prepare
+from swarmdsl.execution.simulate.run import run
+from swarmdsl.execution.simulate.trace import Line, as_json
+from swarmdsl.execution.simulate.world import World
+from swarmdsl.tools.player.engine_world import written_world
+
+from ..verify.random_swarms import random_swarm
+from .engine_in_page import needs_node, node
+
+ROOT = Path(__file__).resolve().parents[2]
+EXAMPLES = [
+    ("search_and_rescue", "mission.toml", "SearchAndRescue"),
+    ("agriculture", "season.toml", None),
+    ("storage", None, None),
+    ("minimal", None, None),
+    ("emergency_exit", None, None),
+]
+FORKS = (-1, 0, 3, 10, 25, 60, 100)
+
+
+def recorded(request: Request, until: int) -> dict[str, Any]:
+    """A run of the simulator, as it is on the page, to be forked at some lines."""
+    report = Diagnostics()
+    prepared = prepare(request, report)
+    assert prepared is not None, [each.message for each in report]
+    cast, inputs = prepared.stage(report)
+    seed = request.seed or prepared.scenario.seed
+    subject = prepared.subject
+    given = written_world(subject, cast, prepared.scenario, seed, has_places=False)
+    lines: list[dict[str, Any]] = []
+
+    def note(line: Line) -> None:
+        variables = {k: v for k, v in line.actor.data.items() if not callable(v) and k != "self"}
+        name = line.actor.name or line.actor.machine.name
+        lines.append({**json.loads(as_json(line)), "member": name, "variables": variables})
+        lines[-1] = json.loads(json.dumps(lines[-1]))
+
+    world = World(subject.system, cast, prepared.scenario, seed, [note], subject.heartbeat)
+    run(world, inputs, until)
+    forks = [each for each in FORKS if each < len(lines)]
+    return {"world": given, "lines": lines, "lost": LOST, "end": until, "forks": forks}
+
+
+def check(cases: list[dict[str, Any]], folder: Path) -> None:
+    found = node("branches.js", map(json.dumps, cases), folder)
+    for case, differences in zip(cases, found, strict=True):
+        for last, difference in zip(case["forks"], differences, strict=True):
+            words = json.dumps(difference, indent=1)
+            assert difference is None, f"{case['world']['subject']} after {last}: {words}"
+
+
+@needs_node
+def test_examples(tmp_path: Path) -> None:
+    cases = []
+    for name, scenario, swarm in EXAMPLES:
+        folder = ROOT / "examples" / name
+        path = folder / scenario if scenario else None
+        request = Request((folder,), swarm=swarm, scenario=path, world="abstract")
+        cases.append(recorded(request, 120 * SECOND))
+    assert sum(len(each["lines"]) for each in cases) > 500
+    check(cases, tmp_path)
+
+
+SCENARIO = """until = "40 s"
+[network]
+latency = { uniform = ["5 ms", "900 ms"] }
+loss = 0.2
+[functions.attempt]
+duration = { normal = ["2 s", "1 s"] }
+aborted = 0.2
+never = 0.1
+results = [{ ok = true }, { ok = false }]
+[[messages]]
+event = "Go"
+at = "2 s"
+every = "3 s"
+"""
+
+
+@needs_node
+def test_random_swarms(pytestconfig: pytest.Config, tmp_path: Path) -> None:
+    cases = []
+    (tmp_path / "scenario.toml").write_text(SCENARIO)
+    for seed in range(200 if pytestconfig.getoption("--agreement") else 12):
+        path = tmp_path / f"swarm{seed}.swarm"
+        path.write_text(random_swarm(seed))
+        scenario = tmp_path / "scenario.toml"
+        cases.append(recorded(Request((path,), scenario=scenario, seed=seed), 40 * SECOND))
+    check(cases, tmp_path)
