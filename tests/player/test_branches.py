@@ -9,12 +9,17 @@ from typing import Any
 import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.simulate.prepare import Request, prepare
 from swarmdsl.execution.simulate.run import run
 from swarmdsl.execution.simulate.trace import Line, as_json
 from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.testing.case import InvalidTest
+from swarmdsl.execution.testing.models import Models
+from swarmdsl.execution.testing.reading import read_tests
+from swarmdsl.execution.testing.verdict import judge
 from swarmdsl.tools.player.engine_world import written_world
 
 from ..verify.random_swarms import random_swarm
@@ -39,7 +44,6 @@ def recorded(request: Request, until: int) -> dict[str, Any]:
     cast, inputs = prepared.stage(report)
     seed = request.seed or prepared.scenario.seed
     subject = prepared.subject
-    given = written_world(subject, cast, prepared.scenario, seed, has_places=False)
     lines: list[dict[str, Any]] = []
 
     def note(line: Line) -> None:
@@ -49,6 +53,7 @@ def recorded(request: Request, until: int) -> dict[str, Any]:
         lines[-1] = json.loads(json.dumps(lines[-1]))
 
     world = World(subject.system, cast, prepared.scenario, seed, [note], subject.heartbeat)
+    given = written_world(subject, cast, world)
     run(world, inputs, until)
     forks = [each for each in FORKS if each < len(lines)]
     return {"world": given, "lines": lines, "lost": LOST, "end": until, "forks": forks}
@@ -100,3 +105,35 @@ def test_random_swarms(pytestconfig: pytest.Config, tmp_path: Path) -> None:
         scenario = tmp_path / "scenario.toml"
         cases.append(recorded(Request((path,), scenario=scenario, seed=seed), 40 * SECOND))
     check(cases, tmp_path)
+
+
+@needs_node
+def test_saved_tests_pass(tmp_path: Path) -> None:
+    """A branch with other events and outcomes is a test that `swarmc test` passes."""
+    folders = [ROOT / "examples" / name for name in ("storage", "minimal")]
+    (tmp_path / "scenario.toml").write_text(SCENARIO)
+    for seed in (1, 2, 4):
+        folder = tmp_path / f"seed{seed}"
+        folder.mkdir()
+        (folder / "model.swarm").write_text(random_swarm(seed))
+        folders.append(folder)
+    cases = []
+    for folder in folders:
+        scenario = tmp_path / "scenario.toml" if folder.parent == tmp_path else None
+        request = Request((folder,), scenario=scenario, world="abstract", seed=3)
+        cases.append(recorded(request, 40 * SECOND))
+    changed = 0
+    for folder, texts in zip(
+        folders, node("saved.js", map(json.dumps, cases), tmp_path), strict=True
+    ):
+        for text in texts:
+            report = Diagnostics()
+            path = folder / "branch.swarmtest.toml"
+            tests = read_tests(Source(path.as_posix(), text, path), Models(), report)
+            assert tests is not None, ([each.message for each in report], text)
+            (case,) = tests.cases
+            assert not isinstance(case, InvalidTest), ([e.message for e in case.problems], text)
+            verdict = judge(case, case.seeds, lambda _seed, _line: None)
+            assert verdict.passed, (verdict, text)
+            changed += 'as = "aborted"' in text or "send = " in text
+    assert changed > 5

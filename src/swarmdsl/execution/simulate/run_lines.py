@@ -21,9 +21,9 @@ class Recorder(Protocol):
     """Keeps the lines of a run, as they are in a trace."""
 
     def begin(
-        self, subject: Subject, cast: Sequence[Actor], scenario: Path | None, seed: int
+        self, subject: Subject, cast: Sequence[Actor], scenario: Path | None, world: World
     ) -> None:
-        """Note who runs, and in which scenario."""
+        """Note who runs, in which scenario and world, before the world begins."""
 
     def write(self, text: str, /) -> object:
         """Keep a line, which ends with a newline."""

@@ -54,7 +54,6 @@ class Outputs:
         self._history: dict[str, list[tuple[int, Verdict]]] = {}
         self._measures: MeasureLines | None = None
         """Verdicts so far by property, each with the time from which on it held."""
-        self._seed = seed
 
     def trace(self, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         """Return the stream for the trace."""
@@ -77,7 +76,7 @@ class Outputs:
             return None
         lines = RunLines(self._world, recorder.write) if recorder is not None else None
         if recorder is not None and lines is not None:
-            recorder.begin(self._subject, self._cast, self._request.scenario, self._seed)
+            recorder.begin(self._subject, self._cast, self._request.scenario, self._world)
             self._listeners.append(lines.step)
             self._tell_transmissions(lines.transmitted)
             self._world.space.viewers += (

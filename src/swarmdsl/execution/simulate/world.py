@@ -64,7 +64,8 @@ class World:
         self.nobody: Counter[str] = Counter()
         """Numbers of swarm events with an address that no other robot has."""
         self._system = system
-        self._scenario = scenario
+        self.scenario = scenario
+        self.seed = seed
         self._chance = RandomSource(seed)
         self.network = Network(
             self.clock,
@@ -129,13 +130,13 @@ class World:
         """Start all machines and schedule the scenario."""
         self.trace.attach()
         self.space.begin(self, self.activities.end_as)
-        if self._scenario.loss >= 1:
+        if self.scenario.loss >= 1:
             self.members.follow()
         for instance in self._cast.instances.values():
             self.trace.begin(instance, None)
             instance.start()
             self.trace.flush()
-        schedule(self._scenario, self, self._chance)
+        schedule(self.scenario, self, self._chance)
 
     @property
     def over(self) -> bool:
@@ -314,7 +315,7 @@ class World:
 
     def _hears(self, one: Robot, other: Robot) -> bool:
         """Return True if heartbeats get from one robot to another; each one hears itself."""
-        is_silent = self._scenario.loss >= 1 and one is not other
+        is_silent = self.scenario.loss >= 1 and one is not other
         return not is_silent and self.network.reaches(one, other)
 
     def _observers(self, robot: Robot) -> list[Actor]:

@@ -2,68 +2,88 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.codegen.shared.default_values import default_result, default_value
+from swarmdsl.codegen.shared.default_values import default_result, default_value, result_fields
 from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import Fixed, Length, Normal, Uniform
+from swarmdsl.execution.simulate.durations import (
+    Fixed,
+    Length,
+    Normal,
+    Uniform,
+    written_duration,
+)
 from swarmdsl.execution.simulate.scenario import FunctionBehavior, Robot, Scenario
+from swarmdsl.execution.simulate.space import ABSTRACT
 from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.verify.toml_text import toml_text
 from swarmdsl.ir import System
+from swarmdsl.syntax.types import DURATION, Named, Primitive
 from swarmdsl.tools.player.engine_table import written_machine
 from swarmdsl.tools.player.engine_values import encoded
 
 _HEADERS = {"std_msgs/Header": "ros", "swarmros/EventHeader": "bridge"}
 
 
-def written_world(
-    subject: Subject, cast: Sequence[Actor], scenario: Scenario, seed: int, *, has_places: bool
-) -> dict[str, Any]:
-    """Return what the engine in the page needs; nothing for an SCXML document.
+def written_world(subject: Subject, cast: Sequence[Actor], world: World) -> dict[str, Any]:
+    """Return what the engine in the page needs of a world that has not begun.
 
-    `cast` is that of a run before it begins.
+    That is nothing for an SCXML document.
     """
-    system = subject.system
+    system, scenario = subject.system, world.scenario
     if system is None:
         return {}
     machines = {actor.machine.name: system.machines_by_name[actor.machine.name] for actor in cast}
     robots = list(dict.fromkeys(actor.robot for actor in cast))
     return {
-        "seed": str(seed),
+        "seed": str(world.seed),
         "swarm": subject.swarm is not None,
         "subject": subject.name,
         "machines": {name: written_machine(each, system) for name, each in machines.items()},
-        "robots": [
-            {"name": each.name, "role": each.role, "words": each.words} for each in robots
-        ],
+        "robots": [{"name": each.name, "role": each.role} for each in robots],
         "members": [
             {
                 "name": actor.name or actor.machine.name,
                 "robot": robots.index(actor.robot),
                 "machine": actor.machine.name,
-                "data": encoded(actor.data),
+                "data": encoded({k: v for k, v in actor.data.items() if not callable(v)}),
             }
             for actor in cast
         ],
         "events": {each.name: _event(each, system) for each in system.events},
         "functions": _functions(machines.values(), robots, scenario, system),
-        "counts": dict(scenario.counts),
+        "scenario": _setting(scenario, system),
         "latency": _length(scenario.latency),
         "loss": scenario.loss,
-        "limits": list(_limits(subject, scenario, has_places)),
+        "limits": list(_limits(subject, world)),
     }
 
 
-def _limits(subject: Subject, scenario: Scenario, has_places: bool) -> Iterator[str]:
+def _setting(scenario: Scenario, system: System) -> str:
+    """Return the scenario of tests in TOML; no function ends by itself until the time `@end`."""
+    params = [param for each in system.machines for param in each.params]
+    params += [param for each in system.members for param in each.params]
+    params += [param for each in system.components for param in each.params]
+    times = {param.name for param in params if param.type == DURATION}
+    values = {
+        word: {name: written_duration(v) if name in times else v for name, v in given.items()}
+        for word, given in scenario.params.items()
+    }
+    found = {"count": scenario.counts, "params": values, "functions": {"*": {"duration": "@end"}}}
+    return toml_text({key: value for key, value in found.items() if value})
+
+
+def _limits(subject: Subject, world: World) -> Iterator[str]:
     """Yield what the engine in the page does not simulate, in words."""
     assert subject.system is not None
-    if has_places:
+    if world.space is not ABSTRACT:
         yield "places, sensors and the reach of radio are as in the recording"
     if subject.heartbeat is not None:
         yield "who is taken for lost, or heard again, is as in the recording"
-    if any(fault.apart for fault in scenario.faults):
+    if any(fault.apart for fault in world.scenario.faults):
         yield "groups that do not reach each other do so after the fork"
     kept = (each.delivery for each in subject.system.events if each.swarm)
     if any(each is not None and (each.latest or each.lifespan is not None) for each in kept):
@@ -86,7 +106,19 @@ def _event(event: ir.Event, system: System) -> dict[str, Any]:
             if str(field.type) in _HEADERS
         ],
         "blank": encoded(default_value(event.type, system)),
+        "times": list(_times(fields, system)),
     }
+
+
+def _times(fields: Iterable[ir.Field], system: System) -> Iterator[list[str]]:
+    """Yield the paths of times and durations in a message, which tests have in words."""
+    for field in fields:
+        if isinstance(field.type, Primitive) and field.type.name in ("time", "duration"):
+            yield [field.name]
+        elif isinstance(field.type, Named):
+            inner = system.known_interface(field.type)
+            for path in _times(inner.fields if isinstance(inner, ir.Message) else (), system):
+                yield [field.name, *path]
 
 
 def _functions(
@@ -108,6 +140,7 @@ def _functions(
         found[name] = {
             "service": call.paradigm == "service",
             "blank": encoded(default_result(call, system)),
+            "times": list(_times(result_fields(call, system) or (), system)),
             "kinds": kinds,
             "robots": of_robots,
         }

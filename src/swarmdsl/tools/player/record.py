@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 from swarmdsl.base.source import Source, Span
@@ -13,6 +14,8 @@ from swarmdsl.execution.simulate.prepare import Prepared
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace_line import is_beside_steps
 from swarmdsl.tools.player.follow_model import follow
+from swarmdsl.execution.simulate.world import World
+from swarmdsl.tools.player.engine_world import written_world
 from swarmdsl.tools.player.model import Model
 from swarmdsl.tools.player.recording import Machine, Member, Note, Recording, Step
 from swarmdsl.tools.player.trace_lines import read_steps
@@ -30,13 +33,15 @@ class RunRecorder:
         self._subject: Subject | None = None
         self._scenario: Path | None = None
         self._seed = 0
+        self._tables: dict[str, Any] = {}
         self._end = 0
 
     def begin(
-        self, subject: Subject, cast: Sequence[Actor], scenario: Path | None, seed: int
+        self, subject: Subject, cast: Sequence[Actor], scenario: Path | None, world: World
     ) -> None:
-        """Note who runs, and in which scenario."""
-        self._subject, self._scenario, self._seed = subject, scenario, seed
+        """Note who runs, in which scenario and world, before the world begins."""
+        self._subject, self._scenario, self._seed = subject, scenario, world.seed
+        self._tables = written_world(subject, cast, world)
         self._members = [
             Member(each.name or each.machine.name, each.role, each.machine.name, each.robot.index)
             for each in cast
@@ -65,6 +70,7 @@ class RunRecorder:
             end=self._end,
             scenario=self._scenario.name if self._scenario is not None else "",
             seed=self._seed,
+            tables=self._tables,
         )
 
 
@@ -143,6 +149,7 @@ def _recording(
     end: int = 0,
     scenario: str = "",
     seed: int | None = None,
+    tables: Mapping[str, Any] | None = None,
 ) -> Recording:
     machines = dict(model.machines()) if model is not None else {}
     last = lines[-1]["t"] * MILLISECOND if lines else 0
@@ -157,6 +164,7 @@ def _recording(
         seed=seed,
         sources=model.sources if model is not None else {},
         views=model.view_data(lines) if model is not None else {},
+        tables=tables or {},
         notes=[_note(each) for each in list(notes)[:_MOST_NOTES]],
     )
 

@@ -10,8 +10,9 @@ import { view as properties } from "./properties.js";
 import { view as sequence } from "./sequence.js";
 import { view as text } from "./text.js";
 import { view as variables } from "./variables.js";
+import { view as whatIf } from "./what_if.js";
 
 /** The view above all others. */
 export const MAIN = lanes;
 /** The views below it, in the order of their tabs. */
-export const VIEWS = [compare, machine, sequence, map, properties, variables, measures, coverage, log, text];
+export const VIEWS = [compare, machine, sequence, map, properties, variables, measures, coverage, log, text, whatIf];
