@@ -13,7 +13,7 @@ const outcomeOf = (run, event) =>
 export class Branch {
   /** Fork after line `last` of the steps of a trace; `lost` is the event of a loss. */
   constructor(given, lines, last, lost) {
-    Object.assign(this, { given, fork: last + 1, rows: [], actions: [], difference: null });
+    Object.assign(this, { given, fork: last + 1, rows: [], difference: null });
     this.made = [];
     this.world = new World(given, (row) => this.made.push(row));
     Object.assign(this.world, { held: [], lost });
@@ -173,7 +173,6 @@ export class Branch {
 
   /** Let time pass, and what comes in it. */
   pass(length) {
-    this.actions.push({ pass: length });
     const end = this.time + length;
     while (this.next !== null && this.next <= end) this.step();
     if (end > this.time) this.world.clock.now = end;

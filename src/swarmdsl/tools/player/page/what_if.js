@@ -28,7 +28,11 @@ class WhatIf {
   fork() {
     const [steps, last] = this.steps();
     this.past = steps.slice(0, last + 1);
-    this.attempt(() => { this.branch = new Branch(this.recording.tables, steps, last, this.recording.lost); });
+    this.attempt(() => {
+      this.branch = new Branch(this.recording.tables, steps, last, this.recording.lost);
+      const rest = BigInt(Math.round(this.player.time)) - this.branch.time;
+      if (rest > 0n) this.branch.pass(rest);
+    });
     this.draw();
   }
 
