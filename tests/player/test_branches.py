@@ -110,7 +110,7 @@ def test_random_swarms(pytestconfig: pytest.Config, tmp_path: Path) -> None:
 @needs_node
 def test_saved_tests_pass(tmp_path: Path) -> None:
     """A branch with other events and outcomes is a test that `swarmc test` passes."""
-    folders = [ROOT / "examples" / name for name in ("storage", "minimal")]
+    folders = [ROOT / "examples" / name for name in ("search_and_rescue", "minimal")]
     (tmp_path / "scenario.toml").write_text(SCENARIO)
     for seed in (1, 2, 4):
         folder = tmp_path / f"seed{seed}"

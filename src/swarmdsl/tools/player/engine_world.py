@@ -72,7 +72,9 @@ def _setting(scenario: Scenario, system: System) -> str:
         word: {name: written_duration(v) if name in times else v for name, v in given.items()}
         for word, given in scenario.params.items()
     }
-    found = {"count": scenario.counts, "params": values, "functions": {"*": {"duration": "@end"}}}
+    found: dict[str, Any] = {"count": scenario.counts, "params": values}
+    found["functions"] = {"*": {"duration": "@end"}}
+    found["world"] = {"kind": "abstract"}
     return toml_text({key: value for key, value in found.items() if value})
 
 

@@ -13,9 +13,9 @@ from swarmdsl.execution.simulate.durations import MILLISECOND
 from swarmdsl.execution.simulate.prepare import Prepared
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace_line import is_beside_steps
-from swarmdsl.tools.player.follow_model import follow
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.tools.player.engine_world import written_world
+from swarmdsl.tools.player.follow_model import follow
 from swarmdsl.tools.player.model import Model
 from swarmdsl.tools.player.recording import Machine, Member, Note, Recording, Step
 from swarmdsl.tools.player.trace_lines import read_steps
