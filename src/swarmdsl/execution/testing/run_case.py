@@ -86,7 +86,7 @@ def run_case(
     """Run a test until its end or first failure; the recorder keeps the lines of the run."""
     run = _CaseRun(case, seed, listener)
     if recorder is not None:
-        run.tell(recorder, seed)
+        run.tell(recorder)
     return run.run_case()
 
 
@@ -124,10 +124,10 @@ class _CaseRun:
             case.spaces.alone(seed),
         )
 
-    def tell(self, recorder: Recording, seed: int) -> None:
+    def tell(self, recorder: Recording) -> None:
         """Let a recorder keep the lines of the run."""
         lines = RunLines(self._world, recorder.write)
-        recorder.begin(self._case.subject, self._cast, None, seed)
+        recorder.begin(self._case.subject, self._cast, None, self._world)
         self._listeners.append(lines.step)
         self._world.network.transmitted = lines.transmitted
         self._recording = recorder
