@@ -5,6 +5,7 @@ import * as vscode from "vscode";
 import { followNodes, followTrace } from "./follow.ts";
 import { selectInterpreter } from "./interpreter.ts";
 import { newModel } from "./models.ts";
+import { play } from "./play.ts";
 import { Preview } from "./preview.ts";
 import { onSelect } from "./python.ts";
 import { type Place, showReferences } from "./references.ts";
@@ -40,6 +41,10 @@ export function activate(context: vscode.ExtensionContext): void {
     command("simulateInRealTime", (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = targetFile(file);
       return uri && simulate(started, uri, subject, preview);
+    }),
+    command("play", (file?: vscode.Uri | string, subject?: Simulated) => {
+      const uri = targetFile(file);
+      return uri && play(started, uri, subject);
     }),
     command("verify", (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = targetFile(file);

@@ -110,7 +110,7 @@ export async function chooseSubject(
 }
 
 /** Let the user choose a scenario beside the file, if there are any. */
-async function chooseScenario(file: vscode.Uri): Promise<Scenario | undefined> {
+export async function chooseScenario(file: vscode.Uri): Promise<Scenario | undefined> {
   const none: Scenario = {
     label: "No scenario",
     description: "every function succeeds after a second",

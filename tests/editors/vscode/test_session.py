@@ -269,6 +269,13 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
         summary = window.page.locator(".terminal-wrapper .xterm-rows", has_text="never taken")
         expect(summary).not_to_have_count(0)
 
+        window.command("Swarm: Play Run")
+        window.choose("mission.toml")
+        run = window.view()
+        expect(run.locator("#about")).to_contain_text("scenario mission.toml, seed 4, 5 members")
+        run.get_by_role("button", name="step on").click()
+        expect(run.locator("#controls .said")).to_contain_text("uav[1]: start")
+
         window.leave()  # lenses of the server before have no commands any more
         window.place("sar.swarm", "OnGround of")
         lens = window.page.locator(".codelens-decoration a", has_text="Check in simulation").first
