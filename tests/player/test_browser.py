@@ -89,6 +89,30 @@ def test_keys_lead_to_every_kind_of_line_and_back(browser: Any, tmp_path: Path) 
     visit.close()
 
 
+def test_lanes_lead_to_a_time_zoom_and_fold(browser: Any, sar: Path) -> None:
+    visit = Visit(browser, sar)
+    heads = visit.page.locator(".heads")
+    box = visit.page.locator(".bars").bounding_box()
+    row = heads.get_by_text("uav[1]", exact=False).bounding_box()
+    middle = box["x"] + box["width"] / 2
+    visit.page.mouse.click(middle, row["y"] + row["height"] / 2)
+    assert visit.value("player.selected") == "uav[1]"
+    time, end = visit.value("[player.time, player.recording.end]")
+    assert abs(time - end / 2) < end / box["width"]
+    # Zoomed by two, the moment stays in its place.
+    visit.page.keyboard.press("+")
+    visit.page.mouse.click(middle + box["width"] / 4, row["y"] + row["height"] / 2)
+    assert abs(visit.value("player.time") - end * 5 / 8) < 2 * end / box["width"]
+    visit.page.get_by_role("button", name="uav (3)").click()
+    assert heads.get_by_text("uav[1]", exact=False).count() == 0
+    assert (
+        visit.page.get_by_role("button", name="uav (3)").get_attribute("aria-expanded") == "false"
+    )
+    visit.page.get_by_role("button", name="uav (3)").click()
+    assert heads.get_by_text("uav[1]", exact=False).count() == 1
+    visit.close()
+
+
 def test_a_long_run_is_small_and_every_moment_is_that_of_its_lines(
     browser: Any, tmp_path: Path
 ) -> None:
