@@ -36,6 +36,7 @@ VIEWS = (
     ("coverage", "Coverage"),
     ("log", "Log"),
     ("text", "Model"),
+    ("what-if", "What if"),
 )
 
 
