@@ -248,7 +248,7 @@ async def test_code_lenses(client, editor):
         resolved = await client.code_lens_resolve_async(each)
         counted[named([each.range], text)[0]] = resolved.command.title
     assert counted["Gps"] == "2 references"
-    assert counted["SearchAndRescue"] == "14 references"
+    assert counted["SearchAndRescue"] == "17 references"
     assert counted["Field"] == "1 reference"
 
 
