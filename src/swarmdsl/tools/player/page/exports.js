@@ -2,15 +2,15 @@
 import { clock, el, printable } from "./dom.js";
 import { act } from "./lanes.js";
 import { staysOf } from "./stays.js";
+import { toml } from "./test_text.js";
 
 const MOST = 500; // expectations of a test
 const [WIDTH, LEFT, ROW, TOP] = [1200, 150, 20, 60]; // of a picture, in pixels
 const LETTER = 6.3;
 
-const quoted = (text) => JSON.stringify(text).replace(/\x7f/g, "\\u007f");
 const millis = (time) => Math.floor(time / 1e6);
 
-const OWN = /^(after|do|done|error|fault)\./; // events that a member makes itself
+const OWN = /^(after|do|done|error|fault|node|send)\./; // events that a member makes itself
 
 /** Events from outside in a window: `[{time, event, member, data}]`. */
 function outside(recording, from, to) {
@@ -37,14 +37,6 @@ export function eventsFile(recording, from, to) {
     .join("");
 }
 
-/** A value as TOML. */
-function toml(value) {
-  if (Array.isArray(value)) return `[${value.map(toml).join(", ")}]`;
-  if (value === null) return '""';
-  if (typeof value !== "object") return typeof value === "string" ? quoted(value) : String(value);
-  return `{ ${Object.entries(value).map(([key, each]) => `${quoted(key)} = ${toml(each)}`).join(", ")} }`;
-}
-
 /** The states that members enter in the window, as a test for `swarmc test`. */
 export function testFile(recording, from, to) {
   const { members, scenario, seed, model } = recording;
@@ -56,13 +48,10 @@ export function testFile(recording, from, to) {
   };
   // A scenario sends its events itself.
   const sends = scenario ? [] : outside(recording, 0, to);
-  const expect = (who, states) => {
-    for (const state of states) steps.push(`{ who = ${quoted(who)}, in = ${quoted(state)} }`);
-  };
   const alone = members.length === 1 && !members[0].name.includes("[");
   const send = ({ time, event, member, data }) => {
     until(time * 1e3);
-    steps.push(`{ send = ${quoted(event)}${alone ? "" : `, to = ${quoted(member)}`}${data ? `, data = ${toml(data)}` : ""} }`);
+    steps.push(toml({ send: event, to: alone ? null : member, data }));
   };
   let expected = 0;
   const told = members.map(() => "");
@@ -80,19 +69,18 @@ export function testFile(recording, from, to) {
     while (sends.length && sends[0].time <= time) send(sends.shift());
     until(time * 1e3 + 999); // times of lines are whole milliseconds
     for (const [who, states] of changed) {
-      if (alone) for (const state of states) steps.push(`{ in = ${quoted(state)} }`);
-      else expect(who, states);
+      for (const state of states) steps.push(alone ? toml({ in: state }) : toml({ who, in: state }));
       expected += states.length;
     }
   }
   const head = [
     `# States from ${clock(from)} to ${clock(to)} of a run${seed === null ? "" : ` with seed ${seed}`}.`,
     ...(scenario ? ["# The scenario belongs beside this file. Events from elsewhere are missing."] : []),
-    `${alone ? "machine" : "swarm"} = ${quoted(model)}`,
-    ...(scenario ? [`scenario = ${quoted(scenario)}`] : seed === null ? [] : [`scenario = { seed = ${seed} }`]),
+    `${alone ? "machine" : "swarm"} = ${toml(model)}`,
+    ...(scenario ? [`scenario = ${toml(scenario)}`] : seed === null ? [] : [`scenario = { seed = ${seed} }`]),
     "",
     "[[test]]",
-    `name = ${quoted(`${clock(from)} to ${clock(to)}`)}`,
+    `name = ${toml(`${clock(from)} to ${clock(to)}`)}`,
     "steps = [",
   ];
   return `${[...head, ...steps.map((each) => `  ${each},`), "]"].join("\n")}\n`;

@@ -8,7 +8,8 @@ const seconds = (length) => {
   return `${length / size} ${unit}`;
 };
 
-function toml(value) {
+/** A value as TOML. */
+export function toml(value) {
   if (Array.isArray(value)) return `[${value.map(toml).join(", ")}]`;
   if (value === null || typeof value !== "object") {
     return typeof value === "string" ? JSON.stringify(value).replace(/\x7f/g, "\\u007f") : String(value);
