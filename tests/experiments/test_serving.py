@@ -95,6 +95,7 @@ def test_what_is_wrong_is_told_and_answered(serve: Serve) -> None:
     assert [each["success"] for each in answers[4:]] == [False, False]
     assert "error[SW0202]: no param or role of the swarm called `test`" in said
     assert "the names are `patience` and `robot`" in said
+    assert "error[SW1831]: this is no message of an optimizer: " in said
     assert "its `type` is null, not RunSimulation" in said
     assert 'its `type` is "CancelOptimization"' in said
     assert "it is not JSON" in said
