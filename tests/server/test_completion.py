@@ -317,6 +317,14 @@ PLACES = {
     ),
     "swarm of a fitness": (HEAD + FITNESS + "} fitness G of |", {"S"}, {"Other"}),
     "role of a property": (HEAD + FITNESS + "} property P : no |", {"car"}, {"Only"}),
+    "function of a property": (
+        HEAD + FITNESS + "} function dig : abstraction {} property P : each car : never ends |",
+        {"dig"}, {"Only", "car", "succeeded"},
+    ),
+    "outcome of a property": (
+        HEAD + FITNESS + "} property P : each car : never ends dig as |",
+        {"succeeded", "aborted", "preempted"}, {"Only", "car"},
+    ),
     "state of a property": (
         HEAD + FITNESS + "} property P : each car : never in |", {"Only", "End"}, {"car"},
     ),
