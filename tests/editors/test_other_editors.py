@@ -247,7 +247,7 @@ vim.cmd("qall!")
     assert any("no state called `Off`" in each for each in found["diagnostics"])
     assert found["hover"].startswith("```swarm\nstate Blink")
     assert found["definition"]["uri"].endswith("/blinker.swarm")
-    assert found["renamed"] == 5
+    assert found["renamed"] == 6
     assert found["root"] == str(tmp_path)
 
 

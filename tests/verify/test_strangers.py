@@ -109,5 +109,5 @@ def test_what_holds_so_holds_in_random_swarms(tmp_path: Path) -> None:
             found["alone"] += alone
             found["missed"] += known.alone and not alone
 
-    assert found["alone"] > 10
+    assert found["alone"] > 5
     assert found["missed"] < 3
