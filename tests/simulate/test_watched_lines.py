@@ -137,7 +137,7 @@ FACTS += ("ends carry", "ends carry as succeeded", "ends carry as aborted")
 EVENTS = ["Start", "Home"] * 5
 
 
-def _sentence(dice: random.Random, facts: Sequence[str]) -> str:
+def random_sentence(dice: random.Random, facts: Sequence[str]) -> str:
     each = dice.random() < 0.5
     robots = ["", "", "some other robot "] if each else []
     robots += ["all robot ", "some robot ", "no robot ", "2..* robot ", "robot[1] "]
@@ -167,7 +167,7 @@ def test_random_properties_in_lines_of_what_matters(latency: str, tmp_path: Path
     kinds: Counter[object] = Counter()
     for seed in range(80):
         facts = dice.sample(FACTS, 3)
-        sentences = (f"property P{n} of Crew : {_sentence(dice, facts)}\n" for n in range(2))
+        sentences = (f"property P{n} of Crew : {random_sentence(dice, facts)}\n" for n in range(2))
         file.write_text(MODEL + "".join(sentences), encoding="utf-8")
         found = verdicts_on(file, EVENTS, seed, scenario, reported=True)
         assert found == verdicts_on(file, EVENTS, seed, scenario, reported=False)

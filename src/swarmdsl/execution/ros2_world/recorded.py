@@ -82,8 +82,9 @@ class Recorded:
     ) -> tuple[list[PropertyResult], FitnessResult | None]:
         """Return verdicts and fitness of the lines, as those of a replayed trace."""
         source = Source("trace of the nodes", "".join(f"{_json(line)}\n" for line in self.lines))
-        replay(source, subject, cast, report, recording.see)
-        return recording.results(now, space=space)
+        found = replay(source, subject, cast, report, recording.see)
+        is_sure = self.is_over and not found.left_out
+        return recording.results(now, 0 if is_sure else None, space)
 
     def _add(self, member: str, line: dict[str, Any], at: Callable[[str], Place | None]) -> None:
         place = at(member)

@@ -137,9 +137,7 @@ class _Play:
             before = len(report)
             recording = Recording(self._watched, self._fitness)
             found = replay(source, self._subject, self._cast, report, recording.see)
-            results, fitness = recording.results(
-                found.end, found.loop if not found.left_out else None
-            )
+            results, fitness = recording.results(found.end, found.repeated)
             if not found.members and len(report) == before:
                 report.report("empty-trace", path=path)
             report_violations(results, report)

@@ -24,6 +24,7 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.copying import copied
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.machine_data import first_data
@@ -47,7 +48,8 @@ class Replayed:
     """Number of conforming lines and members of a trace, and the time of its last line.
 
     `left_out` are the lines that differ, follow a difference, or are of no member. The last `loop`
-    lines repeat for ever; with 0, nothing happens after them.
+    lines repeat for ever; with 0, nothing happens after them. `over` is True if all machines have
+    ended.
     """
 
     lines: int
@@ -55,6 +57,14 @@ class Replayed:
     end: int
     left_out: int = 0
     loop: int | None = None
+    over: bool = False
+
+    @property
+    def repeated(self) -> int | None:
+        """Number of last lines that repeat for ever, 0 after the end, None if it is not known."""
+        if self.left_out:
+            return None
+        return 0 if self.loop is None and self.over else self.loop
 
 
 Seen = Callable[[Line, Mapping[str, Any], int], None]
@@ -82,7 +92,7 @@ def replay(
             by_member.setdefault(record.done.get("member"), []).append(record)
     actors = {actor.name: actor for actor in cast}
     blind = counting_neighbors(subject.system)
-    followed = 0
+    followed = ended = 0
     given = sum(map(len, by_member.values()))
     for member, records in by_member.items():
         actor = actors.get(member)
@@ -99,8 +109,11 @@ def replay(
             report.report("not-replayed", records[0].place, name=actor.name or actor.machine.name)
             continue
         roster = Roster(dict.fromkeys(each.robot for each in cast))
-        followed += _Replay(actor, subject, report, seen, roster).replay(records)
-    return Replayed(followed, len(by_member), end, given - followed, loop)
+        replayed = _Replay(actor, subject, report, seen, roster)
+        followed += replayed.replay(records)
+        ended += replayed.has_ended
+    over = ended == len(cast)
+    return Replayed(followed, len(by_member), end, given - followed, loop, over)
 
 
 def _impersonate(actor: Actor, member: str, subject: Subject) -> None:
@@ -152,8 +165,9 @@ class _Replay:
         self._subject = subject
         self._report = report
         self._clock = Clock()
-        self._lines: deque[Line] = deque()
-        self._trace = Trace(self._clock, [self._lines.append])
+        self._lines: deque[tuple[Line, Any]] = deque()
+        """Lines of the model that were not compared yet, each with the data after it."""
+        self._trace = Trace(self._clock, [self._keep])
         self._delays: list[_Delay] = []
         self._runs: list[Run] = []
         self._last: list[str] = []
@@ -176,15 +190,20 @@ class _Replay:
             if not self._lines:
                 self._report_difference(record, "the model ignores it")
                 return number
-            line = self._lines.popleft()
+            line, data = self._lines.popleft()
             wrong = _difference(line, record)
             if wrong:
                 self._report_difference(record, wrong)
                 return number
             self._last = line.configuration
             if self._seen is not None:
-                self._seen(line, self._instance.data, record.place.start)
+                self._seen(line, data, record.place.start)
         return len(records)
+
+    @property
+    def has_ended(self) -> bool:
+        """True if the machine is in its final state; one of a lost robot may come back."""
+        return self._instance.final is not None and self._last_event != LOST
 
     # ---- called by the engine
 
@@ -219,6 +238,13 @@ class _Replay:
         """Do nothing: the line shows the effect."""
 
     # ---- internal
+
+    def _keep(self, line: Line) -> None:
+        """Keep a line with a copy of the data: effects of later lines change parts of them."""
+        data = self._instance.data
+        if self._seen is not None and self._subject.system is not None:
+            data = copied(data)
+        self._lines.append((line, data))
 
     def _apply(self, record: Record) -> str:
         """Reproduce the event of a record; return the reason if that is impossible."""

@@ -25,6 +25,8 @@ from swarmdsl.ir import Fitness, Property
 
 _SHOWN = 4
 """Number of trace lines and robots that are shown."""
+_Key = tuple[int, bool, int]
+"""Order of a line: its time, False for the first one of a machine, and its place in the trace."""
 
 
 def report_violations(results: Iterable[PropertyResult], report: Diagnostics) -> None:
@@ -80,12 +82,15 @@ class Recording:
     def __init__(self, properties: Sequence[Property], fitness: Fitness | None) -> None:
         self._properties = properties
         self._fitness = fitness
-        self._lines: list[tuple[int, Line, dict[str, Any]]] = []
+        self._lines: list[tuple[_Key, Line, Mapping[str, Any]]] = []
+        self._begun: set[Actor] = set()
 
     def see(self, line: Line, data: Mapping[str, Any] | None, place: int) -> None:
         """Keep a line with the data of its machine, and its place in the trace."""
         if self._properties or self._fitness is not None:
-            self._lines.append((place, line, dict(data or {})))
+            # At one time, machines start first; but one that comes back starts where it says so.
+            self._lines.append(((line.time, line.actor in self._begun, place), line, data or {}))
+            self._begun.add(line.actor)
 
     def results(
         self,
@@ -106,7 +111,7 @@ class Recording:
         known: dict[Actor, Mapping[str, Any]] = {}
         planned = plan(self._properties, measures_of(self._fitness))
         monitors = watch(planned, lambda actor: known[actor], told=told)
-        lines = sorted(self._lines, key=_order)
+        lines = sorted(self._lines, key=lambda each: each[0])
         endings = [watch(planned, lambda actor: known[actor]) for _ in range(loop or 0)]
         ends: list[list[PropertyResult]] = []
         for number, (_, line, data) in enumerate(lines, start=1):
@@ -142,9 +147,3 @@ def _in_loop(result: PropertyResult, ends: Sequence[PropertyResult]) -> Property
         violations = tuple(each for each in last.violations if each.robot in robots)
         return last._replace(robots=robots, violations=violations)
     return result._replace(verdict=TRUE, robots=())
-
-
-def _order(each: tuple[int, Line, Mapping[str, Any]]) -> tuple[int, bool, int]:
-    """Return the key of a line: at one time, machines start first."""
-    place, line, _ = each
-    return line.time, line.event is not None, place

@@ -45,9 +45,10 @@ class Judge:
         measures = None
         if self._fitness is not None:
             measures = MeasureLines(self._fitness, ABSTRACT, write)
-        loop = replayed.loop if not replayed.left_out else None
         heard = measures.see if measures is not None else None
-        results, fitness = self._seen.results(replayed.end, loop, told=note, heard=heard)
+        results, fitness = self._seen.results(
+            replayed.end, replayed.repeated, told=note, heard=heard
+        )
         tell_results(results, told, replayed.end, write)
         if measures is not None and fitness is not None:
             measures.tell(replayed.end, fitness)
