@@ -103,7 +103,9 @@ def test_a_proof_says_that_it_has_nobody_near(model, capfd) -> None:
     run(["verify", str(model)])
 
     out = "".join(capfd.readouterr())
-    assert "unknown  the run that was found may not be one: robots are near each other in it" in out
+    assert (
+        "unknown  the run that was found may be impossible: robots are near each other in it" in out
+    )
 
 
 @pytest.mark.parametrize("target", ["ros2", "smach", "yasmin", "scxml"])

@@ -116,6 +116,18 @@ def test_a_fault_is_shown_by_a_run_in_which_nobody_is_near_or_told_to_be_open(
             assert [line.event for line in each.run.lines if line.event] == ["Go", "Go"]
 
 
+def test_an_open_fault_is_told_once(modelled: Modelled) -> None:
+    """A robot may wait with several values, and nothing may happen any more then."""
+    near = "on {} [neighbors within reach > 0] / count = {} -> Close"
+    alone = f"{near.format('Go', 1)}; {near.format('Met', 2)}"
+    text = MODEL.replace("@ALONE@", alone).replace("@CLOSE@", "on Go [count > 2] -> Alone")
+    text += "property One of Flock : each bird : never has [count == 1] and in Lost\n"
+
+    found = survey(modelled(text.replace("@SIZE@", "2")), Budget(Limits()))
+
+    assert [(each.fault, each.name) for each, _ in found.open] == [("waits", "Close")]
+
+
 def test_what_is_possible_only_with_others_nearby_is_open(modelled: Modelled) -> None:
     model = of(modelled, "on Go -> Close", "on Go [neighbors within reach > 0] -> Alone")
 

@@ -26,6 +26,11 @@ class Finding:
     run: Run | None = None
 
     @property
+    def about(self) -> tuple[Fault, str, str, Span | None, str]:
+        """All that it says, without the run that shows it."""
+        return (self.fault, self.name, self.role, self.place, self.detail)
+
+    @property
     def title(self) -> str:
         """Name of its run."""
         return f"{self.fault}-{self.name}"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterable, Iterator
 from typing import Any
 
 from swarmdsl.base.records import dataclass, replace
@@ -72,7 +72,25 @@ def survey(model: Model, budget: Budget) -> Survey:
     for machine in reached.values():
         findings += machine.missing(ignored)
     missing = "" if complete else unfinished(model, budget)
-    return Survey(states, transitions, missing, tuple(findings), tuple(sorted(full)), tuple(open_))
+    return Survey(
+        states,
+        transitions,
+        missing,
+        tuple(findings),
+        tuple(sorted(full)),
+        tuple(_not_shown(open_, findings)),
+    )
+
+
+def _not_shown(
+    open_: Iterable[tuple[Finding, str]], shown: Iterable[Finding]
+) -> Iterator[tuple[Finding, str]]:
+    """Yield what is open, once, unless it is shown with other values or in another part."""
+    told = {each.about for each in shown}
+    for finding, flaw in open_:
+        if finding.about not in told:
+            told.add(finding.about)
+            yield finding, flaw
 
 
 class _Part:
@@ -209,7 +227,8 @@ class _Part:
             machine = whole.whole.kind.cast[actor].machine
             found = Finding("stuck", name, whole.whole.kind.role, self._origin(machine, name))
             if run.flaw:
-                self.open.setdefault("stuck", (found, run.flaw))
+                if self.open.keys().isdisjoint(waiting):
+                    self.open.setdefault("stuck", (found, run.flaw))
                 continue
             self.open.pop("stuck", None)
             yield replace(found, run=run)

@@ -60,7 +60,7 @@ def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> 
 def not_run(flaw: str) -> str:
     """Return the reason why a run that was found shows nothing."""
     if flaw == NEAR:
-        return f"the run that was found may not be one: {flaw}"
+        return f"the run that was found may be impossible: {flaw}"
     return f"the run that was found cannot be: {flaw}"
 
 
