@@ -123,3 +123,37 @@ def test_a_property_of_another_one_does_not_make_robots_different(
     told_ = capsys.readouterr().out
     assert re.search(r"P +holds", told_)
     assert "Q  unknown" in told_
+
+
+_BEATS = """package test
+event Go : std_msgs/Empty
+endless statemachine M {
+  initial Two
+  state Two { on member_lost -> One }
+  state One { on Go -> One }
+}
+member A { behavior M }
+swarm S {
+  a : A[2]
+  heartbeat 1 s lost after 5 s
+}
+property P of S : never some a in One
+"""
+_APART = '[[faults]]\nat = "1 s"\nlasts = "9 s"\napart = [["a[0]"], ["a[1]"]]\n'
+
+
+@pytest.mark.parametrize(
+    ("scenario", "named"), [(_APART, "`apart`"), ("[network]\nloss = 1\n", "`loss = 1`")]
+)
+def test_robots_can_be_lost_instead_of_their_heartbeats(
+    scenario: str, named: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model, conditions = tmp_path / "model.swarm", tmp_path / "silent.toml"
+    model.write_text(_BEATS, encoding="utf-8")
+    conditions.write_text(scenario, encoding="utf-8")
+
+    run(["verify", str(model), "--scenario", str(conditions)])
+    out = capsys.readouterr().out
+    assert re.search(rf"P  unknown  heartbeats .* with `--faults`, instead of {named}", out), out
+    run(["verify", str(model), "--faults", "1"])
+    assert "P  fails" in capsys.readouterr().out
