@@ -13,7 +13,7 @@ import pytest
 
 from swarmdsl.execution.verify.environment import Options
 
-from ..verify.random_swarms import random_swarm
+from ..verify.random_swarms import random_swarm, ranges
 from .witnesses import MISSING, Case, Compared, compare
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -28,7 +28,7 @@ FEW = ("minimal", "operations")
 MOST = {name: 300_000 for name in SOURCES if (ROOT / "examples" / name).is_dir()}
 """Numbers of states up to which examples are compared."""
 MANY = 10
-"""Number of random swarms from which on all models are compared, too."""
+"""Number of random swarms in a test, from which on all models are compared, too."""
 Witnessed = Callable[[str, str, Callable[[], Compared]], Compared]
 WITNESSES = [
     pytest.param(target, id=target, marks=pytest.mark.skipif(reason != "", reason=reason))
@@ -66,8 +66,7 @@ def test_robots_that_address_each_other(target: str, tmp_path: Path) -> None:
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     swarms = metafunc.config.getoption("--swarms")
     if "seeds" in metafunc.fixturenames:
-        starts = range(0, swarms, MANY)
-        metafunc.parametrize("seeds", [range(n, min(n + MANY, swarms)) for n in starts], ids=str)
+        metafunc.parametrize("seeds", ranges(swarms, MANY), ids=str)
     if "name" in metafunc.fixturenames:
         metafunc.parametrize("name", FEW if swarms < MANY else list(SOURCES))
 

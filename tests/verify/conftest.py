@@ -19,6 +19,8 @@ from swarmdsl.execution.verify.prove import prove
 from swarmdsl.execution.verify.verdict import Verdict
 from swarmdsl.ir import System
 
+from .random_swarms import ranges
+
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = ROOT / "tests" / "verify" / "models"
 
@@ -29,10 +31,15 @@ CHUNK = 50
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     if "seeds" in metafunc.fixturenames:
-        many = metafunc.config.getoption("--proofs")
-        chunks = [range(n, min(n + CHUNK, many)) for n in range(0, many, CHUNK)]
+        chunks = ranges(metafunc.config.getoption("--proofs"), CHUNK)
         names = ["few", *(f"{each[0]}-{each[-1]}" for each in chunks)]
         metafunc.parametrize("seeds", [metafunc.module.FEW, *chunks], ids=names)
+
+
+def at_least(verdicts: int, seeds: Sequence[int]) -> int:
+    """Return how many verdicts of a kind there shall be, fewer of a few random swarms."""
+    is_small = isinstance(seeds, range) and len(seeds) < CHUNK
+    return verdicts * len(seeds) // CHUNK if is_small else verdicts
 
 
 def system_of(path: Path) -> System:

@@ -36,6 +36,12 @@ _PATTERNS = (
 )
 
 
+def ranges(swarms: int, size: int) -> list[range]:
+    """Return the seeds of random swarms in ranges of a size; the last one has what is left, too."""
+    starts = range(0, max(swarms - size, 0) + 1, size) if swarms else ()
+    return [range(n, n + size if n + 2 * size <= swarms else swarms) for n in starts]
+
+
 def random_swarm(seed: int, *, heartbeat: bool = False) -> str:
     """Return a model of two or three robots, with properties; some ask who is there."""
     chance = Random(seed)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from .conftest import at_least
 from .random_swarms import random_swarm
 from .test_random import verdicts_as_in_all_runs
 from .test_random_duties import compare
@@ -31,7 +32,7 @@ def test_verdicts_are_those_of_all_runs_with_losses(seeds: Sequence[int], tmp_pa
     for seed in seeds:
         found += compared(seed, tmp_path / "random.swarm", MOST)
 
-    assert min(found["holds"], found["fails"]) > 20
+    assert min(found["holds"], found["fails"]) >= at_least(21, seeds)
     assert seeds is not FEW or found.total() == 6 * len(FEW)
 
 
@@ -44,4 +45,4 @@ def test_verdicts_are_those_of_all_fair_loops_with_losses_and_silence(
         path = tmp_path / "random.swarm"
         found += compare(seed, path, capsys, faults=seed % 3, silent=seed % 2 == 0)
 
-    assert min(found["holds"], found["fails"], found["loop"]) > 3
+    assert min(found["holds"], found["fails"], found["loop"]) >= at_least(4, seeds)
