@@ -16,6 +16,8 @@ WORKERS := auto
 PARALLEL = $(BIN)/pytest -n $(WORKERS)
 MUTANTS ?= 10000
 WALKS ?= 1000
+# Examples to put mistakes into, all without: make mutants MUTANTS_OF="storage flocking"
+MUTANTS_OF :=
 SWARMS ?= 500
 CASES ?= 20000
 PAIRS ?= 10000
@@ -120,8 +122,8 @@ fuzz: $(READY) ## Run commands with 10,000 models with random mistakes, and in 2
 properties: $(READY) ## Compare monitors of properties with their definitions, on 10,000 random pairs of a property and a run; PAIRS=100000 for more.
 	$(BIN)/python -m tests.monitor.random_runs $(PAIRS)
 
-mutants: $(READY) ## Put mistakes into the examples, and show which of them `swarmc verify` finds; WALKS=10000 to tell more of them from the original.
-	$(BIN)/python -m tests.verify.seeded $(WALKS)
+mutants: $(READY) ## Put mistakes into the examples, and show which of them `swarmc verify` finds; WALKS=10000 to tell more of them from the original, MUTANTS_OF=storage for one.
+	$(BIN)/python -m tests.verify.seeded $(WALKS) $(MUTANTS_OF)
 
 parser: $(READY) ## Make the parser from the grammar.
 	$(BIN)/python -m swarmdsl.syntax.pegen

@@ -5,7 +5,7 @@ Usage: `python -m tests.verify.seeded [WALKS] [EXAMPLE...]`
 Random walks decide which mutants of an example do anything else than it does; of these, `swarmc
 verify` shall report as many as it can. A walk knows how functions end, which nobody can see. So the
 share is also shown of those mutants that an observer can convict: they have a run that the original
-has not. The others only leave out some of its runs.
+has not. The others only leave out some of its runs. Ctrl-C ends it with the figures so far.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, get_args
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
@@ -36,6 +36,7 @@ _MORE = 20
 """Number of walks that look for a violation, though the first one already is different."""
 _LIMIT = "60k"
 """Limit of states for a mutant."""
+_INTERRUPTED = 130
 
 Report = tuple[str, str]
 """Code and message of a diagnostic."""
@@ -113,7 +114,9 @@ def reports(folder: Path, swarm: str) -> set[Report]:
     """Return what `swarmc verify` reports on a swarm of a model."""
     printed = io.StringIO()
     with redirect_stdout(printed), redirect_stderr(io.StringIO()):
-        run(["verify", str(folder), "--swarm", swarm, "--limit", _LIMIT, "--format", "json"])
+        words = ["verify", str(folder), "--swarm", swarm, "--limit", _LIMIT, "--format", "json"]
+        if run(words) == _INTERRUPTED:
+            raise KeyboardInterrupt
     lines = map(json.loads, printed.getvalue().splitlines())
     return {(each["code"], each["message"]) for each in lines if each["severity"] != "note"}
 
@@ -140,29 +143,41 @@ def main() -> None:
     names = words or sorted(path.parent.name for path in EXAMPLES.glob("*/README.md"))
     total: Counter[str] = Counter()
     alarms = 0
-    with TemporaryDirectory() as temporary:
-        for name in names:
-            for swarm in system_of(EXAMPLES / name).swarms:
-                original = Original(EXAMPLES / name, swarm.name, number)
-                alarms += len(original.alarms)
-                for code, message in sorted(original.alarms):
-                    _say(f"{name} {swarm.name}: of the example itself, {code}: {message}")
-                count: Counter[str] = Counter()
-                for mutant in original.mutants():
-                    case = original.judge(mutant, Path(temporary) / name)
-                    count[case.fate] += 1
-                    count["wrong"] += case.wrong
-                    count["wrong and found"] += case.wrong and case.fate != "missed"
-                    count["more"] += case.more
-                    count["more and found"] += case.more and case.fate != "missed"
-                    if case.fate == "missed":
-                        wrong = ", though a walk violates a property" if case.wrong else ""
-                        less = "" if case.more else " (only leaves out runs)"
-                        _say(f"{name} {swarm.name}: missed {mutant}{less}{wrong}")
-                total += count
-                _say(f"{name} {swarm.name}: {_summary(count)}")
+    swarms = [(name, each.name) for name in names for each in system_of(EXAMPLES / name).swarms]
+    for name, swarm in swarms:
+        original = Original(EXAMPLES / name, swarm, number)
+        alarms += len(original.alarms)
+        for code, message in sorted(original.alarms):
+            _say(f"{name} {swarm}: of the example itself, {code}: {message}")
+        count = _judged(original, f"{name} {swarm}")
+        total += count
+        _say(f"{name} {swarm}: {_summary(count)}")
+        if count["left"]:
+            break
     _say(f"\nmutants that {number:,} random walks tell from the original: {_summary(total)}")
     _say(f"reported about the examples themselves: {alarms}")
+
+
+def _judged(original: Original, about: str) -> Counter[str]:
+    """Judge the mutants of a swarm, until it is interrupted; return how many are of each kind."""
+    count: Counter[str] = Counter()
+    every = original.mutants()
+    try:
+        with TemporaryDirectory() as temporary:
+            for mutant in every:
+                case = original.judge(mutant, Path(temporary) / "mutant")
+                count[case.fate] += 1
+                count["wrong"] += case.wrong
+                count["wrong and found"] += case.wrong and case.fate != "missed"
+                count["more"] += case.more
+                count["more and found"] += case.more and case.fate != "missed"
+                if case.fate == "missed":
+                    wrong = ", though a walk violates a property" if case.wrong else ""
+                    less = "" if case.more else " (only leaves out runs)"
+                    _say(f"{about}: missed {mutant}{less}{wrong}")
+    except KeyboardInterrupt:
+        count["left"] = len(every) - sum(count[fate] for fate in get_args(Fate))
+    return count
 
 
 def _say(line: str) -> None:
@@ -179,6 +194,7 @@ def _summary(count: Counter[str]) -> str:
         " of those with runs that an observer can tell from all of the original;"
         f" {count['wrong and found']} of {count['wrong']} whose walks violate a property;"
         f" {count['same']} do the same, {count['refused']} do not compile"
+        + (f"; {count['left']} left when it was interrupted" if count["left"] else "")
     )
 
 
