@@ -13,6 +13,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.cli import run
 from swarmdsl.tools.player.page import page
 from swarmdsl.tools.player.record import record_traces
+from swarmdsl.tools.player.recording import Recording
 
 from .conftest import ROOT, Visit
 from .lines import lines_of, moment
@@ -221,4 +222,96 @@ def test_values_that_no_simulator_writes_leave_every_view_whole(
             visit.value(f"player.go({index})")
             visit.value("new Promise((done) => requestAnimationFrame(() => done(1)))")
         assert visit.page.locator(".view .error").count() == 0
+    visit.close()
+
+
+def test_names_that_all_objects_have_leave_every_view_whole(browser: Any, tmp_path: Path) -> None:
+    """A trace of another version of the model, whose names mean something in JavaScript."""
+    model, trace = tmp_path / "model.swarm", tmp_path / "run.jsonl"
+    model.write_text(
+        "package lab\nevent Go : std_msgs/Empty\nendless statemachine Blink {\n  initial Off\n"
+        "  state Off { on Go -> On }\n  state On { on Go -> Off }\n}\n",
+        encoding="utf-8",
+    )
+    (line, *_) = lines_of(1, 1)
+    odd: list[dict[str, Any]] = [
+        {"member": None, "configuration": ["Off"], "entered": ["Off"], "variables": {"a": 1}},
+        {"taken": ["constructor"], "entered": ["toString"], "configuration": ["valueOf"]},
+        {"event": "Go", "member": "constructor[0]", "variables": {"toString": 1}, "at": [1, 2]},
+        {"event": "Go", "at": [1, 2, 3], "variables": {"valueOf": 1}},
+        {"event": "Go", "member": "uav\u202e[0]", "configuration": ["A\u202eB"]},
+    ]
+    trace.write_text(
+        "".join(f"{json.dumps({**line, **each})}\n" for each in odd), encoding="utf-8"
+    )
+    path = tmp_path / "run.html"
+    assert run(["play", str(model), "--trace", str(trace), "-o", str(path)]) == 1
+    visit = Visit(browser, path)
+    tabs = visit.page.locator(".panel").first.locator("[role=tab]")
+    assert tabs.get_by_text("Model", exact=True).count() == 1
+    names = visit.value("player.recording.members.map((each) => each.name)")
+    for number in range(tabs.count()):
+        tabs.nth(number).click()
+        for index, name in ((index, name) for index in range(5) for name in (None, *names)):
+            visit.page.evaluate("([at, name]) => (player.select(name), player.go(at))", [index, name])
+            visit.value("new Promise((done) => requestAnimationFrame(() => done(1)))")
+        assert visit.page.locator(".view .error").count() == 0
+    # The states of a machine whose name cannot be shown as it is.
+    tabs.get_by_text("State machine", exact=True).click()
+    visit.value(f"(player.select({names[-1]!r}), player.go(4))")
+    visit.page.wait_for_selector(".states .lit")
+    visit.close()
+
+
+def test_lanes_are_as_high_as_their_rows_up_to_half_of_the_page(
+    browser: Any, tmp_path: Path
+) -> None:
+    small = {"width": 1280, "height": 720}
+    visit = Visit(browser, written(tmp_path, list(lines_of(20, 2))), viewport=small)
+    few = visit.page.locator(".lanes").bounding_box()
+    assert few["height"] < 140
+    assert visit.page.locator("#panels").bounding_box()["height"] > 350
+    visit.close()
+    visit = Visit(browser, written(tmp_path, list(lines_of(200, 50))), viewport=small)
+    many = visit.page.locator("#main").bounding_box()
+    assert 300 < many["height"] <= 0.56 * small["height"]
+    assert visit.value("document.documentElement.scrollHeight") == small["height"]
+    # A moment that is not in the window comes into it.
+    visit.page.keyboard.press("End")
+    for _ in range(4):
+        visit.page.keyboard.press("+")
+    visit.page.keyboard.press("Home")
+    visit.page.wait_for_function(
+        "document.querySelector('.cursor').getBoundingClientRect().width > 0"
+    )
+    visit.close()
+
+
+def test_an_address_names_one_of_several_lines_of_a_time(browser: Any, tmp_path: Path) -> None:
+    lines = [{**line, "t": 50 * (number // 5)} for number, line in enumerate(lines_of(20, 2))]
+    path = written(tmp_path, lines)
+    for fragment, index in (
+        ("#t=50ms", 9),
+        ("#t=50ms&line=7", 6),
+        ("#t=50ms&line=3", 9),
+        ("#t=50ms&line=1e9", 9),
+        ("#t=1.2.3&line=x&m=nobody", 0),
+    ):
+        visit = Visit(browser, path, fragment)
+        assert visit.value("player.index") == index
+        visit.close()
+    visit = Visit(browser, path, "#t=50ms&line=7")
+    visit.page.keyboard.press("ArrowRight")
+    visit.page.wait_for_function("location.hash.startsWith('#t=0.05s&line=8&')")
+    visit.close()
+
+
+def test_a_run_without_a_line_is_an_empty_page(browser: Any, tmp_path: Path) -> None:
+    path = tmp_path / "run.html"
+    path.write_text(page(Recording("Nothing", [], [], [])), encoding="utf-8")
+    visit = Visit(browser, path)
+    for key in ("End", "Home", "ArrowRight", "v", " ", "b", "+", "m"):
+        visit.page.keyboard.press(key)
+    assert visit.page.locator(".said").first.inner_text() == "nothing has happened yet"
+    assert visit.page.locator("[role=alert]").count() == 0
     visit.close()

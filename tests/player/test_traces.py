@@ -22,6 +22,7 @@ endless statemachine Blink {
   state On { on Go -> Off }
 }
 """
+MODEL_OF_A_SWARM = "member Lamp { behavior Blink }\nswarm Lamps { lamp : Lamp[1..4] }\n"
 Played = Callable[..., tuple[int, str, Path]]
 
 
@@ -111,9 +112,8 @@ def test_what_is_wrong_is_told_in_the_page_and_the_rest_is_shown(
 
 
 def test_a_trace_of_other_robots_is_told_and_shown(played: Played) -> None:
-    swarm = f"{MODEL}member Lamp {{ behavior Blink }}\nswarm Lamps {{ lamp : Lamp[1..4] }}\n"
     lines = [line(0, "uav[0]", None, "Up"), line(0, "lamp[3]", None, "Off")]
-    code, err, page = played("\n".join(lines), model=swarm)
+    code, err, page = played("\n".join(lines), model=MODEL + MODEL_OF_A_SWARM)
     assert code == 1
     assert "error[SW0202]: no member called `uav[0]`" in err
     recording = recording_of(page)
@@ -185,3 +185,48 @@ def test_bytes_that_are_no_text_and_deep_values_are_told(
         "On",
         "M\N{REPLACEMENT CHARACTER}de",
     ]
+
+
+def test_numbers_and_names_beyond_all_measure_leave_the_rest(played: Played) -> None:
+    """The page has JSON that each browser reads; clocks that cannot be are told."""
+    odd = [
+        line(10, "a[0]", "Go", "On", data={"x": "LARGE"}, at=[1, 2]).replace('"LARGE"', "1e999"),
+        line(20, "a[0]", "Go", "Off", data={"x": "NONE"}, at=[1, 2, 3]).replace('"NONE"', "NaN"),
+        line(30, f"a[{'9' * 5000}]", None, "Off"),
+        line(40, "a[0]", "Go", "On", envelope={"sender": "b[0]", "sent": 10**400}),
+        line(50, "a[0]", "Go", "On", envelope={"sender": "b[0]", "sent": 10**15}),
+        '{"t": 60, "property": "P", "member": {}, "envelope": 5, "configuration": 5}',
+    ]
+    code, err, page = played("\n".join([line(0, "a[0]", None, "Off"), *odd]))
+    assert code == 0
+    assert err.count("SW1023") == 1
+    assert "`Go` of `b[0]` arrives" in err
+
+    def refuse(constant: str) -> None:
+        raise AssertionError(constant)
+
+    packed = page.read_text(encoding="utf-8").partition('id="recording">')[2].partition("<")[0]
+    recording = json.loads(zlib.decompress(b64decode(packed)), parse_constant=refuse)
+    assert recording["count"] == 7
+    assert recording["lines"]["values"] == [{"x": "Infinity"}, {"x": "NaN"}]
+    assert recording["lines"]["columns"]["at"] == [[1000, 2000], [1000, 2000, 3000]]
+    assert len(recording["lines"]["columns"]["envelope"]) == 1
+
+
+def test_a_trace_of_params_without_a_value_says_that_it_is_not_compared(played: Played) -> None:
+    model = MODEL.replace("  var count", "  param most : int32\n  var count")
+    code, err, page = played("\n".join([*GOOD, line(2000, None, "Go", "Broken")]), model=model)
+    assert code == 0
+    said = "param `most` of `Blink` has no value: traces are not compared with the model"
+    assert f"warning[SW1005]: {said}" in err
+    (note,) = recording_of(page)["notes"]
+    assert (note["severity"], note["message"]) == ("warning", said)
+
+
+def test_a_page_tells_how_many_diagnostics_it_leaves_out(played: Played) -> None:
+    lines = [line(0, f"other{number}", None, "Off") for number in range(60)]
+    code, _, page = played("\n".join([*GOOD, *lines]), model=MODEL + MODEL_OF_A_SWARM)
+    assert code == 1
+    notes = recording_of(page)["notes"]
+    assert len(notes) == 51
+    assert notes[-1]["message"] == "11 more diagnostics are in the output of the command"

@@ -319,7 +319,7 @@ def test_the_log_finds_lines_and_has_few_rows(flat: Run) -> None:
     line = flat.lines[index]
     flat.show("machine", index)  # the log is beside it
     (now,) = flat.texts(".of-log [aria-selected=true]")
-    assert f"{line['member']}  {line['event']}" in now
+    assert f"{line['member']}: {line['event']}" in now
     assert f"start {line['started'][0]}" in now
     assert 5 < len(flat.texts(".of-log .rows > div")) < 60
     field = flat.visit.page.get_by_label("Filter the log")

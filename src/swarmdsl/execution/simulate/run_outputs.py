@@ -52,8 +52,8 @@ class Outputs:
         of = f"scenario {printable(scenario.name)}, " if scenario is not None else ""
         self._conditions = f"{of}seed {seed}"
         self._history: dict[str, list[tuple[int, Verdict]]] = {}
-        self._measures: MeasureLines | None = None
         """Verdicts so far by property, each with the time from which on it held."""
+        self._measures: MeasureLines | None = None
 
     def trace(self, stack: ExitStack, report: Diagnostics) -> TextIO | None:
         """Return the stream for the trace."""

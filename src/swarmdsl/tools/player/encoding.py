@@ -16,11 +16,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from swarmdsl.execution.simulate.durations import MILLISECOND
+from swarmdsl.execution.simulate.trace_line import named_numbers
 from swarmdsl.tools.player.recording import Recording, Step
 
 VARYING = ("data", "envelope", "at", "moved", "variables", "lost", "cause", "measures")
 """Keys whose values have columns of their own."""
 _THOUSANDTHS = 1000
+_JSON = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
 
 class _Table:
@@ -30,11 +32,18 @@ class _Table:
         self._numbers: dict[str, int] = {}
 
     def number(self, value: Any) -> int:
-        text = json.dumps(value, ensure_ascii=False, separators=(",", ":"))
-        return self._numbers.setdefault(text, len(self._numbers))
+        return self._numbers.setdefault(_written(value), len(self._numbers))
 
     def values(self) -> list[Any]:
         return [json.loads(text) for text in self._numbers]
+
+
+def _written(value: Any) -> str:
+    """Return a value as JSON; numbers that JSON does not have by their names."""
+    try:
+        return _JSON.encode(value)
+    except ValueError:
+        return _JSON.encode(named_numbers(value))
 
 
 class _Lines:
@@ -75,7 +84,9 @@ class _Lines:
     def _moved(self, who: str, place: Sequence[float]) -> list[int]:
         """Return how far a robot has moved, in thousandths."""
         now = [round(each * _THOUSANDTHS) for each in place]
-        before = self._places.get(who, [0] * len(now))
+        before = self._places.get(who, ())
+        if len(before) != len(now):
+            before = [0] * len(now)
         self._places[who] = now
         return [each - was for each, was in zip(now, before, strict=True)]
 
@@ -99,8 +110,7 @@ def as_document(recording: Recording) -> Mapping[str, Any]:
 
 def encode(recording: Recording) -> str:
     """Return a recording as base64 of deflated JSON, which has nothing that HTML could take."""
-    text = json.dumps(as_document(recording), ensure_ascii=False, separators=(",", ":"))
-    return pack(text)
+    return pack(_written(as_document(recording)))
 
 
 def pack(text: str) -> str:

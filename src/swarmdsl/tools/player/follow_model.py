@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Severity
+from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source
 from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.replay import replay
@@ -38,10 +39,13 @@ def follow(
 ) -> Followed | None:
     """Return what the model says of traces; report where members leave the model.
 
-    None if nothing is compared, because a machine has params without a value.
+    None if nothing is compared, which is told: machines have params without a value, or there are
+    too many.
     """
     robots = list(robots)
-    if not _cast(robots, subject, scenario):
+    missing = Diagnostics()
+    if not _cast(robots, subject, scenario, missing):
+        report.include(map(_not_compared, missing))
         return None
     found: dict[tuple[str, int], Mapping[str, Any]] = {}
     judged: list[dict[str, Any]] = []
@@ -63,21 +67,29 @@ def follow(
 
         # A replay changes the data of its machines.
         told = Diagnostics()
-        replayed = replay(source, subject, _cast(robots, subject, scenario), told, see)
+        cast = _cast(robots, subject, scenario, told)
+        replayed = replay(source, subject, cast, told, see)
         report.include(each for each in told if each.name != _INVALID)
         if len(sources) == 1:
             judged = judge.lines(replayed)
     return Followed(found, judged)
 
 
-def _cast(robots: Iterable[str], subject: Subject, scenario: Scenario) -> list[Actor]:
-    """Return the machines of as many robots as the traces have."""
+def _not_compared(found: Diagnostic) -> Diagnostic:
+    """Return a warning of what keeps traces from being compared with the model."""
+    message = f"{found.message}: traces are not compared with the model"
+    return replace(found, severity=Severity.WARNING, message=message)
+
+
+def _cast(
+    robots: Iterable[str], subject: Subject, scenario: Scenario, report: Diagnostics
+) -> list[Actor]:
+    """Return the machines of as many robots as the traces have; report why there are none."""
     counts = dict(scenario.counts)
     for name in robots:
         robot = Robot.called(name)
         if robot.role:
             counts[robot.role] = max(counts.get(robot.role, 0), robot.count)
-    report = Diagnostics()
     made = subject.create_robots(counts, scenario.alone)
     cast = actors(subject, made, scenario, report)
     return [] if report.has_errors else cast

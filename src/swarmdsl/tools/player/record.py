@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.base.numerals import integer
 from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import MILLISECOND
@@ -125,7 +126,7 @@ def _member(name: str, place: Span, model: Model | None, report: Diagnostics) ->
     robot, bracket, rest = name.partition("[")
     number, _, part = rest.partition("]")
     role = f"{robot}{part}" if bracket else name
-    index = int(number) if number.isdecimal() and number.isascii() else 0
+    index = integer(number) if number.isdecimal() and number.isascii() else 0
     if model is None:
         return Member(name, role, role, index)
     machine = model.alone or model.machine_of(role)
@@ -165,7 +166,7 @@ def _recording(
         sources=model.sources if model is not None else {},
         views=model.view_data(lines) if model is not None else {},
         tables=tables or {},
-        notes=[_note(each) for each in list(notes)[:_MOST_NOTES]],
+        notes=list(_notes(notes)),
     )
 
 
@@ -187,6 +188,16 @@ def _with_seen_states(
         else:
             found[name] = known
     return list(found.values())
+
+
+def _notes(found: Iterable[Diagnostic]) -> Iterator[Note]:
+    """Yield what the page tells: the first ones of many, and how many there are."""
+    for number, each in enumerate(told := list(found)):
+        if number == _MOST_NOTES:
+            count = len(told) - number
+            yield Note("warning", "", f"{count} more diagnostics are in the output of the command")
+            return
+        yield _note(each)
 
 
 def _note(found: Diagnostic) -> Note:

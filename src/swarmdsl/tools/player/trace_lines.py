@@ -8,7 +8,6 @@ from typing import Any
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
-from swarmdsl.execution.simulate.trace_line import NOT_FINITE, named_numbers
 from swarmdsl.execution.simulate.trace_records import Record, read_records
 from swarmdsl.tools.player.trace_values import fitting
 
@@ -35,8 +34,6 @@ def read_steps(sources: Sequence[Source], report: Diagnostics) -> list[tuple[dic
             zero = min(began, zero if zero is not None else began)
         records += of
     steps = [(step, each) for each in records if (step := _plain(each, zero)) is not None]
-    if any(word in source.text for source in sources for word in NOT_FINITE):
-        steps = [(named_numbers(step), record) for step, record in steps]
     _report_clocks(steps, report)
     steps.sort(key=lambda step: step[0]["t"])
     return [(step, record.place) for step, record in steps]
@@ -56,7 +53,9 @@ def _include(found: Diagnostics, report: Diagnostics) -> None:
 
 def _plain(record: Record, zero: int | None) -> dict[str, Any] | None:
     """Return the values of a line that a page can show, times since the beginning, if any."""
-    value = dict(record.done)
+    value = fitting(dict(record.done))
+    if value is None:
+        return None
     began = value.pop("began", zero)
     offset = 0 if began is None or zero is None else began - zero
     value["t"] = value["t"] + offset
@@ -64,7 +63,7 @@ def _plain(record: Record, zero: int | None) -> dict[str, Any] | None:
     if envelope is not None and envelope.get("sent", 0) > _EPOCH:
         # A node fills in the time of its clock, not that since it began.
         value["envelope"] = {**envelope, "sent": envelope["sent"] - (zero or 0) * MILLISECOND}
-    return fitting(value)
+    return value
 
 
 _EPOCH = 10**18

@@ -13,12 +13,21 @@ from swarmdsl.execution.simulate.trace_line import is_beside_steps
 _AXES = (2, 3)
 _FAR = 1e9
 """Metres to which no robot comes."""
+_LARGE = 2**63
+"""Number that no time in nanoseconds reaches."""
+_BESIDE = (
+    *("t", "began", "property", "verdict", "remark", "measures", "fitness"),
+    *("moved", "links", "targets", "saw", "lost"),
+)
+"""Keys of lines without a step."""
 
 Check = Callable[[Any], bool]
 
 
 def fitting(value: dict[str, Any]) -> dict[str, Any] | None:
     """Return the values of a line that fit; None if nothing is left that could be shown."""
+    if is_beside_steps(value):
+        value = {key: value[key] for key in _BESIDE if key in value}
     unfit = [key for key, fits in _CHECKS.items() if key in value and not fits(value[key])]
     for key in unfit:
         del value[key]
@@ -26,7 +35,7 @@ def fitting(value: dict[str, Any]) -> dict[str, Any] | None:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _LARGE
 
 
 def _is_place(value: Any) -> bool:
@@ -69,6 +78,7 @@ def _is_true(value: Any) -> bool:
 
 _NAMES = _of(_is_name)
 _CHECKS: Mapping[str, Check] = {
+    "envelope": lambda value: _is_number(value.get("sent", 0)),
     "at": _is_place,
     "moved": _is_moved,
     "lost": _record(

@@ -1,9 +1,11 @@
 // View of two runs side by side, by time, with the times from which on members are in different states.
 import { clock, el, printable } from "./dom.js";
-import { stayAt, staysOf } from "./stays.js";
+import { upTo } from "./shapes.js";
+import { staysOf } from "./stays.js";
 
 const MOST = 200; // rows
-const words = (states) => (states === undefined ? "not there" : states === null ? "lost" : states.join(", "));
+const words = ({ times, states }, time) => said(states[upTo(times, time) - 1]);
+const said = (states) => (states === undefined ? "not there" : states === null ? "lost" : states.join(", "));
 
 /** Times at which the states of two stays begin to differ. */
 function partings(mine, theirs) {
@@ -11,7 +13,7 @@ function partings(mine, theirs) {
   const found = [];
   let same = true;
   for (const time of times) {
-    const now = words(mine.states[stayAt(mine, time)]) === words(theirs.states[stayAt(theirs, time)]);
+    const now = words(mine, time) === words(theirs, time);
     if (same && !now) found.push(time);
     same = now;
   }
@@ -31,7 +33,7 @@ export const view = {
     const [mine, theirs] = [staysOf(recording), staysOf(other)];
     const none = { times: [], states: [] };
     const names = [...new Set([...recording.members, ...other.members].map((each) => each.name))];
-    const of = (run, stays, name) => stays[run.members.findIndex((each) => each.name === name)] ?? none;
+    const of = (run, stays, name) => stays[run.number(name)] ?? none;
     this.rows = names.map((name) => {
       const pair = [of(recording, mine, name), of(other, theirs, name)];
       return { name, pair, partings: partings(...pair), cells: [el("td"), el("td")] };
@@ -60,12 +62,15 @@ export const view = {
   show() {
     const { time } = this.player;
     for (const row of this.shown) {
-      const states = row.pair.map((each) => words(each.states[stayAt(each, time)]));
+      const states = row.pair.map((each) => words(each, time));
       row.element.classList.toggle("differs", states[0] !== states[1]);
       row.cells.forEach((cell, at) => (cell.textContent = printable(`${at && states[0] !== states[1] ? "\u2260 " : ""}${states[at]}`)));
     }
     const [first] = this.times;
     const who = this.rows.filter((each) => each.partings.includes(first)).map((each) => each.name);
-    this.said.textContent = first === undefined ? "The states of both runs are the same at all times." : printable(`The runs differ from ${clock(first)} on, first in ${who.slice(0, 5).join(", ")}.`);
+    const [mine, theirs] = [this.player.recording.end, this.player.recording.other.end];
+    const until = mine === theirs ? "" : ` This run ends at ${clock(mine)}, the other at ${clock(theirs)}.`;
+    const result = first === undefined ? "The states of both runs are the same at all times." : `The runs differ from ${clock(first)} on, first in ${who.slice(0, 5).join(", ")}${who.length > 5 ? ` and ${who.length - 5} more` : ""}.`;
+    this.said.textContent = printable(result + until);
   },
 };

@@ -1,6 +1,7 @@
 // Controls: the bar with time and speed, the keys, and the help that lists them.
 import { clock, duration, el } from "./dom.js";
 import { act } from "./lanes.js";
+import { STEPS } from "./player.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 30, 60, 120];
 
@@ -74,14 +75,7 @@ export function controls(element, player) {
   const kind = el(
     "select",
     { "aria-label": "kind of step" },
-    ...Object.entries({
-      macrostep: "macrostep",
-      member: "event of the chosen member",
-      send: "send",
-      loss: "loss",
-      fault: "fault",
-      violation: "violation",
-    }).map(([value, text]) => el("option", { value }, text)),
+    ...Object.keys(STEPS).map((value) => el("option", { value }, value === "member" ? "event of the chosen member" : value)),
   );
   const told = el("span", { class: "said" });
   const live = el("div", { class: "unseen", role: "status", "aria-live": "polite" });
@@ -128,12 +122,13 @@ export function controls(element, player) {
   });
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || help.open) return;
-    const typed = event.target.closest("input, select, textarea");
-    if (typed && (typed.type !== "range" || event.key.startsWith("Arrow"))) {
+    const typed = event.target.closest("input:not([type=checkbox], [type=range]), select");
+    if (typed) {
       if (event.key === "Escape") typed.blur();
       return;
     }
-    if (event.key === " " && event.target.closest("button, summary, a")) return;
+    if (event.key === " " && event.target.closest("button, summary, a, [type=checkbox]")) return;
+    if (event.key.startsWith("Arrow") && event.target.closest("[type=range]")) return;
     if (event.key.startsWith("Arrow") && event.target.closest("[role=tab]")) return;
     const found = keys.find(([key]) => key === event.key);
     if (!found) return;

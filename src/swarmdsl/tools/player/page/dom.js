@@ -1,10 +1,13 @@
 // Elements of the page. Names of models and traces are text, never markup.
 
 // Control characters, changes of the writing direction, and what cannot be seen.
-const UNSEEN = /[\p{Cc}\p{Cf}\p{Cs}\u2028\u2029]/gu;
+const UNSEEN = /[\p{Cc}\p{Cf}\p{Cs}\u2028\u2029\ufffe\uffff]/gu;
 
 /** A text without what hides or turns the text around it. */
 export const printable = (text) => String(text).replace(UNSEEN, "\ufffd");
+
+/** Value of a key of an object, undefined for what all objects have, like `constructor`. */
+export const own = (object, key) => (Object.hasOwn(object, key) ? object[key] : undefined);
 
 /** Make an element: attributes, listeners (`onclick`), then texts and elements inside. */
 export function el(tag, attributes = {}, ...inside) {

@@ -1,4 +1,5 @@
 // What has happened in a recording until each of its lines, collected once for the views.
+import { own } from "./dom.js";
 import { robotOf } from "./recording.js";
 
 const NEAR = 0.05; // metres between two places of a trail
@@ -53,10 +54,10 @@ class History {
     const member = recording.members[recording.memberAt(at)];
     this.hasVariables ||= step.variables !== undefined;
     if (!member) return;
-    const numbers = recording.coverage?.of[member.machine];
+    const numbers = own(recording.coverage?.of ?? {}, member.machine);
     if (numbers)
       for (const id of [...step.entered, ...(step.taken ?? [])])
-        if (id in numbers && !this.reached.has(numbers[id])) this.reached.set(numbers[id], at);
+        if (Object.hasOwn(numbers, id) && !this.reached.has(numbers[id])) this.reached.set(numbers[id], at);
     const place = recording.value(at, "at");
     if (place) this.#move(at, robotOf(member.name), place);
   }

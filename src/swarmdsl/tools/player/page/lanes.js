@@ -1,19 +1,18 @@
 // Lanes: a row for each member, bars of states over time, arrows of swarm events.
 import { clock, duration, el, printable } from "./dom.js";
-import { bundles, stayAt, staysOf } from "./stays.js";
+import { historyOf } from "./history.js";
+import { drawArrows } from "./lane_arrows.js";
+import { drawAxis, drawRow } from "./lane_bars.js";
+import { upTo } from "./shapes.js";
+import { staysOf } from "./stays.js";
 
 const ROW = 20; // height of a region
 const GAP = 4;
 const HEAD = 22; // height of the head of a role, and of the axis
-const LETTER = 6.3;
 const MOST_ROWS = 500; // of one role; others are found by search
 const PROPERTIES = "\n"; // the group of properties, which is no role
 const SOME = 6; // properties that are shown without folding; a violated one always is
 const FEW = 60; // members that are shown without folding
-const BUNDLE = 5; // pixels
-const CROWD = 3; // receivers from which on a bundle is a trunk
-const STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 21600];
-const VERDICTS = { true: "#44bb99", open: "#eedd88", false: "#ee8866" };
 
 class Lanes {
   constructor(element, player) {
@@ -26,7 +25,6 @@ class Lanes {
     this.arrows = true;
     this.end = Math.max(recording.end, 1);
     [this.from, this.to] = [0, this.end];
-    this.verdicts = this.#verdicts();
     const roles = [...new Set(recording.members.map((each) => each.role))];
     if (recording.properties.length > SOME) this.folded.add(PROPERTIES);
     if (recording.members.length > FEW) roles.forEach((each) => this.folded.add(each));
@@ -40,11 +38,16 @@ class Lanes {
 
   /** Show a moment: the cursor, and the states in the heads of the rows. */
   show(moment) {
-    const x = this.x(this.player.time);
-    const inside = x >= 0 && x <= this.width;
-    if (!inside && this.player.playing) this.zoom(1, this.player.time);
-    this.cursor.style.transform = `translateX(${this.x(this.player.time)}px)`;
-    this.cursor.hidden = x < 0 || x > this.width;
+    const { time } = this.player;
+    const x = this.x(time);
+    const isSeen = x > -1 && x < this.width + 1;
+    if (!isSeen && this.shown !== time) {
+      this.shown = time;
+      return this.zoom(1); // which shows it
+    }
+    this.shown = time;
+    this.cursor.style.transform = `translateX(${x}px)`;
+    this.cursor.hidden = !isSeen;
     for (const row of this.rows) {
       if (row.members.length !== 1) continue;
       const { states, alive, line } = moment.members[row.members[0]];
@@ -108,12 +111,14 @@ class Lanes {
         add({ name: `and ${numbers.length - MOST_ROWS} more: search for them`, members: [] }, ROW);
     }
     const folded = this.folded.has(PROPERTIES);
+    const { verdicts } = historyOf(this.recording);
     if (properties.length) add({ role: PROPERTIES, name: "properties", members: [], count: properties.length, folded }, HEAD - 6);
     properties.forEach((each, number) => {
-      const violated = this.verdicts[number].some(({ verdict }) => verdict === "false");
+      const violated = verdicts[number].some(({ verdict }) => verdict === "false");
       if (!folded || violated) add({ name: each.name, property: number, members: [] }, ROW - 4);
     });
     this.bottom = top;
+    this.scroller.style.height = `${HEAD + top + 2}px`; // the page shrinks it if there are many
     this.of = new Map();
     for (const row of this.rows) for (const each of row.members) this.of.set(each, row);
     this.#heads();
@@ -140,7 +145,7 @@ class Lanes {
     pen.scale(ratio, ratio);
     pen.font = "11px system-ui, sans-serif";
     pen.textBaseline = "middle";
-    this.#axis(pen, height);
+    drawAxis(pen, this, height);
     pen.save();
     pen.beginPath();
     pen.rect(0, HEAD, width, height - HEAD);
@@ -148,11 +153,9 @@ class Lanes {
     pen.translate(0, HEAD - this.scroller.scrollTop);
     for (const row of this.rows) {
       if (row.top + row.height < this.scroller.scrollTop || row.top > this.scroller.scrollTop + height) continue;
-      if (row.property !== undefined) this.#property(pen, row);
-      else if (row.folded && row.members.length) this.#crowd(pen, row);
-      else if (row.members.length) this.#lane(pen, row);
+      drawRow(pen, this, row);
     }
-    if (this.arrows) this.#arrows(pen);
+    if (this.arrows) drawArrows(pen, this);
     pen.restore();
   }
 
@@ -185,7 +188,7 @@ class Lanes {
       el("button", { type: "button", title: "zoom in (+)", onclick: () => this.zoom(2) }, "+"),
       el("button", { type: "button", title: "zoom out (-)", onclick: () => this.zoom(0.5) }, "\u2212"),
       el("button", { type: "button", title: "whole run (0)", onclick: () => this.zoom(1e-9) }, "whole run"),
-      el("span", { class: "key" }, "\u2192 taken, \u25cb ignored, \u00d7 lost"),
+      el("span", { class: "key" }, "\u2192 taken, \u21e5 kept, \u25cb ignored, \u00d7 lost"),
     );
     element.append(bar, this.scroller, this.hint);
     this.scroller.addEventListener("scroll", () => this.draw());
@@ -251,200 +254,6 @@ class Lanes {
     this.heads.replaceChildren(...made);
   }
 
-  #axis(pen, height) {
-    const seconds = (this.to - this.from) / 1e9;
-    const step = STEPS.find((each) => seconds / each <= this.width / 90) ?? seconds / 8;
-    pen.textAlign = "left";
-    for (let at = Math.ceil(this.from / 1e9 / step) * step; at <= this.to / 1e9; at += step) {
-      const x = this.x(at * 1e9);
-      pen.fillStyle = this.faint;
-      pen.fillRect(x, 0, 1, height);
-      pen.fillStyle = this.ink;
-      pen.fillText(step < 1 ? clock(at * 1e9) : clock(at * 1e9).slice(0, -4), x + 4, HEAD / 2);
-    }
-    pen.fillStyle = "#aa3377";
-    for (const each of this.player.bookmarks) pen.fillRect(this.x(each) - 1, 0, 3, HEAD);
-  }
-
-  #lane(pen, row) {
-    const [number] = row.members;
-    const { machine, name } = this.recording.members[number];
-    const stays = this.stays[number];
-    const { selected } = this.player;
-    if (selected === name || selected === this.recording.members[number].role) {
-      pen.fillStyle = "#aa3377";
-      pen.fillRect(0, row.top - 2, this.width, 1);
-      pen.fillRect(0, row.top + row.height + 1, this.width, 1);
-    }
-    let last = -1; // the pixel up to which is drawn
-    for (let at = Math.max(0, stayAt(stays, this.from)); at < stays.times.length && stays.times[at] <= this.to; at++) {
-      const start = Math.max(0, this.x(stays.times[at]));
-      const end = Math.min(this.width, this.x(stays.times[at + 1] ?? this.end));
-      if (end - last < 0.7 && end < this.width) continue; // it is below a pixel that is drawn
-      last = end;
-      this.#bar(pen, machine, stays.states[at], start, end - start, row);
-    }
-  }
-
-  #bar(pen, machine, states, x, width, row) {
-    if (states === null || !states.length) {
-      this.#hatch(pen, x, row.top, width, row.height, states === null ? "lost" : "");
-      return;
-    }
-    const height = row.height / states.length;
-    states.forEach((state, slot) => {
-      const top = row.top + slot * height;
-      pen.fillStyle = this.recording.colourOf(machine, state);
-      pen.fillRect(x, top, Math.max(width - (width > 3 ? 0.75 : 0), 0.7), height - 0.5);
-      const label = shortened(state, width - 6);
-      if (!label) return;
-      pen.fillStyle = "#1d2733";
-      pen.fillText(label, x + 3, top + height / 2);
-    });
-  }
-
-  #hatch(pen, x, top, width, height, label) {
-    pen.save();
-    pen.beginPath();
-    pen.rect(x, top, width, height);
-    pen.clip();
-    pen.strokeStyle = this.ink;
-    pen.lineWidth = 1;
-    pen.beginPath();
-    for (let at = x - height - (x % 6); at < x + width; at += 6) {
-      pen.moveTo(at, top + height);
-      pen.lineTo(at + height, top);
-    }
-    pen.stroke();
-    pen.restore();
-    if (width > LETTER * (label.length + 1)) {
-      pen.fillStyle = this.ink;
-      pen.fillText(label, x + 3, top + height / 2);
-    }
-  }
-
-  /** Draw how many of a role are in which state. */
-  #crowd(pen, row) {
-    const next = row.members.map((each) => stayAt(this.stays[each], this.from));
-    const { machine } = this.recording.members[row.members[0]];
-    const share = row.height / row.members.length;
-    for (let x = 0; x < this.width; x += 2) {
-      const time = this.time(x + 1);
-      const counts = new Map();
-      row.members.forEach((each, at) => {
-        const { times, states } = this.stays[each];
-        while (times[next[at] + 1] <= time) next[at] += 1;
-        for (const state of states[next[at]] ?? [""]) counts.set(state, (counts.get(state) ?? 0) + 1 / (states[next[at]]?.length || 1));
-      });
-      let top = row.top;
-      for (const state of [...counts.keys()].sort()) {
-        const height = counts.get(state) * share;
-        pen.fillStyle = state ? this.recording.colourOf(machine, state) : this.faint;
-        pen.fillRect(x, top, 2, height);
-        top += height;
-      }
-    }
-  }
-
-  #property(pen, row) {
-    const changes = this.verdicts[row.property];
-    changes.forEach(({ time, verdict }, at) => {
-      const [start, end] = [Math.max(0, this.x(time)), Math.min(this.width, this.x(changes[at + 1]?.time ?? this.end))];
-      if (end <= start) return;
-      pen.fillStyle = VERDICTS[verdict] ?? this.faint;
-      pen.fillRect(start, row.top, Math.max(end - start, 1), row.height);
-      pen.fillStyle = "#1d2733";
-      if (end - start > LETTER * (verdict.length + 1)) pen.fillText(verdict, start + 3, row.top + row.height / 2);
-    });
-  }
-
-  #verdicts() {
-    const found = this.recording.properties.map(() => [{ time: 0, verdict: "open" }]);
-    for (let at = 0; at < this.recording.count; at++) {
-      const { property, verdict } = this.recording.step(at);
-      const number = property === undefined ? -1 : this.recording.properties.findIndex((each) => each.name === property);
-      if (number >= 0) found[number].push({ time: this.recording.time(at), verdict });
-    }
-    return found;
-  }
-
-  #arrows(pen) {
-    const near = ((this.to - this.from) / this.width) * BUNDLE;
-    const { messages } = this.recording;
-    const key = [this.from, this.to, near, messages.length].join();
-    if (this.bundled !== key) this.drawn = bundles(messages, this.from, this.to, near);
-    this.bundled = key;
-    pen.strokeStyle = pen.fillStyle = this.ink;
-    const { selected } = this.player;
-    const chosen = selected === null ? [] : this.recording.selected(selected);
-    for (const each of this.drawn) {
-      const source = this.of.get(each.from);
-      const targets = each.to.flatMap((to) => {
-        const row = this.of.get(to.member);
-        return to.fate === "nobody" ? [{ ...to, row: source }] : row && row !== source ? [{ ...to, row }] : [];
-      });
-      if (!source || !targets.length) continue;
-      const own = chosen.includes(each.from) || each.to.some((to) => chosen.includes(to.member));
-      pen.globalAlpha = !chosen.length || own ? 0.75 : 0.12;
-      pen.lineWidth = Math.min(1 + Math.log2(each.count) / 3, 3);
-      if (targets.length > CROWD) this.#trunk(pen, each, source, targets);
-      else for (const to of targets) this.#arrow(pen, each, source, to);
-      pen.globalAlpha = 1;
-    }
-  }
-
-  /** Draw an event to many: one line past all rows, with a mark at each that gets it. */
-  #trunk(pen, each, source, targets) {
-    const x = this.x(each.sent);
-    const middles = [source, ...targets.map((to) => to.row)].map((row) => row.top + row.height / 2);
-    pen.beginPath();
-    pen.moveTo(x, Math.min(...middles));
-    pen.lineTo(x, Math.max(...middles));
-    pen.stroke();
-    pen.fillRect(x - 2.5, source.top + source.height / 2 - 2.5, 5, 5);
-    for (const to of targets) this.#mark(pen, x, to.row.top + to.row.height / 2, to.fate);
-  }
-
-  #arrow(pen, each, source, to) {
-    const down = to.row.top >= source.top;
-    const [x, end] = [this.x(each.sent), this.x(to.received)];
-    const start = source.top + (down ? source.height : 0);
-    const tip = to.fate === "nobody" ? start + 8 : to.row.top + (down ? 0 : to.row.height);
-    const stop = to.fate === "lost" || to.fate === "nobody" ? (start + tip) / 2 : tip;
-    const over = to.fate === "lost" ? (x + end) / 2 : end;
-    pen.setLineDash(to.fate === "lost" ? [3, 3] : to.fate === "ignored" ? [1, 2] : []);
-    pen.beginPath();
-    pen.moveTo(x, start);
-    pen.lineTo(over, stop);
-    pen.stroke();
-    pen.setLineDash([]);
-    this.#mark(pen, over, stop, to.fate, down);
-  }
-
-  /** Draw the end of an arrow: a tip where an event is taken, a circle where it is ignored, a cross where it is lost. */
-  #mark(pen, x, y, fate, down) {
-    pen.beginPath();
-    if (fate === "lost" || fate === "nobody") {
-      pen.moveTo(x - 3, y - 3);
-      pen.lineTo(x + 3, y + 3);
-      pen.moveTo(x - 3, y + 3);
-      pen.lineTo(x + 3, y - 3);
-      pen.stroke();
-    } else if (fate === "ignored") {
-      pen.arc(x, y, 2.5, 0, 7);
-      pen.stroke();
-    } else if (down === undefined) {
-      pen.arc(x, y, 2, 0, 7);
-      pen.fill();
-    } else {
-      const back = down ? -5 : 5;
-      pen.moveTo(x, y);
-      pen.lineTo(x - 3, y + back);
-      pen.lineTo(x + 3, y + back);
-      pen.fill();
-    }
-  }
-
   /** Tell what is under the pointer. */
   #tell(x, y, event) {
     const row = this.rowAt(y);
@@ -453,7 +262,7 @@ class Lanes {
     const sent = (this.arrows ? (this.drawn ?? []) : []).find((each) => Math.abs(this.x(each.sent) - x) < 3);
     if (row?.members.length === 1) {
       const stays = this.stays[row.members[0]];
-      const at = stayAt(stays, time);
+      const at = upTo(stays.times, time) - 1;
       if (at >= 0) {
         const [start, end] = [stays.times[at], stays.times[at + 1] ?? this.end];
         words.push(`${row.name}: ${stays.states[at]?.join(", ") ?? "lost"}`, `${duration(start)} to ${duration(end)}: ${duration(end - start)}`);
@@ -465,17 +274,9 @@ class Lanes {
     }
     this.hint.replaceChildren(...words.map((each) => el("div", {}, each)));
     this.hint.hidden = false;
-    this.hint.style.left = `${Math.min(event.clientX + 14, innerWidth - 320)}px`;
+    this.hint.style.left = `${Math.max(0, Math.min(event.clientX + 14, innerWidth - 320))}px`;
     this.hint.style.top = `${event.clientY + 16}px`;
   }
-}
-
-/** Shorten a name to fit: its last segment, or its first letters. */
-function shortened(state, width) {
-  const room = Math.floor(width / LETTER);
-  const last = printable(state.slice(state.lastIndexOf(".") + 1));
-  if (last.length <= room) return last;
-  return room >= 4 ? `${last.slice(0, room - 1)}\u2026` : "";
 }
 
 let lanes = null;

@@ -1,7 +1,8 @@
 // Log: the lines of the trace around the moment. Only the rows that are seen exist.
-import { clock, el, printable } from "./dom.js";
+import { clock, el } from "./dom.js";
 import { historyOf } from "./history.js";
 import { upTo, write } from "./shapes.js";
+import { words } from "./words.js";
 
 const ROW = 20; // pixels
 const SPARE = 8; // rows above and below
@@ -51,16 +52,16 @@ export const view = {
   /** Look for the lines that match, in slices, so that the page does not stop. */
   seek() {
     const { recording, selected } = this.player;
-    const words = this.sought.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const sought = this.sought.value.toLowerCase().split(/\s+/).filter(Boolean);
     const chosen = this.only.checked && selected !== null ? new Set(recording.selected(selected)) : null;
     clearTimeout(this.timer);
-    this.found = words.length || chosen ? [] : null;
+    this.found = sought.length || chosen ? [] : null;
     let next = 0;
     const { told } = historyOf(recording);
     const matches = (at) => {
       if (chosen && !chosen.has(recording.memberAt(at))) return false;
-      const text = words.length ? this.words(at).toLowerCase() : "";
-      return words.every((each) => text.includes(each));
+      const text = sought.length ? this.told(at).toLowerCase() : "";
+      return sought.every((each) => text.includes(each));
     };
     const search = () => {
       const until = performance.now() + SLICE;
@@ -114,7 +115,7 @@ export const view = {
       if (row.line !== lines[at] || row.dataset.count !== String(lines.length)) {
         row.line = lines[at];
         row.dataset.count = lines.length;
-        row.textContent = this.words(lines[at]);
+        row.textContent = this.told(lines[at]);
         row.setAttribute("aria-posinset", at + 1);
         row.setAttribute("aria-setsize", lines.length);
       }
@@ -123,34 +124,14 @@ export const view = {
     }
   },
 
+  told(at) {
+    const { recording } = this.player;
+    return `${clock(recording.time(at))}  ${words(recording, at)}`;
+  },
+
   row() {
     const row = el("div", { role: "option" });
     row.addEventListener("click", () => this.player.go(row.line));
     return row;
-  },
-
-  /** A line in words. */
-  words(at) {
-    const { recording } = this.player;
-    const step = recording.step(at);
-    const time = clock(recording.time(at));
-    if (step.property !== undefined) return printable(`${time}  property ${step.property}: ${step.verdict}${step.remark ? `, but ${step.remark}` : ""}`);
-    if (step.lost !== undefined) {
-      const { event, sender, member } = recording.value(at, "lost") ?? step.lost;
-      return printable(`${time}  ${event} from ${sender} to ${member} is lost on the way`);
-    }
-    const { event, sent = [], to = [], nobody = [] } = step;
-    const fates = ["recalled", "deferred", "ignored"].filter((each) => step[each]);
-    const address = (name, number) => `${name}${to[number] ? ` to ${to[number]}` : ""}${nobody.includes(name) ? " (nobody)" : ""}`;
-    const done = [
-      ["start", step.started],
-      ["cancel", [...(step.cancelled ?? []), ...(step.withdrawn ?? []).map((each) => `send ${each}`)]],
-      ["send", [...sent.map(address), ...(step.scheduled ?? []).map((each) => `${each.event} after ${each.after / 1000} s`)]],
-      ["drop", step.dropped],
-    ];
-    const head = `${time}  ${recording.members[recording.memberAt(at)]?.name ?? ""}  ${event ?? "(start)"}`;
-    const fate = fates.length ? ` (${fates.join(", ")})` : "";
-    const moved = step.entered?.length || step.exited?.length ? ` \u2192 ${step.configuration.join(", ")}` : "";
-    return printable([`${head}${fate}${moved}`, ...done.flatMap(([word, names]) => (names?.length ? [`${word} ${names.join(", ")}`] : []))].join("; "));
   },
 };

@@ -21,18 +21,18 @@ export const view = {
   },
 
   change() {
-    this.turn(this.choice.value);
+    this.turn([...this.chosen.keys()][this.choice.selectedIndex]);
     this.show(this.player.moment);
   },
 
   /** Offer the machines of the selected members. */
   offer() {
-    const { recording, selected } = this.player;
-    const numbers = selected === null ? recording.members.map((_, at) => at) : recording.selected(selected);
+    const { numbers, recording } = this.player;
     this.chosen = new Map(); // numbers of members by machine
     for (const number of numbers) {
       const { machine } = recording.members[number];
-      this.chosen.set(machine, [...(this.chosen.get(machine) ?? []), number]);
+      if (!this.chosen.has(machine)) this.chosen.set(machine, []);
+      this.chosen.get(machine).push(number);
     }
     const names = [...this.chosen.keys()];
     this.choice.replaceChildren(...names.map((name) => el("option", { value: name }, name || "unknown machine")));
@@ -42,7 +42,7 @@ export const view = {
 
   /** Show another machine. */
   turn(name) {
-    this.choice.value = name;
+    this.choice.selectedIndex = [...this.chosen.keys()].indexOf(name);
     if (this.machine === name) return;
     this.machine = name;
     const machine = this.player.recording.machines[name];
@@ -58,9 +58,8 @@ export const view = {
       svg.append(this.counts);
       this.drawing.replaceChildren(svg);
     } else {
-      const rows = (machine?.states ?? []).map((id) => el("li", { "data-id": id }, id));
-      for (const each of rows) note(each, "nodes");
-      this.drawing.replaceChildren(el("ul", { class: "states" }, ...rows));
+      for (const id of machine?.states ?? []) this.nodes.set(id, [el("li", {}, id)]);
+      this.drawing.replaceChildren(el("ul", { class: "states" }, ...[...this.nodes.values()].flat()));
     }
   },
 
@@ -86,7 +85,7 @@ export const view = {
       if (numbers.length > 1 && id) counts.push(this.count(this.nodes.get(id)[0], here));
     }
     this.counts.replaceChildren(...counts.filter(Boolean));
-    const last = Math.max(-1, ...numbers.map((each) => moment.members[each]?.line ?? -1));
+    const last = numbers.reduce((line, each) => Math.max(line, moment.members[each]?.line ?? -1), -1);
     const step = last < 0 ? {} : recording.step(last);
     const taken = step.taken ?? [];
     for (const id of taken) this.light(this.edges.get(id), "taken");

@@ -7,16 +7,21 @@ import { load } from "./recording.js";
 import { MAIN, VIEWS } from "./views.js";
 
 const byId = (id) => document.getElementById(id);
-const DURATION = /^([\d.]+)(ms|s|min|h)?$/;
+const DURATION = /^(\d+(?:\.\d+)?)(ms|s|min|h)?$/;
 const UNITS = { ms: 1e6, s: 1e9, min: 60e9, h: 3600e9 };
 
-/** Read and write the address: `#t=12.5s&m=uav[1]&v=machine`. */
+/** Read and write the address: `#t=12.5s&line=31&m=uav[1]&v=machine`. */
 function address(player, panels) {
+  const { recording } = player;
   const read = () => {
     const given = new URLSearchParams(location.hash.slice(1));
     const time = DURATION.exec(given.get("t") ?? "");
     if (given.has("m")) player.select(given.get("m"));
     if (time) player.goTime(Number(time[1]) * UNITS[time[2] ?? "s"]);
+    // Several lines may have one time.
+    const line = Number(given.get("line")) - 1;
+    const isLine = Number.isInteger(line) && line >= 0 && line < recording.count;
+    if (isLine && recording.time(line) === player.time) player.go(line);
     panels.open((given.get("v") ?? "").split(","));
   };
   let pending = 0;
@@ -25,7 +30,8 @@ function address(player, panels) {
     // Browsers refuse more than some changes a second.
     pending = setTimeout(() => {
       const member = player.selected === null ? "" : `&m=${encodeURIComponent(player.selected).replace(/%5B/g, "[").replace(/%5D/g, "]")}`;
-      const text = `#t=${player.time / 1e9}s${member}&v=${panels.opened().join(",")}`;
+      const line = player.index === recording.at(player.time) ? "" : `&line=${player.index + 1}`;
+      const text = `#t=${Math.round(player.time / 1e3) / 1e6}s${line}${member}&v=${panels.opened().join(",")}`;
       if (text !== location.hash) history.replaceState(null, "", text);
     }, 250);
   };
@@ -110,13 +116,14 @@ function panelsOf(element, player) {
 
 /** Tell the diagnostics of the command. */
 function notes(element, recording) {
-  if (!recording.notes.length) return;
-  const errors = recording.notes.filter((each) => each.severity === "error").length;
-  const items = recording.notes.map((each) =>
+  const found = [...recording.notes, ...(recording.other?.notes ?? [])];
+  if (!found.length) return;
+  const errors = found.filter((each) => each.severity === "error").length;
+  const items = found.map((each) =>
     el(
       "li",
       { class: each.severity },
-      el("strong", {}, `${each.severity}[${each.code}]: `),
+      el("strong", {}, `${each.severity}${each.code && `[${each.code}]`}: `),
       each.message,
       ...(each.place ? [" ", el("code", {}, each.place)] : []),
       ...(each.help ? [el("br"), `help: ${each.help}`] : []),

@@ -1,5 +1,5 @@
 // Map: where robots are, the ways that they went, what they have seen, and who reaches whom by radio.
-import { clock, el, picture, printable } from "./dom.js";
+import { clock, el, own, picture, printable } from "./dom.js";
 import { historyOf } from "./history.js";
 import { robotOf } from "./recording.js";
 import { press, shape, upTo, write } from "./shapes.js";
@@ -35,7 +35,7 @@ export const view = {
 
   robot(name, role) {
     if (this.marks.has(name)) return;
-    const colour = this.player.recording.map.colours[role.split(".")[0]] ?? "#98a2b3";
+    const colour = own(this.player.recording.map.colours, role.split(".")[0]) ?? "#98a2b3";
     const trail = this.trails.appendChild(shape("path", { class: "trail", stroke: colour }));
     const dot = shape("circle", { r: SIZE, fill: colour, stroke: colour });
     const title = shape("title");
@@ -64,7 +64,7 @@ export const view = {
         continue;
       }
       there += 1;
-      const [x, y, z] = here.place;
+      const [x, y, z = 0] = here.place;
       each.mark.setAttribute("visibility", "visible");
       each.mark.setAttribute("transform", `translate(${this.x(x).toFixed(1)},${this.y(y).toFixed(1)})`);
       each.mark.classList.toggle("lost", !here.alive);

@@ -1,5 +1,5 @@
 // Player: the moment that all views show, and the ways to another one.
-import { printable } from "./dom.js";
+import { isTold, words } from "./words.js";
 
 /** Kinds of steps by name: what a line must be, given the recording, its number and the selected members. */
 export const STEPS = {
@@ -38,9 +38,20 @@ export class Player {
     return this.#shown;
   }
 
+  /** Numbers of the chosen members; all if none is chosen. */
+  get numbers() {
+    const { members } = this.recording;
+    return this.selected === null ? [...members.keys()] : this.recording.selected(this.selected);
+  }
+
+  /** The last line of the chosen members, or -1. */
+  get last() {
+    return this.numbers.reduce((last, each) => Math.max(last, this.moment.members[each]?.line ?? -1), -1);
+  }
+
   /** Go to the moment after a line. */
   go(index) {
-    const at = Math.max(0, Math.min(index, this.recording.count - 1));
+    const at = Math.min(Math.max(0, index), this.recording.count - 1); // -1 without lines
     this.#move(at, this.recording.time(at));
   }
 
@@ -91,19 +102,11 @@ export class Player {
     this.#tell("playing");
   }
 
-  /** The last step in words: member, event and its states; or a lost event, or a verdict. */
+  /** The last line in words that says something. */
   said() {
     let at = this.index;
-    const tells = ({ configuration, lost, property }) => configuration ?? lost ?? property;
-    while (at >= 0 && tells(this.recording.step(at)) === undefined) at--;
-    if (at < 0) return "nothing has happened yet";
-    const line = this.recording.line(at);
-    if (line.lost) return printable(`${line.lost.event} from ${line.lost.sender} to ${line.lost.member} is lost`);
-    if (line.property !== undefined) return printable(`property ${line.property}: ${line.verdict}`);
-    const fate = line.ignored ? " (ignored)" : line.deferred ? " (deferred)" : line.recalled ? " (recalled)" : "";
-    const moved = line.entered?.length || line.exited?.length ? ` \u2192 ${line.configuration.join(", ")}` : "";
-    const sent = line.sent?.length ? `; sends ${line.sent.join(", ")}` : "";
-    return printable(`${line.member}: ${line.event ?? "start"}${fate}${moved}${sent}`);
+    while (at >= 0 && !isTold(this.recording.step(at))) at--;
+    return at < 0 ? "nothing has happened yet" : words(this.recording, at);
   }
 
   #run(now) {

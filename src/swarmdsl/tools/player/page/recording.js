@@ -1,7 +1,7 @@
 // Recording of a run: lines of a trace, and the moment after each of them.
 import { unpack } from "./unpack.js";
 
-const EVERY = 512; // lines from one snapshot to the next
+const EVERY = 512; // lines from one snapshot to the next, more if there are more members
 const MILLISECOND = 1e6;
 const THOUSAND = 1000;
 const NOBODY = { states: [], variables: {}, place: null, alive: false, line: -1, since: -1 };
@@ -23,6 +23,7 @@ export class Recording {
   #member;
   #more = []; // lines that were appended
   #snapshots = [];
+  #every;
   #numbers = new Map();
   #robots = new Map();
   #messages = null;
@@ -31,6 +32,7 @@ export class Recording {
     Object.assign(this, head);
     this.count = count;
     this.members.forEach((each, number) => this.#join(each, number));
+    this.#every = Math.max(EVERY, this.members.length);
     this.#steps = lines.steps;
     this.#names = lines.names;
     this.#values = lines.values;
@@ -112,9 +114,9 @@ export class Recording {
   /** State of the whole swarm after a line; -1 is before the first one. */
   moment(at) {
     const index = Math.min(at, this.count - 1);
-    const number = Math.max(0, Math.floor(index / EVERY));
+    const number = Math.max(0, Math.floor(index / this.#every));
     const found = copied(this.#snapshots[number]);
-    for (let each = number * EVERY; each <= index; each++) this.#apply(found, each);
+    for (let each = number * this.#every; each <= index; each++) this.#apply(found, each);
     found.index = index;
     found.time = this.time(index);
     return found;
@@ -156,7 +158,7 @@ export class Recording {
 
   /**
    * Swarm events between robots, in the order of their lines:
-   * {event, from, to (numbers of members, or -1), sent, received (ns), line, sentLine, fate};
+   * {event, from, to (numbers of members, or -1), sent, received (ns), line, fate};
    * fate is `taken`, `ignored`, `deferred`, `lost` or `nobody`.
    */
   get messages() {
@@ -213,8 +215,8 @@ export class Recording {
     start.properties = this.properties.map(() => "open");
     const state = number ? copied(this.#snapshots[number - 1]) : start;
     if (!number) this.#snapshots[0] = copied(start);
-    for (let next = Math.max(number, 1); next * EVERY < this.count; next++) {
-      for (let at = (next - 1) * EVERY; at < next * EVERY; at++) this.#apply(state, at);
+    for (let next = Math.max(number, 1); next * this.#every < this.count; next++) {
+      for (let at = (next - 1) * this.#every; at < next * this.#every; at++) this.#apply(state, at);
       this.#snapshots[next] = copied(state);
     }
   }
@@ -242,7 +244,7 @@ export class Recording {
       const number = this.properties.findIndex((each) => each.name === step.property);
       if (number >= 0) state.properties[number] = step.verdict;
     } else if (step.measures !== undefined) {
-      state.measures = this.value(at, "measures") ?? step.measures;
+      state.measures = this.value(at, "measures");
     } else if (step.moved !== undefined) {
       const moved = this.value(at, "moved") ?? {};
       for (const name in moved) for (const each of this.ofRobot(name)) put(state, each, moved[name]);
@@ -251,30 +253,16 @@ export class Recording {
 
   #collected() {
     const found = [];
-    const sends = new Map(); // by sender and event: lines that sent it
-    const key = (robot, event) => `${robot}\n${event}`;
-    const note = (event, from, to, sent, at, fate) => {
-      const lines = sends.get(key(from, event)) ?? [];
-      let number = lines.length - 1;
-      while (number > 0 && this.time(lines[number]) > sent) number--;
-      const [source = -1] = this.ofRobot(from);
-      const sentLine = lines[number] ?? -1;
-      found.push({ event, from: source, to, sent, received: this.time(at), line: at, sentLine, fate });
-    };
+    const note = (event, robot, to, sent, at, fate) =>
+      found.push({ event, from: this.ofRobot(robot)[0] ?? -1, to, sent, received: this.time(at), line: at, fate });
     for (let at = 0; at < this.count; at++) {
       const step = this.step(at);
       if (step.lost !== undefined) {
-        const lost = this.value(at, "lost");
-        if (lost) note(lost.event, lost.sender, this.ofRobot(lost.member)[0] ?? -1, lost.sent, at, "lost");
+        const { event, sender, member, sent } = this.value(at, "lost");
+        note(event, sender, this.ofRobot(member)[0] ?? -1, sent, at, "lost");
       }
       if (!step.configuration || this.memberAt(at) < 0) continue;
-      const robot = robotOf(this.members[this.memberAt(at)].name);
-      for (const event of step.sent ?? []) {
-        const lines = sends.get(key(robot, event));
-        if (lines) lines.push(at);
-        else sends.set(key(robot, event), [at]);
-      }
-      for (const event of step.nobody ?? []) note(event, robot, -1, this.time(at), at, "nobody");
+      for (const event of step.nobody ?? []) note(event, robotOf(this.members[this.memberAt(at)].name), -1, this.time(at), at, "nobody");
       const envelope = step.recalled ? undefined : this.value(at, "envelope");
       if (envelope?.sender) {
         const fate = step.ignored ? "ignored" : step.deferred ? "deferred" : "taken";

@@ -48,7 +48,7 @@ export const view = {
     const heads = numbers.map((number) => {
       const x = columns.get(number);
       const { name, role, index } = members[number];
-      const label = wide > 6.5 * name.length ? name : `${role[0]}${index}`;
+      const label = wide > 6.5 * name.length ? name : `${role.slice(0, 1)}${index}`;
       return shape("g", {}, shape("title", {}, name), shape("text", { class: "head", x, y: 14 }, label), shape("line", { class: "life", x1: x, x2: x, y1: TOP - 6, y2: height }));
     });
     const drawn = rows.map((row, at) => this.row(row, TOP + ROW * at, columns, wide, row.line > moment.index ? "later" : at === now ? "now" : ""));
@@ -97,9 +97,9 @@ export const view = {
   *facts(at, recording) {
     const step = recording.step(at);
     const member = recording.memberAt(at);
-    const message = (sender, event, sent) => ({ key: `${sender}\n${event}\n${Math.round(sent)}`, member: recording.ofRobot(sender)[0] ?? -1, event });
+    const message = (sender, event, sent) => ({ key: `${sender}\n${event}\n${Math.round(sent)}`, sender, member: recording.ofRobot(sender)[0] ?? -1, event });
     if (step.lost !== undefined) {
-      const { event, sender, member: to, sent } = recording.value(at, "lost") ?? step.lost;
+      const { event, sender, member: to, sent } = recording.value(at, "lost");
       yield { ...message(sender, event, sent), to: recording.ofRobot(to)[0] ?? -1, fate: "lost" };
       return;
     }
@@ -154,8 +154,9 @@ export const view = {
     const { members } = this.player.recording;
     const name = (number) => members[number]?.name ?? "nobody";
     if (row.event === undefined) return `${clock(row.time)} ${name(row.member)}: ${row.text}`;
-    const ends = FATES.filter((fate) => row[fate]?.length).map((fate) => `${WORDS[fate]} ${[...new Set(row[fate])].map(name).join(", ")}`);
-    const who = row.member < 0 ? "outside" : robotOf(name(row.member));
+    const to = (fate) => (row[fate].every((each) => each < 0) ? "reaches no robot" : `${WORDS[fate]} ${[...new Set(row[fate])].map(name).join(", ")}`);
+    const ends = FATES.filter((fate) => row[fate]?.length).map(to);
+    const who = row.sender ?? (row.member < 0 ? "outside" : robotOf(name(row.member)));
     return `${clock(row.time)} ${row.event} from ${who}${row.times > 1 ? `, ${row.times} times` : ""}: ${ends.join("; ")}`;
   },
 };

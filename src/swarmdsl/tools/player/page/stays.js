@@ -19,17 +19,6 @@ export function staysOf(recording) {
   return found;
 }
 
-/** Number of the stay at a time, or -1. */
-export function stayAt(stays, time) {
-  let [low, high] = [0, stays.times.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (stays.times[middle] <= time) low = middle + 1;
-    else high = middle;
-  }
-  return low - 1;
-}
-
 const FATES = ["taken", "ignored", "deferred", "lost", "nobody"];
 
 /**

@@ -1,5 +1,5 @@
 // Text of the model, with the lines of the transitions that were taken or the states that were entered.
-import { el, printable } from "./dom.js";
+import { el, own, printable } from "./dom.js";
 import { write } from "./shapes.js";
 
 const ROW = 18; // pixels
@@ -18,7 +18,7 @@ export const view = {
     this.texts = new Map();
     this.words = new Set(player.recording.keywords);
     const names = Object.keys(player.recording.sources);
-    this.choice = el("select", { "aria-label": "File", onchange: () => this.open(this.choice.value) }, ...names.map((each) => el("option", { value: each }, each)));
+    this.choice = el("select", { "aria-label": "File", onchange: () => this.open(names[this.choice.selectedIndex]) }, ...names.map((each) => el("option", { value: each }, each)));
     this.said = el("p", { class: "said" });
     this.box = el("div", { class: "text", tabindex: 0, role: "region", "aria-label": "Text of the model" });
     this.height = 300;
@@ -31,7 +31,7 @@ export const view = {
   open(name) {
     if (this.name === name) return;
     this.name = name;
-    this.choice.value = name;
+    this.choice.selectedIndex = Object.keys(this.player.recording.sources).indexOf(name);
     if (!this.texts.has(name)) {
       const rows = this.player.recording.sources[name].split(/\r?\n/).map((line, at) => this.line(line, at + 1));
       this.texts.set(name, el("pre", {}, ...rows));
@@ -39,8 +39,8 @@ export const view = {
     this.box.replaceChildren(this.texts.get(name));
   },
 
-  show(moment) {
-    const places = this.places(moment);
+  show() {
+    const places = this.places();
     const file = places[0]?.[0] ?? this.name;
     this.open(file);
     for (const each of this.marked) each.classList.remove("marked");
@@ -59,15 +59,13 @@ export const view = {
   },
 
   /** Files and lines of what the last step has done: its transitions, else the states that it has entered or is in. */
-  places(moment) {
-    const { recording, selected } = this.player;
-    const numbers = selected === null ? recording.members.map((_, at) => at) : recording.selected(selected);
-    const index = Math.max(-1, ...numbers.map((each) => moment.members[each]?.line ?? -1));
+  places() {
+    const { recording, last: index } = this.player;
     const step = index < 0 ? {} : recording.step(index);
     const places = recording.machines[recording.members[recording.memberAt(index)]?.machine]?.places;
     if (!places || !step.configuration) return [];
     const ids = [step.taken, step.entered, step.configuration].find((each) => each?.length) ?? [];
-    const found = ids.flatMap((id) => (places[id] ? [places[id]] : []));
+    const found = ids.map((id) => own(places, id)).filter(Boolean);
     return [...new Map(found.map((each) => [each.join(":"), each])).values()];
   },
 

@@ -21,8 +21,7 @@ export const view = {
   },
 
   show(moment) {
-    const { recording, selected } = this.player;
-    const all = selected === null ? recording.members.map((_, at) => at) : recording.selected(selected);
+    const { numbers: all, recording } = this.player;
     const numbers = all.filter((each) => Object.keys(moment.members[each]?.variables ?? {}).length).slice(0, MOST);
     const names = [...new Set(numbers.flatMap((each) => Object.keys(moment.members[each].variables)))].filter((each) => each !== "self");
     const shown = `${numbers.join()}\n${names.join("\n")}`;
@@ -34,8 +33,8 @@ export const view = {
     const changed = (moment.index >= 0 && recording.value(moment.index, "variables")) || {};
     for (const [number, name, cell] of this.cells) {
       const values = moment.members[number].variables;
-      const text = name in values ? written(values[name]) : "";
-      const isNew = number === changer && name in changed;
+      const text = Object.hasOwn(values, name) ? written(values[name]) : "";
+      const isNew = number === changer && Object.hasOwn(changed, name);
       if (cell.shown === text && cell.isNew === isNew) continue;
       Object.assign(cell, { shown: text, isNew });
       cell.element.textContent = printable(`${isNew ? "\u25cf " : ""}${text.length > LONGEST ? `${text.slice(0, LONGEST)}\u2026` : text}`);

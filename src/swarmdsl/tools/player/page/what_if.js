@@ -77,7 +77,7 @@ class WhatIf {
       return;
     }
     const { member } = this;
-    const differs = branch.difference && ` The engine of this page did not do as line ${branch.difference.at + 1} of the recording: the branch may be wrong.`;
+    const differs = branch.difference && ` The engine of this page did not do as line ${branch.difference.line.index + 1} of the recording: the branch may be wrong.`;
     this.say.textContent = `${this.error ? `Stopped: ${this.error}. ` : ""}Forked after ${branch.fork} steps; it is ${duration(Number(branch.time))}.${differs ?? ""}`;
     const groups = [["Time", PASSES.map(([text, length]) =>
       button(text, () => this.act(() => (length ? branch.pass(BigInt(length)) : this.next()))))]];
