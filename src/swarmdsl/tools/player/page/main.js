@@ -148,7 +148,8 @@ function start(recording) {
   notes(byId("notes"), recording);
   const lanes = el("div", { class: "of-lanes" });
   byId("main").append(lanes);
-  MAIN.mount(lanes, player);
+  const main = contained(MAIN);
+  main.mount(lanes, player);
   const panels = panelsOf(byId("panels"), player);
   const showControls = controls(byId("controls"), player);
   exports(byId("controls"), player);
@@ -157,7 +158,7 @@ function start(recording) {
     waiting = false;
     const { moment } = player;
     showControls();
-    MAIN.show(moment);
+    main.show(moment);
     panels.show(moment);
   };
   const soon = () => {
@@ -175,10 +176,9 @@ function start(recording) {
 }
 
 const other = byId("other")?.textContent;
-Promise.all([load(byId("recording").textContent), other ? load(other) : null]).then(
-  ([recording, compared]) => {
+Promise.all([load(byId("recording").textContent), other ? load(other) : null])
+  .then(([recording, compared]) => {
     recording.other = compared; // a run to compare with
     globalThis.player = start(recording);
-  },
-  (error) => byId("notes").append(el("p", { class: "error", role: "alert" }, error.message)),
-);
+  })
+  .catch((error) => byId("notes").append(el("p", { class: "error", role: "alert" }, `this recording cannot be shown: ${error.message}`)));
