@@ -241,9 +241,7 @@ def test_names_that_all_objects_have_leave_every_view_whole(browser: Any, tmp_pa
         {"event": "Go", "at": [1, 2, 3], "variables": {"valueOf": 1}},
         {"event": "Go", "member": "uav\u202e[0]", "configuration": ["A\u202eB"]},
     ]
-    trace.write_text(
-        "".join(f"{json.dumps({**line, **each})}\n" for each in odd), encoding="utf-8"
-    )
+    trace.write_text("".join(f"{json.dumps({**line, **each})}\n" for each in odd), encoding="utf-8")
     path = tmp_path / "run.html"
     assert run(["play", str(model), "--trace", str(trace), "-o", str(path)]) == 1
     visit = Visit(browser, path)
@@ -253,7 +251,9 @@ def test_names_that_all_objects_have_leave_every_view_whole(browser: Any, tmp_pa
     for number in range(tabs.count()):
         tabs.nth(number).click()
         for index, name in ((index, name) for index in range(5) for name in (None, *names)):
-            visit.page.evaluate("([at, name]) => (player.select(name), player.go(at))", [index, name])
+            visit.page.evaluate(
+                "([at, name]) => (player.select(name), player.go(at))", [index, name]
+            )
             visit.value("new Promise((done) => requestAnimationFrame(() => done(1)))")
         assert visit.page.locator(".view .error").count() == 0
     visit.close()

@@ -13,8 +13,10 @@ const UNITS = { ms: 1e6, s: 1e9, min: 60e9, h: 3600e9 };
 /** Read and write the address: `#t=12.5s&line=31&m=uav[1]&v=machine`. */
 function address(player, panels) {
   const { recording } = player;
-  const read = () => {
-    const given = new URLSearchParams(location.hash.slice(1));
+  let pending = 0;
+  const read = (address = location.href) => {
+    clearTimeout(pending);
+    const given = new URLSearchParams(new URL(address).hash.slice(1));
     const time = DURATION.exec(given.get("t") ?? "");
     if (given.has("m")) player.select(given.get("m"));
     if (time) player.goTime(Number(time[1]) * UNITS[time[2] ?? "s"]);
@@ -24,7 +26,6 @@ function address(player, panels) {
     if (isLine && recording.time(line) === player.time) player.go(line);
     panels.open((given.get("v") ?? "").split(","));
   };
-  let pending = 0;
   const write = () => {
     clearTimeout(pending);
     // Browsers refuse more than some changes a second.
@@ -36,7 +37,8 @@ function address(player, panels) {
     }, 250);
   };
   for (const name of ["moment", "selection"]) player.on(name, write);
-  addEventListener("hashchange", read);
+  // The address may have been written again meanwhile.
+  addEventListener("hashchange", (event) => read(event.newURL));
   panels.changed = write;
   return read;
 }
