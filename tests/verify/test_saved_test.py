@@ -174,6 +174,37 @@ property Back of Work : always possible in Idle
     assert capsys.readouterr().out.count("FAILED") == 3
 
 
+def test_functions_end_as_in_the_run_where_robots_have_places(
+    saved: Saved, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = saved(
+        """package model
+action Rest {}
+function rest : swarm {
+  action "rest" : Rest
+  model hover(time = 3 s)
+}
+endless statemachine Work {
+  initial Calm
+  state Calm {
+    do rest
+    on succeeded, aborted -> Done
+    after 30 s -> Late
+  }
+  state Done {}
+  state Late {}
+}
+member Robot { behavior Work }
+swarm Crew { robot : Robot }
+property Punctual of Crew : never some robot in Late
+"""
+    )
+
+    assert 'world = { kind = "abstract" }' in text
+    assert run(["test", "it.swarmtest.toml"]) == 1
+    assert "property `Punctual` is violated" in capsys.readouterr().out
+
+
 def test_what_a_test_cannot_show_is_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -16,7 +16,9 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.shared.default_values import default_result, default_value
+from swarmdsl.execution.simulate.choose_space import has_geometry
 from swarmdsl.execution.simulate.durations import MICROSECOND, SECOND
+from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.verify.finding import Finding
@@ -170,6 +172,7 @@ class _Test:
 
     def __init__(self, subject: Subject, shown: Shown, setting: Setting, early: int) -> None:
         assert subject.system is not None
+        self._subject = subject
         self._system = subject.system
         self._shown = shown
         self._setting = setting
@@ -197,12 +200,17 @@ class _Test:
         yield "]"
 
     def _scenario(self) -> dict[str, Any]:
-        """Return a scenario in which no function ends by itself during the run."""
+        """Return a scenario in which no function ends by itself during the run.
+
+        Where robots have places, functions that move them would do so.
+        """
         length = time_text(self._shown.run.lines[-1].time + SECOND)
         counts = dict(self._shown.counts)
         functions: dict[str, Any] = {"*": {"duration": length}}
         functions.update({name: {"never": 1} for name in self._setting.silent})
         found = {"count": counts, "params": self._setting.params, "functions": functions}
+        if has_geometry(self._subject, Scenario()):
+            found["world"] = {"kind": "abstract"}
         return {key: values for key, values in found.items() if values}
 
     def _steps(self) -> Iterator[str]:
