@@ -12,7 +12,15 @@ import pytest
 from hypothesis import Phase, given, settings
 
 from swarmdsl.driver import pipeline
-from swarmdsl.execution.engine import Event, LoopError, State
+from swarmdsl.execution.engine import (
+    Event,
+    ExecutionError,
+    Kind,
+    LoopError,
+    Machine,
+    State,
+    Transition,
+)
 from swarmdsl.ir import System
 
 from ..agreement.engines import Step
@@ -106,6 +114,40 @@ class _Maker(Maker):
         return made._replace(guard=_IsActive(self.dice.choice(self.ids), self.dice.random() < 0.5))
 
 
+class _Fail:
+    """Guard that fails, in both engines."""
+
+    tree = ("field", ("data",), "nothing")
+
+    def __call__(self, instance: Any, event: Event) -> bool:
+        raise ExecutionError("there is no field `nothing`")
+
+
+class _PatientMaker(_Maker):
+    """Makes a flat machine that keeps many events, so that one recalled event frees others."""
+
+    def tree(self, depth: int, region: bool = False) -> tuple[str, Kind, list[object]]:
+        self.count += 1
+        self.ids.append(f"s{self.count}")
+        return self.ids[-1], Kind.STATE, []
+
+    def machine(self) -> Machine:
+        states = [self.state(*each) for each in self.shape]
+        return Machine("m", states, limit=300, most_deferred=5)
+
+    def state(self, *shape: Any) -> State:
+        kept = self.dice.sample(EVENTS, self.dice.randint(1, 2))
+        others = [each for each in EVENTS if each not in kept]
+        transitions = [self.leaving(each, None) for each in others]
+        if self.dice.random() < 0.3:
+            transitions.append(self.leaving(kept[0], _Fail()))
+            transitions.append(Transition(("error.execution",)))
+        return State(shape[0], transitions=tuple(transitions), deferred=tuple(kept))
+
+    def leaving(self, event: str, guard: Any) -> Transition:
+        return Transition((event,), (self.dice.choice(self.ids),), guard)
+
+
 @needs_node
 def test_random_tables(pytestconfig: pytest.Config, tmp_path: Path) -> None:
     """Histories, regions, internal and conflicting transitions, deferral, and endless loops."""
@@ -113,7 +155,11 @@ def test_random_tables(pytestconfig: pytest.Config, tmp_path: Path) -> None:
     for seed in range(20_000 if pytestconfig.getoption("--agreement") else 200):
         dice = random.Random(seed)
         steps = [Step(dice.choice(EVENTS)) for _ in range(20)]
-        cases.append(of_table(f"seed {seed}", _Maker(random.Random(seed)).machine(), [steps]))
+        maker = (_PatientMaker if seed % 4 == 0 else _Maker)(random.Random(seed))
+        cases.append(of_table(f"seed {seed}", maker.machine(), [steps]))
     runs = agreed(cases, tmp_path)
     assert any(run[-1] == "loop" for run in runs)
     assert any(["received", "done.state.s2"] in step["calls"] for run in runs for step in run[:-1])
+    calls = [[call[0] for call in step["calls"]] for run in runs for step in run if step != "loop"]
+    assert any(each.count("recalled") > 2 for each in calls)
+    assert any("dropped" in each for each in calls)
