@@ -7,13 +7,19 @@ import { timeOf, typed, World } from "./engine_world.js";
 
 const COMPARED = ["configuration", "entered", "exited", "started", "cancelled", "sent"];
 
+function add(map, ...words) {
+  const key = words.join("\0");
+  map.set(key, (map.get(key) ?? 0) + 1);
+  return map.get(key);
+}
+
 const outcomeOf = (run, event) =>
   Object.keys(run.activity.events).find((each) => run.activity.events[each] === event);
 
 export class Branch {
   /** Fork after line `last` of the steps of a trace; `lost` is the event of a loss. */
   constructor(given, lines, last, lost) {
-    Object.assign(this, { given, fork: last + 1, rows: [], difference: null });
+    Object.assign(this, { given, fork: last + 1, rows: [], difference: null, sent: new Map() });
     this.made = [];
     this.world = new World(given, (row) => this.made.push(row));
     Object.assign(this.world, { held: [], lost });
@@ -35,15 +41,16 @@ export class Branch {
     if (!member) return;
     const { clock } = this.world;
     const time = timeOf(line);
-    // Servers that stop at the same time as this line come later, unless that time began the line.
-    const begun = line.envelope ? Math.floor(line.envelope.sent / 1e6) : member.robot.hasSent;
-    const limit = begun === line.t ? time : time - 1n;
+    // Servers that stop at the same time as this line come later, unless its event was sent then.
+    const isNew = line.envelope ? Math.floor(line.envelope.sent / 1e6) === line.t
+      : this.sent.has([member.robot.name, line.event, line.t, "own"].join("\0"));
+    const limit = isNew ? time : time - 1n;
     while (clock.next !== null && clock.next <= limit) clock.step();
     if (time > clock.now) clock.now = time;
     // What a machine does by itself has a line already.
     if (!this.made.length) this.happen(member, line);
     this.world.flush();
-    if (line.sent?.length) member.robot.hasSent = line.t;
+    this.note(this.sent, line);
     const row = this.made.shift();
     const isSame = row && row.member === line.member && row.event === line.event
       && COMPARED.every((key) => (row[key] ?? []).join() === (line[key] ?? []).join());
@@ -79,47 +86,35 @@ export class Branch {
   /** Lines after the fork that begin with something from outside, or begun before. */
   recorded(last) {
     const found = [];
-    const [sent, seen] = [new Map(), new Map()];
-    const add = (map, key) => map.set(key, (map.get(key) ?? 0) + 1).get(key);
-    const { world } = this;
-    const robotOf = (line) => world.names.get(line.member)?.robot;
+    const [after, seen] = [new Map(), new Map()];
+    const { world, sent } = this;
     const gone = new Set();
-    const ended = new Set();
+    for (const line of this.lines.slice(last + 1)) this.note(after, line);
     this.lines.forEach((line, at) => {
-      if (!robotOf(line) || at > last) return;
-      (line.sent ?? []).forEach((event, n) => this.note(sent, add, line, event, line.to?.[n] ?? null));
-    });
-    const after = new Map();
-    this.lines.slice(last + 1).forEach((line) => {
-      if (robotOf(line)) {
-        (line.sent ?? []).forEach((event, n) => this.note(after, add, line, event, line.to?.[n] ?? null));
-      }
-    });
-    this.lines.forEach((line, at) => {
-      const robot = robotOf(line);
-      if (!robot || line.recalled) return;
-      const { instance } = world.names.get(line.member);
-      const isLater = at > last;
-      const put = (action) => { if (isLater) found.push({ at, time: timeOf(line), line, action }); };
       const member = world.names.get(line.member);
+      if (!member || line.recalled) return;
+      const { instance, robot } = member;
+      const isLater = at > last;
+      const put = (action) => { if (isLater) found.push({ at, time: timeOf(line), action }); };
       if (line.event === null) put(() => world.startMember(member));
       else if (line.event === world.lost) put(() => world.lose(member));
       else if (!world.events.has(line.event)) {
         const run = isLater && [...instance.runs.values()].find((each) => outcomeOf(each, line.event));
-        if (run && !gone.has(run) && !ended.has(run)) {
-          ended.add(run);
+        if (run && !gone.has(run)) {
+          gone.add(run);
           put(() => { if (world.ends.has(run)) this.end(run, line); });
         }
       } else {
-        const key = line.envelope?.sender
-          ? [line.envelope.sender, line.event, Math.floor(line.envelope.sent / 1e6)].join("\0")
+        const { sender } = line.envelope ?? {};
+        const key = sender
+          ? [sender, line.event, Math.floor(line.envelope.sent / 1e6)].join("\0")
           : [robot.name, line.event, line.t, "own"].join("\0");
-        const number = add(seen, `${line.member}\0${key}`);
-        const before = sent.get(key) ?? 0;
-        const isOwn = !line.envelope?.sender || before + (after.get(key) ?? 0) > 0;
+        const number = add(seen, line.member, key);
+        const later = after.get(key) ?? 0;
+        const before = (sender ? world.counts.get(`way\0${robot.name}\0${key}`) : sent.get(key)) ?? 0;
         // Of events for the robot itself, those that machines sent come last.
-        const isFromOutside = !line.envelope?.sender && !(after.get(key) > 0);
-        if (!isOwn || isFromOutside || number <= before) put(() => world.deliver(member, this.event(line)));
+        const isFromOutside = !later && !(sender && before);
+        if (isFromOutside || number <= before) put(() => world.deliver(member, this.event(line)));
       }
       if (isLater) {
         for (const run of instance.runs.values()) {
@@ -131,14 +126,17 @@ export class Branch {
   }
 
   /** Count what a line sends, by who hears it: other robots, or its own. */
-  note(map, add, line, event, to) {
-    const { robot } = this.world.names.get(line.member);
-    const declared = this.world.events.get(event);
-    if (declared?.swarm) add(map, [robot.name ?? "", event, line.t].join("\0"));
-    if (to !== null || !declared) return;
-    for (const [name, each] of this.world.events) {
-      if (each.incoming === declared.topic) add(map, [robot.name, name, line.t, "own"].join("\0"));
-    }
+  note(map, line) {
+    const robot = this.world.names.get(line.member)?.robot;
+    if (!robot) return;
+    (line.sent ?? []).forEach((event, n) => {
+      const declared = this.world.events.get(event);
+      if (declared?.swarm) add(map, robot.name ?? "", event, line.t);
+      if ((line.to?.[n] ?? null) !== null || !declared) return;
+      for (const [name, each] of this.world.events) {
+        if (each.incoming === declared.topic) add(map, robot.name, name, line.t, "own");
+      }
+    });
   }
 
   // ---- going on

@@ -7,7 +7,6 @@ import { copied, decoded, Failure, plain } from "./engine_values.js";
 const MILLISECOND = 1000000n;
 const RETRY = 100n * MILLISECOND;
 const MOST = 10000; // lines at one point in time
-const OUTCOMES = { aborted: "aborted", preempted: "preempted", never: null };
 
 export const timeOf = (line) => BigInt(Math.round(line.t)) * MILLISECOND;
 
@@ -24,7 +23,7 @@ export function typed(value, blank) {
 
 export class World {
   constructor(given, heard) {
-    Object.assign(this, { given, heard, clock: new Clock(), failures: 0, row: null, held: null });
+    Object.assign(this, { given, heard, clock: new Clock(), row: null, held: null });
     Object.assign(this, { counts: new Map(), arrivals: new Map(), ends: new Map(), busy: [0n, 0] });
     const machines = new Map(Object.entries(given.machines).map(([name, table]) => [name, new Machine(table)]));
     this.events = new Map(Object.entries(given.events));
@@ -121,9 +120,7 @@ export class World {
     this.clock.unschedule(alarm);
   }
 
-  failed() {
-    this.failures++;
-  }
+  failed() {}
 
   present({ member }, role) {
     const there = this.robots.filter((each) => role === null || each.role === role).length;
@@ -153,14 +150,13 @@ export class World {
     let [outcome, result] = ["succeeded", kind.results[0]];
     if (!isCertain || kind.duration[0] !== "fixed") {
       let chance = stream.random();
-      for (const word of Object.keys(OUTCOMES)) {
-        if (outcome !== "succeeded") break;
-        if (chance < kind[word]) outcome = OUTCOMES[word];
+      for (const word of ["aborted", "preempted", "never"]) {
+        if (outcome === "succeeded" && chance < kind[word]) outcome = word;
         chance -= kind[word];
       }
       result = kind.results[Math.floor(stream.random() * kind.results.length)] ?? kind.results[0];
     }
-    if (outcome === null) return;
+    if (outcome === "never") return;
     const data = outcome === "succeeded" ? Object.assign(blank, result && decoded({ m: result.m })) : null;
     this.ends.set(run, this.clock.schedule(drawn(kind.duration, stream), () => this.end(run, outcome, data)));
   }
@@ -204,7 +200,7 @@ export class World {
   transmit(event, { topic, reliable }, robot, other, heard) {
     const { seed, latency, loss } = this.given;
     const number = this.count("to", robot.name, other.name);
-    if (this.held || other.isGone || robot.isGone) return;
+    if (other.isGone || robot.isGone) return;
     const isCertain = latency[0] === "fixed" && !loss;
     const stream = isCertain ? null : new Stream(seed, robot.name, "to", other.name, number);
     let wait = 0n;
@@ -220,7 +216,9 @@ export class World {
     const last = this.arrivals.get(channel) ?? 0n;
     const arrives = due > last ? due : last;
     this.arrivals.set(channel, arrives);
-    this.clock.schedule(arrives - this.time, () => { for (const each of heard) this.deliver(each, event); });
+    // Its arrival has a line, but what is sent later must not overtake it.
+    if (this.held) this.count("way", other.name, robot.name, event.name, this.time / MILLISECOND);
+    else this.clock.schedule(arrives - this.time, () => { for (const each of heard) this.deliver(each, event); });
   }
 
   /** A message with the headers that robots fill in. */
