@@ -55,7 +55,8 @@ function observer(calls) {
 function situation(world, instance, calls) {
   const asked = world.asked.splice(0);
   return {
-    active: instance.configuration.ids,
+    active: instance.machine.states.filter((each) => (instance.configuration.active >> BigInt(each.number)) & 1n)
+      .map((each) => each.id),
     histories: instance.configuration.histories.map(String),
     final: instance.final,
     data: encoded(instance.data),

@@ -4,7 +4,6 @@
 import { bounded, ceiled, compiled, copied, decoded, Failure, field, truth } from "./engine_values.js";
 
 const bit = (number) => 1n << BigInt(number);
-const LAST_STEPS = 100;
 
 function members(set) {
   const found = [];
@@ -64,7 +63,7 @@ function effectOf([word, ...rest]) {
       const timers = pairs(rest);
       return (instance) => {
         for (const [name, delay] of timers) {
-          instance.sendAfter(eventOf(name), ceiled(delay(instance, null)), name);
+          instance.begin(name, ceiled(delay(instance, null)));
         }
       };
     }
@@ -126,7 +125,9 @@ export class Machine {
       children: [],
     }));
     this.numbers = new Map(this.states.map((state) => [state.id, state.number]));
-    this.histories = [];
+    // In the order of the states around them.
+    this.histories = this.states.filter((each) => each.kind.endsWith("history"))
+      .sort((one, other) => one.parent - other.parent).map((each) => each.number);
     this.eventless = 0n;
     for (const state of this.states) {
       if (state.edges.some((each) => !each.events.length)) this.eventless |= bit(state.number);
@@ -134,12 +135,6 @@ export class Machine {
       if (!state.kind.endsWith("history")) this.states[state.parent].children.push(state.number);
       for (const around of this.around(state.number)) this.states[around].inside |= bit(state.number);
     }
-    // In the order of the states around them.
-    for (const state of this.states) {
-      this.histories.push(...this.states.filter((each) =>
-        each.number && each.parent === state.number && each.kind.endsWith("history")).map((each) => each.number));
-    }
-    this.cached = 0;
     this.events = new Set(this.states.flatMap((state) => state.edges.flatMap((each) => each.events)));
   }
 
@@ -178,17 +173,10 @@ class Configuration {
     const key = `${active.toString(36)} ${histories.join()}`;
     let found = machine.configurations.get(key);
     if (!found) {
-      if (++machine.cached > 5000) {
-        machine.configurations.clear();
-        machine.cached = 0;
-      }
+      if (machine.configurations.size >= 5000) machine.configurations.clear();
       machine.configurations.set(key, found = new Configuration(machine, active, histories));
     }
     return found;
-  }
-
-  get ids() {
-    return members(this.active).map((number) => this.machine.states[number].id);
   }
 
   get leaves() {
@@ -514,25 +502,22 @@ export class Instance {
     this.internal.push(event);
   }
 
-  sendAfter(event, delay, id) {
-    this.begin({ instance: this, id, message: null, over: false, alarm: null }, event.name, delay);
-  }
-
   emitAfter(event, delay) {
     this.notify("scheduled", event, delay > 0n ? delay : 0n);
-    const name = `send.${event.name}`;
-    this.begin({ instance: this, id: name, message: event, over: false, alarm: null }, name, delay);
+    this.begin(`send.${event.name}`, delay, event);
   }
 
-  begin(timer, name, delay) {
+  /** Let an event come after a delay; one with a message sends it to others then. */
+  begin(name, delay, message = null) {
+    const timer = { message, over: false, alarm: null };
     timer.event = eventOf(name, null, timer);
     this.timers.push(timer);
     if (delay > 0n) timer.alarm = this.world.schedule(delay, () => timer.over || this.receive(timer.event), timer);
     else this.receive(timer.event);
   }
 
-  cancel(id) {
-    for (const timer of this.timers.filter((each) => each.id === id)) {
+  cancel(name) {
+    for (const timer of this.timers.filter((each) => each.event.name === name)) {
       this.unschedule(timer);
       if (timer.message) this.notify("withdrawn", timer.message);
     }

@@ -41,11 +41,6 @@ export class Clock {
     alarm.action();
     return true;
   }
-
-  advance(end) {
-    while (this.next !== null && this.next <= end) this.step();
-    if (end > this.now) this.now = end;
-  }
 }
 
 // ---- random numbers: SHA-256 of the question seeds a Mersenne Twister
