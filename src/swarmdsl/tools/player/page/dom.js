@@ -27,6 +27,14 @@ export function picture(svg) {
   return document.importNode(read.documentElement, true);
 }
 
+/** Save a text as a file. */
+export function download(name, text) {
+  const link = el("a", { download: name });
+  link.href = URL.createObjectURL(new Blob([text], { type: "application/octet-stream" }));
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
 /** A time in nanoseconds: `850 ms`, `12.5 s`, `4 min 3 s`, `2 h 0 min`. */
 export function duration(nanoseconds) {
   const seconds = nanoseconds / 1e9;

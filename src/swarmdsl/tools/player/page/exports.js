@@ -1,8 +1,8 @@
 // Save what is seen: the window of the lanes as a behaviour test, an events file or a picture.
-import { clock, el, printable } from "./dom.js";
+import { clock, download, el, printable } from "./dom.js";
 import { act } from "./lanes.js";
 import { staysOf } from "./stays.js";
-import { toml } from "./test_text.js";
+import { TestText, toml, written } from "./test_text.js";
 
 const MOST = 500; // expectations of a test
 const [WIDTH, LEFT, ROW, TOP] = [1200, 150, 20, 60]; // of a picture, in pixels
@@ -40,18 +40,15 @@ export function eventsFile(recording, from, to) {
 /** The states that members enter in the window, as a test for `swarmc test`. */
 export function testFile(recording, from, to) {
   const { members, scenario, seed, model } = recording;
-  const steps = [];
-  let now = 0; // microseconds
-  const until = (time) => {
-    if (time > now) steps.push(`{ pass = "${Number(((time - now) / 1e3).toFixed(3))} ms" }`);
-    now = Math.max(now, time);
-  };
+  const test = new TestText();
   // A scenario sends its events itself.
   const sends = scenario ? [] : outside(recording, 0, to);
   const alone = members.length === 1 && !members[0].name.includes("[");
   const send = ({ time, event, member, data }) => {
-    until(time * 1e3);
-    steps.push(toml({ send: event, to: alone ? null : member, data }));
+    test.pass(time * 1e6);
+    const declared = recording.tables.events?.[event];
+    const message = declared ? written(data, declared.blank, declared.times) : data;
+    test.add({ send: event, to: alone ? null : member, data: message });
   };
   let expected = 0;
   const told = members.map(() => "");
@@ -67,23 +64,22 @@ export function testFile(recording, from, to) {
     });
     if (!changed.length) continue;
     while (sends.length && sends[0].time <= time) send(sends.shift());
-    until(time * 1e3 + 999); // times of lines are whole milliseconds
+    test.pass(time * 1e6 + 999e3); // times of lines are whole milliseconds
     for (const [who, states] of changed) {
-      for (const state of states) steps.push(alone ? toml({ in: state }) : toml({ who, in: state }));
+      test.add({ who: alone ? null : who, in: states });
       expected += states.length;
     }
   }
-  const head = [
-    `# States from ${clock(from)} to ${clock(to)} of a run${seed === null ? "" : ` with seed ${seed}`}.`,
-    ...(scenario ? ["# The scenario belongs beside this file. Events from elsewhere are missing."] : []),
-    `${alone ? "machine" : "swarm"} = ${toml(model)}`,
-    ...(scenario ? [`scenario = ${toml(scenario)}`] : seed === null ? [] : [`scenario = { seed = ${seed} }`]),
-    "",
-    "[[test]]",
-    `name = ${toml(`${clock(from)} to ${clock(to)}`)}`,
-    "steps = [",
-  ];
-  return `${[...head, ...steps.map((each) => `  ${each},`), "]"].join("\n")}\n`;
+  return test.file(
+    [
+      `States from ${clock(from)} to ${clock(to)} of a run${seed === null ? "" : ` with seed ${seed}`}.`,
+      ...(scenario ? ["The scenario belongs beside this file. Events from elsewhere are missing."] : []),
+    ],
+    !alone,
+    model,
+    scenario ? toml(scenario) : seed === null ? "" : toml({ seed }),
+    `${clock(from)} to ${clock(to)}`,
+  );
 }
 
 const escaped = (text) => printable(text).replace(/[&<>"]/g, (each) => `&#${each.charCodeAt(0)};`);
@@ -129,14 +125,8 @@ const FILES = [
 
 /** Add a menu that saves the window of the lanes. */
 export function exports(element, player) {
-  const save = (name, text) => {
-    const link = el("a", { download: name });
-    link.href = URL.createObjectURL(new Blob([text], { type: "application/octet-stream" }));
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-  };
   const menu = el("details", { class: "save" }, el("summary", { title: "save the window of the lanes" }, "Save"));
   for (const [title, name, make] of FILES)
-    menu.append(el("button", { type: "button", onclick: () => save(name, make(player.recording, ...act.window())) }, title));
+    menu.append(el("button", { type: "button", onclick: () => download(name, make(player.recording, ...act.window())) }, title));
   element.append(menu);
 }

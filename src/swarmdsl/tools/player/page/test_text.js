@@ -1,4 +1,4 @@
-// A branch as a behaviour test, in the language of `swarmc test`.
+// Behaviour tests in the language of `swarmc test`, and a branch as one.
 import { decoded, plain } from "./engine_values.js";
 
 const UNITS = [["s", 1e9], ["ms", 1e6], ["us", 1e3]];
@@ -19,8 +19,41 @@ export function toml(value) {
   return `{ ${inner.join(", ")} }`;
 }
 
+/** A test that is written step by step; times are nanoseconds. */
+export class TestText {
+  constructor() {
+    Object.assign(this, { steps: [], now: 0 });
+  }
+
+  add(step) {
+    this.steps.push(toml(step));
+  }
+
+  /** Let time pass until a time. */
+  pass(time) {
+    if (time > this.now) this.add({ pass: seconds(time - this.now) });
+    this.now = Math.max(this.now, time);
+  }
+
+  /** The text of a file; the scenario is TOML. */
+  file(comments, isSwarm, subject, scenario, name) {
+    return [
+      ...comments.map((each) => `# ${each}`),
+      `${isSwarm ? "swarm" : "machine"} = ${toml(subject)}`,
+      ...(scenario ? [`scenario = ${scenario}`] : []),
+      "",
+      "[[test]]",
+      `name = ${toml(name)}`,
+      "steps = [",
+      ...this.steps.map((each) => `  ${each},`),
+      "]",
+      "",
+    ].join("\n");
+  }
+}
+
 /** A message as tests have it: times in words; null if nothing in it differs from a blank one. */
-function written(data, blank, times) {
+export function written(data, blank, times) {
   if (!data || JSON.stringify(data) === JSON.stringify(plain(decoded(blank)))) return null;
   const made = structuredClone(data);
   for (const path of times) {
@@ -34,24 +67,19 @@ function written(data, blank, times) {
 /** The text of a test that does what some lines tell, and expects the last states of a member. */
 export function testText(branch, lines, name, member) {
   const { world, given } = branch;
-  const steps = [];
+  const test = new TestText();
   let way = []; // swarm events between two robots
   const inside = [];
   const gone = new Set();
-  let now = 0;
   let before = null;
   const robotOf = (line) => world.names.get(line.member).robot;
   const isTimer = (line) => line.event !== null && !world.events.has(line.event) && /^(after|send)\./.test(line.event);
-  const pass = (time) => {
-    if (time > now) steps.push({ pass: seconds(time - now) });
-    now = Math.max(now, time);
-  };
   // An input comes before the delays that end at the same time, if it did so.
   const reach = (line, at) => {
     const isEarly = lines.slice(at + 1, at + 100).some((each) => each.t === line.t && isTimer(each));
-    pass(line.t * 1e6 - (isEarly ? 1000 : 0));
+    test.pass(line.t * 1e6 - (isEarly ? 1000 : 0));
   };
-  const drop = (each) => steps.push({ drop: each.event, by: each.to, from: each.from });
+  const drop = (each) => test.add({ drop: each.event, by: each.to, from: each.from });
 
   const arrive = (line, robot) => {
     const sent = Math.floor(line.envelope.sent / 1e6);
@@ -62,7 +90,7 @@ export function testText(branch, lines, name, member) {
     const taken = found ? way.slice(0, way.indexOf(found) + 1).filter((each) => channel(each) === channel(found)) : [];
     for (const each of taken) if (each !== found) drop(each);
     way = way.filter((each) => !taken.includes(each));
-    steps.push({ hear: line.event, by: robot.name, from: line.envelope.sender });
+    test.add({ hear: line.event, by: robot.name, from: line.envelope.sender });
   };
 
   const end = (line) => {
@@ -71,7 +99,7 @@ export function testText(branch, lines, name, member) {
     const outcome = Object.keys(events).find((each) => events[each] === line.event);
     const isFailed = outcome !== "succeeded";
     const isSuccess = !isFailed || line.data?.success === false;
-    steps.push({ end: called, of: robotOf(line).name, as: isSuccess ? null : outcome, result: isSuccess ? written(line.data, given.functions[called].blank, given.functions[called].times) : null });
+    test.add({ end: called, of: robotOf(line).name, as: isSuccess ? null : outcome, result: isSuccess ? written(line.data, given.functions[called].blank, given.functions[called].times) : null });
   };
 
   lines.forEach((line, at) => {
@@ -86,7 +114,7 @@ export function testText(branch, lines, name, member) {
         reach(line, at);
         for (const each of way.filter((other) => other.to === robot.name)) drop(each);
         way = way.filter((each) => each.to !== robot.name);
-        steps.push({ lose: robot.name });
+        test.add({ lose: robot.name });
         gone.add(robot);
       }
     } else if (event !== null && !line.recalled && !(isOne && !event.startsWith("do."))) {
@@ -99,7 +127,7 @@ export function testText(branch, lines, name, member) {
         else if (line.envelope && robot.name !== null) arrive(line, robot);
         else {
           const { blank, times } = world.events.get(event);
-          steps.push({ send: event, to: robot.name, data: written(line.data, blank, times), sender: line.envelope?.sender });
+          test.add({ send: event, to: robot.name, data: written(line.data, blank, times), sender: line.envelope?.sender });
         }
       }
     }
@@ -119,21 +147,16 @@ export function testText(branch, lines, name, member) {
     });
   });
   const last = Number(branch.time);
-  pass(last);
+  test.pass(last);
   const { instance } = member;
   const states = instance.final ? [instance.final] : instance.configuration.innermost;
-  steps.push({ who: given.swarm ? member.name : null, in: states });
-  for (const each of way) steps.push({ hear: each.event, by: each.to, from: each.from });
-  return [
-    "# Written by the player of `swarmc`. Put it into the folder of the model, and run `swarmc test`.",
-    `${given.swarm ? "swarm" : "machine"} = ${toml(given.subject)}`,
-    "",
-    "[[test]]",
-    `name = ${toml(name)}`,
-    `scenario = ${given.scenario.replace("@end", seconds(Math.ceil(last / 1e9 + 60) * 1e9))}`,
-    "steps = [",
-    ...steps.map((each) => `  ${toml(each)},`),
-    "]",
-    "",
-  ].join("\n");
+  test.add({ who: given.swarm ? member.name : null, in: states });
+  for (const each of way) test.add({ hear: each.event, by: each.to, from: each.from });
+  return test.file(
+    ["Written by the player of `swarmc`. Put it into the folder of the model, and run `swarmc test`."],
+    given.swarm,
+    given.subject,
+    given.scenario.replace("@end", seconds(Math.ceil(last / 1e9 + 60) * 1e9)),
+    name,
+  );
 }

@@ -1,5 +1,5 @@
 // What if something else had happened: a branch of the recording, from the moment that is shown.
-import { duration, el } from "./dom.js";
+import { download, duration, el } from "./dom.js";
 import { Branch } from "./engine_branch.js";
 import { eventOf, NO_ENVELOPE } from "./engine.js";
 import { copied, plain } from "./engine_values.js";
@@ -131,10 +131,7 @@ class WhatIf {
   save() {
     const { branch, member } = this;
     const name = `${member.name} in a branch at ${duration(Number(branch.at))}`;
-    const text = testText(branch, [...this.past, ...branch.rows], name, member);
-    const link = el("a", { href: URL.createObjectURL(new Blob([text], { type: "text/plain" })), download: "branch.swarmtest.toml" });
-    link.click();
-    URL.revokeObjectURL(link.href);
+    download("branch.swarmtest.toml", testText(branch, [...this.past, ...branch.rows], name, member));
   }
 }
 
