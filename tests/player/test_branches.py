@@ -112,7 +112,9 @@ every = "3 s"
 def test_random_swarms(pytestconfig: pytest.Config, tmp_path: Path) -> None:
     cases = []
     (tmp_path / "scenario.toml").write_text(SCENARIO)
-    for seed in range(200 if pytestconfig.getoption("--agreement") else 12):
+    # The last ones have events that others must not overtake, and servers that stop at their time.
+    few = (*range(10), 13, 63, 68)
+    for seed in range(300) if pytestconfig.getoption("--agreement") else few:
         path = tmp_path / f"swarm{seed}.swarm"
         path.write_text(random_swarm(seed))
         scenario = tmp_path / "scenario.toml"
