@@ -83,6 +83,18 @@ class _Raise:
         instance.raise_event(Event(self.name))
 
 
+class _Wait:
+    """Effect that sends an event after a delay, in both engines."""
+
+    def __init__(self, name: str, delay: int) -> None:
+        self.name = name
+        self.delay = delay
+        self.tree = ["start", [name, ["value", delay]]]
+
+    def __call__(self, instance: Any, event: Event) -> None:
+        instance.send_after(Event(self.name), self.delay, self.name)
+
+
 class _IsActive:
     """Guard about a state, in both engines."""
 
@@ -99,7 +111,8 @@ class _Maker(Maker):
     """Makes a machine whose guards and effects both engines run, and some states that defer."""
 
     def raising(self) -> object:
-        return _Raise(self.dice.choice(EVENTS))
+        name = self.dice.choice(EVENTS)
+        return _Raise(name) if self.dice.random() < 0.5 else _Wait(name, self.dice.choice((0, 5)))
 
     def state(self, *shape: Any) -> State:
         made = super().state(*shape)
