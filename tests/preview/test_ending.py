@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.ide.preview import serving
+from swarmdsl.ide.preview import local_server, serving
 from swarmdsl.ide.preview.serving import Snapshot
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
@@ -36,11 +36,11 @@ def hang(*_, **more):
 FREE, HELD = "CDLL", "PyDLL"
 START = """
 from swarmdsl.base import forced_end
-from swarmdsl.ide.preview import ros2, serving
+from swarmdsl.ide.preview import local_server, ros2, serving
 from swarmdsl.cli import main, watch
 forced_end._LATE = 3.0
 forced_end._MARGIN = 0.5
-ros2._GRACE = serving._GRACE = 0.5
+ros2._GRACE = local_server._GRACE = 0.5
 """
 # What the preview uses of ROS 2.
 ROS = {
@@ -180,7 +180,7 @@ def test_leaving_the_server_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
         goes_on.wait()
 
     monkeypatch.setattr(serving._Server, "service_actions", hang)
-    monkeypatch.setattr(serving, "_GRACE", 0.1)
+    monkeypatch.setattr(local_server, "_GRACE", 0.1)
     left = threading.Event()
 
     def serve() -> None:

@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
+import gc
+import signal
 import sys
+import time
+from collections.abc import Collection
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
+from swarmdsl.base import interrupts
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.cli import options, run_options
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 
 if TYPE_CHECKING:
-    from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+    from swarmdsl.base.diagnostics.collector import Diagnostic
+    from swarmdsl.execution.simulate.prepare import Request
+
+_NAP = 0.2
+"""Seconds between two looks for an interrupt."""
 
 
 @click.command(
@@ -43,6 +55,20 @@ if TYPE_CHECKING:
     metavar="FILE",
     help="Compare with the trace of another run, JSON lines, from the first difference on.",
 )
+@click.option(
+    "--follow",
+    metavar="TRACE",
+    help="Serve the page of this trace of JSON lines while it is written, instead of a file; `-` "
+    "for standard input.",
+)
+@click.option(
+    "--port",
+    type=options.Integer(0, 65535),
+    default=0,
+    metavar="PORT",
+    help="Port of `--follow` on the loopback interface; 0 takes a free one.  [default: 0]",
+)
+@click.option("--open", "opens", is_flag=True, help="Open the page of `--follow` in the browser.")
 @click.option(
     "--scenario",
     type=click.Path(path_type=Path),
@@ -76,6 +102,9 @@ def play(
     traces: tuple[Path, ...],
     counterexample: Path | None,
     compare: Path | None,
+    follow: str | None,
+    port: int,
+    opens: bool,
     scenario: Path | None,
     events: Path | None,
     seed: int | None,
@@ -87,9 +116,10 @@ def play(
 
     Each FILE is a model, or an SCXML document; a FOLDER means all .swarm files below it. The page
     is one file that needs no network: lanes of all members, step by step forwards and back. It
-    shows a new simulation, or recorded traces; what is wrong with these is told in it.
+    shows a new simulation, or recorded traces; what is wrong with these is told in it. With
+    `--follow`, it grows with a trace until Ctrl-C.
     """
-    from swarmdsl.execution.simulate.prepare import Request
+    from swarmdsl.execution.simulate import prepare
     from swarmdsl.tools.player.command import play_run, play_traces, read_other
 
     if machine is not None and swarm is not None:
@@ -99,6 +129,13 @@ def play(
         if recorded and value is not None:
             given = "--trace" if traces else "--counterexample"
             raise click.UsageError(f"`{given}` and `--{name}` conflict")
+    if follow is not None:
+        _check_alone(("port", "follow", "opens", "paths", "machine", "swarm", "scenario"))
+        request = prepare.Request(paths, machine=machine, swarm=swarm, scenario=scenario)
+        return _follow(request, follow, port, opens)
+    for name, is_given in (("port", port), ("open", opens)):
+        if is_given:
+            raise click.UsageError(f"`--{name}` needs `--follow`")
     options.check_outputs({"-o": out}, (*paths, *recorded, compare, scenario, events))
     found: list[Diagnostic] = []
 
@@ -108,7 +145,7 @@ def play(
         else:
             render(report, format_, sys.stderr)
 
-    request = Request(
+    request = prepare.Request(
         paths,
         machine=machine,
         swarm=swarm,
@@ -134,3 +171,50 @@ def play(
         if played.succeeded and not unread
         else ERRORS
     )
+
+
+def _check_alone(taken: Collection[str]) -> None:
+    """Raise UsageError if there are options that say something else than to follow a trace."""
+    context = click.get_current_context()
+    for each in context.command.params:
+        name = each.name or ""
+        is_given = context.get_parameter_source(name) is ParameterSource.COMMANDLINE
+        if is_given and name not in (*taken, "debug"):
+            raise click.UsageError(f"`--follow` and `{each.opts[0]}` conflict")
+
+
+def _follow(request: Request, trace: str, port: int, opens: bool) -> int:
+    """Serve the page of a trace until the user ends it."""
+    from swarmdsl.base.forced_end import forced_end
+    from swarmdsl.ide.preview.live_player import playing
+    from swarmdsl.tools.player.command import prepare_traces
+
+    gc.enable()  # it runs for hours
+    if hasattr(signal, "SIGPIPE"):
+        # A page may be closed while it is written to; others stay.
+        signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+
+    def tell(report: Diagnostics) -> None:
+        render(report, "text", sys.stderr)
+
+    report = Diagnostics()
+    prepared = prepare_traces(request, [Path(trace)], report)
+    tell(report)
+    if report.has_errors:
+        return ERRORS
+    with ExitStack() as stack:
+        stack.enter_context(forced_end())
+        try:
+            address = stack.enter_context(playing(prepared, trace, port, tell))
+        except OSError as error:
+            raise click.ClickException(f"port {port}: {error.strerror}") from error
+        click.echo(address)
+        if opens:
+            click.launch(address)
+        try:
+            while True:
+                time.sleep(_NAP)
+                interrupts.raise_lost()
+        except KeyboardInterrupt:
+            click.echo(err=True)
+    return OK

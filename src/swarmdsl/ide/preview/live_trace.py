@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-import os
-import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from threading import Thread
-from time import sleep
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.read_files import MOST, OddFileError, lines_of, open_file
+from swarmdsl.base.read_files import OddFileError
 from swarmdsl.execution.simulate.trace_line import is_beside_steps, read_line
 from swarmdsl.ide.preview.pictures import Steps
 from swarmdsl.ide.preview.serving import Snapshot
+from swarmdsl.ide.preview.trace_file import Turn, read_growing
 from swarmdsl.project.read_source import report_unreadable
 
-STDIN = "-"
-_POLL_INTERVAL = 0.1
-"""Seconds between two polls of a file."""
-_CHUNK = 1 << 20
 _RECENT = 1000
 """Milliseconds for which a transition counts as just taken."""
 _ROOT = ""
@@ -40,10 +34,10 @@ def follow(names: Sequence[str], snapshot: Snapshot, tell: Callable[[Diagnostics
 def _read(name: str, reader: TraceReader) -> None:
     """Follow a file to its end, or forever if it has none."""
     try:
-        for chunk in _stream() if name == STDIN else _chunks(Path(name)):
-            if chunk is None:
+        for chunk in read_growing(name):
+            if chunk is Turn.BEGUN:
                 reader.forget()
-            else:
+            elif not isinstance(chunk, Turn):
                 reader.read(chunk)
     except OddFileError as error:
         reader.report_odd(error)
@@ -151,38 +145,3 @@ def _latest(steps: Sequence[tuple[int, str, dict[str, Any]]]) -> Steps:
             if ids := [*begun, *step["entered"]]:
                 entered.setdefault(member, []).extend(ids)
     return {"taken": taken, "entered": entered}
-
-
-def _chunks(path: Path) -> Iterator[list[bytes] | None]:
-    """Yield new complete lines of a file; None each time that the file restarts."""
-    while True:
-        try:
-            with open_file(path) as file:
-                yield None
-                yield from _regular(path, file.fileno())
-        except OddFileError:
-            raise
-        except OSError:
-            sleep(_POLL_INTERVAL)
-
-
-def _regular(path: Path, descriptor: int) -> Iterator[list[bytes]]:
-    """Yield lines of a regular file until it is truncated or replaced."""
-    rest, at = b"", 0
-    while True:
-        chunk = os.read(descriptor, _CHUNK)
-        at += len(chunk)
-        *lines, rest = (rest + chunk).split(b"\n")
-        if len(rest) > MOST:
-            lines, rest = [*lines, rest], b""
-        yield lines
-        if not chunk:
-            sleep(_POLL_INTERVAL)
-            there, here = path.stat(), os.fstat(descriptor)
-            if here.st_size < at or (there.st_dev, there.st_ino) != (here.st_dev, here.st_ino):
-                return
-
-
-def _stream() -> Iterator[list[bytes] | None]:
-    """Yield lines of standard input as they arrive."""
-    yield from lines_of(lambda: os.read(sys.stdin.fileno(), _CHUNK))

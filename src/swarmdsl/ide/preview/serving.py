@@ -8,16 +8,21 @@ from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from http import HTTPStatus
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from urllib.parse import parse_qs
 
 from swarmdsl.base.read_files import read_file
 from swarmdsl.ide.preview.editors import Editor, OpenResult, file_of
+from swarmdsl.ide.preview.local_server import (
+    HOST,
+    KEEP_ALIVE,
+    LocalHandler,
+    LocalServer,
+    running,
+)
 from swarmdsl.ide.preview.pictures import Message, Pictures, Steps
 
 PAGE = Path(__file__).resolve().parent / "page"
-_HOST = "127.0.0.1"
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript"}
 _FILES = {f"/{path.name}": path for path in PAGE.iterdir() if path.suffix in _TYPES}
 # The page runs only its own scripts and fetches nothing else.
@@ -25,12 +30,8 @@ _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
     "connect-src 'self'; img-src blob: data:"
 )
-# Interval of keep-alive comments in seconds; they reveal that a page is closed.
-_KEEP_ALIVE = 15.0
 # Number of recent updates kept for slow pages.
 _HISTORY = 100
-_GRACE = 2.0
-"""Seconds that the server may take to end."""
 _MAX_BODY = 1 << 16
 """Maximum length of a POST body in bytes."""
 
@@ -130,7 +131,7 @@ class Snapshot:
                 # Whoever comes back has sent what it was given.
                 self._delivered[page] = changes
                 self._changed.notify_all()
-                self._changed.wait_for(is_new, _KEEP_ALIVE)
+                self._changed.wait_for(is_new, KEEP_ALIVE)
                 new = [each for each in self._messages if not any(each is old for old in sent)]
                 sent, moves, changes = self._messages, self._moves, self._changes
                 steps = [step for number, step in self._steps if number > seen]
@@ -175,21 +176,13 @@ def serving(snapshot: Snapshot, port: int, editor: Editor | None = None) -> Iter
 
     Port 0 selects a free port. `editor` opens clicked places. Raises OSError if the port is taken.
     """
-    server = _Server((_HOST, port), _Handler)
+    server = _Server((HOST, port), _Handler)
     server.snapshot, server.editor = snapshot, editor
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    try:
-        yield f"http://{_HOST}:{server.server_port}/"
-    finally:
-        ending = threading.Thread(target=server.shutdown, daemon=True)
-        ending.start()
-        ending.join(_GRACE)
-        server.server_close()
+    with running(server) as address:
+        yield address
 
 
-class _Server(ThreadingHTTPServer):
-    daemon_threads = True
-    block_on_close = False
+class _Server(LocalServer):
     snapshot: Snapshot
     editor: Editor | None
 
@@ -202,15 +195,13 @@ class _Server(ThreadingHTTPServer):
         return self.editor.open(place)
 
 
-class _Handler(BaseHTTPRequestHandler):
+class _Handler(LocalHandler):
     server: _Server
+    policy = _POLICY
 
-    def do_GET(self) -> None:
-        if not self._is_local():
-            self.send_error(HTTPStatus.FORBIDDEN)
-            return
+    def answer_page(self) -> None:
         if self.path == "/events":
-            self._events()
+            self.send_events(self.server.snapshot.follow())
             return
         path, _, query = self.path.partition("?")
         if path == "/picture":
@@ -224,13 +215,11 @@ class _Handler(BaseHTTPRequestHandler):
         if file is None:
             self.send_error(HTTPStatus.NOT_FOUND)
             return
-        self._begin(_TYPES[file.suffix])
+        self.begin(_TYPES[file.suffix])
         self.wfile.write(read_file(file))
 
-    def do_POST(self) -> None:
-        # Browsers let no foreign page send JSON without a preflight, which is not answered.
-        is_json = self.headers.get("Content-Type") == "application/json"
-        if not (self.path == "/open" and is_json and self._is_local()):
+    def answer_command(self) -> None:
+        if self.path != "/open":
             self.send_error(HTTPStatus.FORBIDDEN)
             return
         try:
@@ -240,31 +229,6 @@ class _Handler(BaseHTTPRequestHandler):
             place = None
         self._answer(self.server.open_place(place if isinstance(place, str) else ""))
 
-    def _is_local(self) -> bool:
-        """Return True unless the host name points to a foreign domain (DNS rebinding)."""
-        return (self.headers.get("Host") or "").partition(":")[0] in (_HOST, "localhost")
-
     def _answer(self, value: Mapping[str, object]) -> None:
-        self._begin("application/json")
+        self.begin("application/json")
         self.wfile.write(json.dumps(value).encode())
-
-    def _begin(self, type_: str) -> None:
-        self.send_response(HTTPStatus.OK)
-        self.send_header("Content-Type", f"{type_}; charset=utf-8")
-        self.send_header("Content-Security-Policy", _POLICY)
-        self.send_header("Cache-Control", "no-store")
-        self.end_headers()
-
-    def _events(self) -> None:
-        """Send server-sent events. Source: https://html.spec.whatwg.org (section 9.2)."""
-        self._begin("text/event-stream")
-        try:
-            for messages in self.server.snapshot.follow():
-                texts = [f"data: {json.dumps(each)}\n\n" for each in messages]
-                self.wfile.write("".join(texts or [": still here\n\n"]).encode())
-                self.wfile.flush()
-        except OSError:
-            pass  # the page was closed
-
-    def log_message(self, *_: object) -> None:
-        """Suppress the request log."""

@@ -110,7 +110,7 @@ def play_traces(
             report.report("empty-trace", path=source.name)
     recording = None
     if any(source.text.strip() for source in sources):
-        prepared = _prepared(replace(request, replay=tuple(traces)), report)
+        prepared = prepare_traces(request, traces, report)
         recording = record_traces(sources, prepared, report)
     tell(report)
     if recording is None:
@@ -142,8 +142,14 @@ def _source(path: Path, report: Diagnostics) -> Source | None:
     return source
 
 
-def _prepared(request: Request, report: Diagnostics) -> Prepared | None:
+def prepare_traces(
+    request: Request, traces: Sequence[Path], report: Diagnostics
+) -> Prepared | None:
     """Return the subject of traces; None without a model, which shows the traces alone."""
+    return _prepared(replace(request, replay=tuple(traces)), report)
+
+
+def _prepared(request: Request, report: Diagnostics) -> Prepared | None:
     found = Diagnostics()
     prepared = prepare(request, found)
     if request.paths or not found.count_of("nothing-to-compile"):

@@ -16,6 +16,7 @@ from swarmdsl.tools.player.modules import join
 from swarmdsl.tools.player.recording import Recording
 
 _OTHER = '<script type="application/octet-stream" id="other">{}</script>\n'
+_CONNECT = "; connect-src 'self'"
 _FILES = Path(__file__).resolve().parent / "page"
 
 
@@ -25,7 +26,7 @@ def page(recording: Recording, other: Recording | None = None) -> str:
     It compares the run with the other one, if there is one.
 
     The policy lets nothing be loaded, and nothing run but the two scripts with these hashes: one
-    unpacks the other.
+    unpacks the other. That of a live run also asks its server for lines.
     """
     script, loader = join(_FILES, "main.js"), join(_FILES, "loader.js")
     sheets = sorted(each for each in _FILES.glob("*.css") if each.name != "player.css")
@@ -33,6 +34,7 @@ def page(recording: Recording, other: Recording | None = None) -> str:
     policy = (
         f"default-src 'none'; style-src {_hash(styles)}; script-src {_hash(loader)} "
         f"{_hash(script)}; base-uri 'none'; form-action 'none'"
+        f"{_CONNECT if recording.live else ''}"
     )
     return read_text(_FILES / "index.html").format(
         policy=policy,

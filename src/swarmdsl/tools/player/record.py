@@ -8,6 +8,7 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 from swarmdsl.base.numerals import integer
+from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import MILLISECOND
@@ -64,7 +65,7 @@ class RunRecorder:
         source = Source("", "".join(self._lines))
         model = Model(self._subject)
         return _recording(
-            [_named(step, model.alone) for step, _ in read_steps([source], report)],
+            [named(step, model.alone) for step, _ in read_steps([source], report)],
             self._members,
             model,
             notes,
@@ -98,7 +99,7 @@ def record_traces(
     lines = []
     first: dict[str, Span] = {}
     for step, place in steps:
-        line = _named(step, alone)
+        line = named(step, alone)
         changed = followed.variables.get((place.source.name, place.start)) if followed else None
         lines.append(line if changed is None else {**line, "variables": changed})
         if not is_beside_steps(line):
@@ -106,11 +107,25 @@ def record_traces(
     if followed is not None and not any("property" in line for line in lines):
         lines = sorted([*lines, *followed.judged], key=lambda line: int(line["t"]))
     own = report if followed is None else Diagnostics()  # else they are told already
-    members = [_member(name, place, model, own) for name, place in first.items()]
+    members = [member_of(name, place, model, own) for name, place in first.items()]
     return _recording(lines, members, model, report)
 
 
-def _named(line: Step, alone: str | None) -> Step:
+def record_nothing(prepared: Prepared | None, live: str) -> Recording:
+    """Return the recording of a trace whose lines are to come, of a model if it is known."""
+    model = Model(prepared.subject) if prepared is not None else None
+    # Robots may be anywhere in the environment.
+    has_places = prepared is not None and prepared.subject.environment is not None
+    places = [{"moved": {"": [0, 0]}}] if has_places else []
+    return replace(
+        _recording([], [], model, ()),
+        machines=list(_machines(model).values()),
+        views=model.view_data(places) if model is not None else {},
+        live=live,
+    )
+
+
+def named(line: Step, alone: str | None) -> Step:
     """Return a line with the name of its member; a machine `alone` has its own."""
     if is_beside_steps(line) or line.get("member") is not None:
         return line
@@ -121,7 +136,7 @@ def _named(line: Step, alone: str | None) -> Step:
     }
 
 
-def _member(name: str, place: Span, model: Model | None, report: Diagnostics) -> Member:
+def member_of(name: str, place: Span | None, model: Model | None, report: Diagnostics) -> Member:
     """Return a member of a trace; report one whose role the model does not have."""
     robot, bracket, rest = name.partition("[")
     number, _, part = rest.partition("]")
@@ -152,13 +167,12 @@ def _recording(
     seed: int | None = None,
     tables: Mapping[str, Any] | None = None,
 ) -> Recording:
-    machines = dict(model.machines()) if model is not None else {}
     last = lines[-1]["t"] * MILLISECOND if lines else 0
     return Recording(
         title=model.name if model is not None else "Run",
         lines=lines,
         members=members,
-        machines=_with_seen_states(machines, members, lines),
+        machines=_with_seen_states(_machines(model), members, lines),
         end=max(end, last),
         model=model.name if model is not None else "",
         scenario=scenario,
@@ -168,6 +182,10 @@ def _recording(
         tables=tables or {},
         notes=list(_notes(notes)),
     )
+
+
+def _machines(model: Model | None) -> dict[str, Machine]:
+    return dict(model.machines()) if model is not None else {}
 
 
 def _with_seen_states(
@@ -197,10 +215,11 @@ def _notes(found: Iterable[Diagnostic]) -> Iterator[Note]:
             count = len(told) - number
             yield Note("warning", "", f"{count} more diagnostics are in the output of the command")
             return
-        yield _note(each)
+        yield note_of(each)
 
 
-def _note(found: Diagnostic) -> Note:
+def note_of(found: Diagnostic) -> Note:
+    """Return what a page tells of a diagnostic."""
     place = ""
     if found.primary is not None:
         span = found.primary.span.absolute

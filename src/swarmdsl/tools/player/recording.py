@@ -34,6 +34,15 @@ class Machine:
         colours = {id_: nth_colour(number) for number, id_ in enumerate(new, len(self.colours))}
         return replace(self, states=(*self.states, *new), colours={**self.colours, **colours})
 
+    def head(self) -> dict[str, Any]:
+        """Return the machine as plain data, without its name."""
+        return {
+            "states": self.states,
+            "colours": self.colours,
+            "picture": self.picture,
+            "places": self.places,
+        }
+
 
 @dataclass(frozen=True)
 class Member:
@@ -43,6 +52,10 @@ class Member:
     role: str
     machine: str
     index: int = 0
+
+    def head(self) -> dict[str, Any]:
+        """Return the member as plain data."""
+        return {"name": self.name, "role": self.role, "machine": self.machine, "index": self.index}
 
 
 @dataclass(frozen=True)
@@ -55,13 +68,23 @@ class Note:
     place: str = ""
     help: str = ""
 
+    def head(self) -> dict[str, Any]:
+        """Return the note as plain data."""
+        return {
+            "severity": self.severity,
+            "code": self.code,
+            "message": self.message,
+            "place": self.place,
+            "help": self.help,
+        }
+
 
 @dataclass(frozen=True)
 class Recording:
     """Lines of a run with their model; `end` is in nanoseconds.
 
     `sources` are texts of the model by name, `views` what views need (`view_data`), `tables` the
-    tables of the machines for an engine.
+    tables of the machines for an engine. `live` is the name of a trace whose lines are to come.
     """
 
     title: str
@@ -76,18 +99,10 @@ class Recording:
     views: Mapping[str, Any] = field(default_factory=dict)
     tables: Mapping[str, Any] = field(default_factory=dict)
     notes: Sequence[Note] = ()
+    live: str = ""
 
     def head(self) -> dict[str, Any]:
         """Return everything but the lines, as plain data."""
-        machines = {
-            each.name: {
-                "states": each.states,
-                "colours": each.colours,
-                "picture": each.picture,
-                "places": each.places,
-            }
-            for each in self.machines
-        }
         return {
             "title": self.title,
             "model": self.model,
@@ -95,11 +110,8 @@ class Recording:
             "seed": self.seed,
             "end": max(self.end, self.lines[-1]["t"] * MILLISECOND if self.lines else 0),
             "lost": LOST,
-            "members": [
-                {"name": each.name, "role": each.role, "machine": each.machine, "index": each.index}
-                for each in self.members
-            ],
-            "machines": machines,
+            "members": [each.head() for each in self.members],
+            "machines": {each.name: each.head() for each in self.machines},
             "sources": self.sources,
             "properties": [],
             "measures": [],
@@ -108,14 +120,6 @@ class Recording:
             "keywords": [],
             **self.views,
             "tables": self.tables,
-            "notes": [
-                {
-                    "severity": each.severity,
-                    "code": each.code,
-                    "message": each.message,
-                    "place": each.place,
-                    "help": each.help,
-                }
-                for each in self.notes
-            ],
+            "notes": [each.head() for each in self.notes],
+            "live": self.live,
         }

@@ -33,7 +33,7 @@ def read_steps(sources: Sequence[Source], report: Diagnostics) -> list[tuple[dic
         if began is not None:
             zero = min(began, zero if zero is not None else began)
         records += of
-    steps = [(step, each) for each in records if (step := _plain(each, zero)) is not None]
+    steps = [(step, each) for each in records if (step := plain(each.done, zero)) is not None]
     _report_clocks(steps, report)
     steps.sort(key=lambda step: step[0]["t"])
     return [(step, record.place) for step, record in steps]
@@ -51,9 +51,9 @@ def _include(found: Diagnostics, report: Diagnostics) -> None:
         report.report("bad-trace-line", place, reason=f"{more} more lines are no lines of a trace")
 
 
-def _plain(record: Record, zero: int | None) -> dict[str, Any] | None:
+def plain(line: Mapping[str, Any], zero: int | None) -> dict[str, Any] | None:
     """Return the values of a line that a page can show, times since the beginning, if any."""
-    value = fitting(dict(record.done))
+    value = fitting(dict(line))
     if value is None:
         return None
     began = value.pop("began", zero)

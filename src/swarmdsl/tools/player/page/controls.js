@@ -87,7 +87,7 @@ export function controls(element, player) {
     { "aria-label": "speed", onchange: () => (player.speed = Number(speed.value)) },
     ...SPEEDS.map((each) => el("option", { value: each }, `${each}\u00d7`)),
   );
-  player.speed = fitting(recording.end);
+  player.speed = recording.live ? 1 : fitting(recording.end);
   player.faster = (by) => {
     const at = SPEEDS.indexOf(player.speed) + by;
     player.speed = SPEEDS[Math.max(0, Math.min(at, SPEEDS.length - 1))];
@@ -110,6 +110,7 @@ export function controls(element, player) {
     help,
   );
   const show = () => {
+    time.max = recording.end || 1;
     time.value = String(player.time);
     time.setAttribute("aria-valuetext", duration(player.time));
     now.textContent = `${clock(player.time)} of ${clock(recording.end)}`;

@@ -20,6 +20,7 @@ class Lanes {
     this.player = player;
     this.recording = recording;
     this.stays = staysOf(recording);
+    this.seen = recording.count;
     this.folded = new Set();
     this.sought = "";
     this.arrows = true;
@@ -38,6 +39,7 @@ class Lanes {
 
   /** Show a moment: the cursor, and the states in the heads of the rows. */
   show(moment) {
+    if (this.seen !== this.recording.count) this.grow();
     const { time } = this.player;
     const x = this.x(time);
     const isSeen = x > -1 && x < this.width + 1;
@@ -54,6 +56,22 @@ class Lanes {
       const text = line < 0 ? "" : alive ? states.map((each) => each.split(".").at(-1)).join(", ") : "lost";
       if (row.text !== text) row.state.textContent = printable((row.text = text));
     }
+  }
+
+  /** Take in the lines of a run that goes on. */
+  grow() {
+    const { recording } = this;
+    const rows = () => this.stays.reduce((sum, each) => sum + each.rows, 0);
+    const before = rows();
+    const length = this.to - this.from;
+    const isWhole = this.from === 0 && this.to === this.end;
+    staysOf(recording, this.stays, this.seen);
+    const last = this.to === this.end; // then the end stays in view
+    this.seen = recording.count;
+    this.end = Math.max(recording.end, 1);
+    if (last) [this.from, this.to] = [isWhole ? 0 : this.end - length, this.end];
+    if (rows() === before) this.draw();
+    else this.layOut();
   }
 
   x(time) {

@@ -12,7 +12,7 @@ export const view = {
 
   mount(element, player) {
     this.player = player;
-    this.machine = null;
+    this.machine = this.chosen = null;
     this.choice = el("select", { "aria-label": "State machine", onchange: () => this.change() });
     this.said = el("p", { class: "said" });
     this.drawing = el("div", { class: "drawing fit", tabindex: "0", role: "region", "aria-label": "Picture of the states" });

@@ -2,6 +2,7 @@
 import { controls } from "./controls.js";
 import { el } from "./dom.js";
 import { exports } from "./exports.js";
+import { follow } from "./live.js";
 import { Player } from "./player.js";
 import { load } from "./recording.js";
 import { MAIN, VIEWS } from "./views.js";
@@ -61,7 +62,7 @@ function contained(view) {
 /** Two panels with tabs of views; the views that are seen are shown each moment. */
 function panelsOf(element, player) {
   const { recording } = player;
-  const views = VIEWS.map(contained).filter((each) => each.available(recording));
+  let views = [];
   const panels = [];
   const found = {
     changed: () => {},
@@ -70,7 +71,7 @@ function panelsOf(element, player) {
     show: (moment) => panels.forEach((each) => each.view?.show(moment)),
   };
   const mounted = new Map();
-  for (const side of views.length > 1 ? [0, 1] : views.length ? [0] : []) {
+  const add = (side) => {
     const body = el("div", { class: "view", role: "tabpanel", tabindex: 0, id: `panel-${side}` });
     const tabs = views.map((each) =>
       el("button", { type: "button", role: "tab", "aria-selected": "false", "aria-controls": body.id, tabindex: -1, onclick: () => panel.open(each) }, each.title),
@@ -111,13 +112,29 @@ function panelsOf(element, player) {
     });
     element.append(el("section", { class: "panel" }, list, body));
     panels.push(panel);
-  }
-  panels.forEach((each, side) => each.put(views[side]));
+  };
+  let members = 0;
+  /** Make the panels again if there is more to see. */
+  found.renew = () => {
+    const now = VIEWS.filter((each) => contained(each).available(recording));
+    if (now.length === views.length && members === recording.members.length) return;
+    const before = found.opened();
+    members = recording.members.length;
+    views = now.map(contained);
+    element.replaceChildren();
+    panels.length = 0;
+    mounted.clear();
+    for (const side of views.length > 1 ? [0, 1] : views.length ? [0] : []) add(side);
+    panels.forEach((each, side) => each.put(views[side]));
+    found.open(before);
+  };
+  found.renew();
   return found;
 }
 
 /** Tell the diagnostics of the command. */
 function notes(element, recording) {
+  element.replaceChildren();
   const found = [...recording.notes, ...(recording.other?.notes ?? [])];
   if (!found.length) return;
   const errors = found.filter((each) => each.severity === "error").length;
@@ -139,15 +156,20 @@ function notes(element, recording) {
 function start(recording) {
   const player = new Player(recording);
   player.views = VIEWS;
-  const about = [
-    recording.model,
-    recording.scenario && `scenario ${recording.scenario}`,
-    recording.seed !== null && `seed ${recording.seed}`,
-    `${recording.members.length} member${recording.members.length === 1 ? "" : "s"}`,
-    `${recording.count} lines`,
-  ];
-  byId("about").textContent = about.filter(Boolean).join(", ");
-  notes(byId("notes"), recording);
+  let told = -1;
+  const tell = () => {
+    const about = [
+      recording.model,
+      recording.scenario && `scenario ${recording.scenario}`,
+      recording.seed !== null && `seed ${recording.seed}`,
+      `${recording.members.length} member${recording.members.length === 1 ? "" : "s"}`,
+      `${recording.count} lines`,
+    ];
+    byId("about").textContent = about.filter(Boolean).join(", ");
+    if (told !== recording.notes.length) notes(byId("notes"), recording);
+    told = recording.notes.length;
+  };
+  tell();
   const lanes = el("div", { class: "of-lanes" });
   byId("main").append(lanes);
   const main = contained(MAIN);
@@ -158,6 +180,11 @@ function start(recording) {
   let waiting = false;
   const show = () => {
     waiting = false;
+    if (hasGrown) {
+      tell();
+      panels.renew();
+    }
+    hasGrown = false;
     const { moment } = player;
     showControls();
     main.show(moment);
@@ -169,10 +196,13 @@ function start(recording) {
   };
   player.on("moment", soon);
   player.on("selection", soon);
+  let hasGrown = false;
+  player.on("growth", () => soon((hasGrown = true)));
   const read = address(player, panels);
   player.go(0);
   read();
   show();
+  if (recording.live) follow(player, byId("live"));
   document.documentElement.dataset.ready = "true";
   return player;
 }

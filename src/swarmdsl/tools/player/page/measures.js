@@ -29,8 +29,8 @@ export const view = {
   show(moment) {
     const { recording } = this.player;
     const { measures } = historyOf(recording);
-    if (this.drawn !== measures.length) {
-      this.drawn = measures.length;
+    if (this.drawn !== measures.length || this.end !== recording.end) {
+      [this.drawn, this.end] = [measures.length, recording.end];
       this.lines = measures.map((each) => each.at);
       for (const each of this.charts) this.draw(each, measures, Math.max(recording.end, 1));
     }

@@ -13,7 +13,7 @@ export const STEPS = {
 };
 
 export class Player {
-  #heard = { moment: [], selection: [], playing: [], bookmarks: [] };
+  #heard = { moment: [], selection: [], playing: [], bookmarks: [], growth: [] };
   #last = 0;
   #frame = 0;
   #shown = null;
@@ -28,7 +28,7 @@ export class Player {
     this.playing = false;
   }
 
-  /** Call a function with the player at each `moment`, `selection`, `playing` or `bookmarks`. */
+  /** Call a function with the player at each `moment`, `selection`, `playing`, `bookmarks` or `growth`. */
   on(name, heard) {
     this.#heard[name].push(heard);
   }
@@ -71,6 +71,15 @@ export class Player {
         return true;
       }
     return false;
+  }
+
+  /** Take in what `add` adds to the recording; the moment stays at the end, if it is there. */
+  grow(add) {
+    const isLast = this.time >= this.recording.end;
+    add(this.recording);
+    this.#shown = null; // there may be more members
+    if (isLast) this.goTime(this.recording.end);
+    this.#tell("growth");
   }
 
   select(name) {

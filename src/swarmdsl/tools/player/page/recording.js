@@ -122,14 +122,17 @@ export class Recording {
     return found;
   }
 
+  /** Add a member of a run that goes on. */
+  join(member) {
+    this.members.push(member);
+    this.#join(member, this.members.length - 1);
+    for (const each of this.#snapshots) each.members.push(NOBODY);
+  }
+
   /** Append a line of a trace, of a run that goes on. */
   append(line) {
-    if (line.member !== undefined && this.number(line.member) < 0) {
-      const role = line.member.replace(/\[\d+\]/, "");
-      this.members.push({ name: line.member, role, machine: "", index: 0 });
-      this.#join(this.members.at(-1), this.members.length - 1);
-      for (const each of this.#snapshots) each.members.push(NOBODY);
-    }
+    if (line.member !== undefined && this.number(line.member) < 0)
+      this.join({ name: line.member, role: line.member.replace(/\[\d+\]/, ""), machine: "", index: 0 });
     const time = line.t * MILLISECOND;
     const member = line.member === undefined ? -1 : this.number(line.member);
     this.#more.push({ line, time, member });

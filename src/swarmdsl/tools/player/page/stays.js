@@ -1,9 +1,9 @@
 // Stays in states: what the lanes draw, found once for all zooms.
 
-/** For each member its stays: lines at which its states change, and their times. */
-export function staysOf(recording) {
-  const found = recording.members.map(() => ({ times: [], states: [], lines: [], rows: 1 }));
-  for (let at = 0; at < recording.count; at++) {
+/** For each member its stays: lines at which its states change, and their times; or those found before with more lines. */
+export function staysOf(recording, found = [], from = 0) {
+  while (found.length < recording.members.length) found.push({ times: [], states: [], lines: [], rows: 1 });
+  for (let at = from; at < recording.count; at++) {
     const step = recording.step(at);
     const member = recording.memberAt(at);
     if (!step.configuration || member < 0) continue;
