@@ -5,7 +5,7 @@ import * as vscode from "vscode";
 import { followNodes, followTrace } from "./follow.ts";
 import { selectInterpreter } from "./interpreter.ts";
 import { newModel } from "./models.ts";
-import { play } from "./play.ts";
+import { play, test } from "./play.ts";
 import { Preview } from "./preview.ts";
 import { onSelect } from "./python.ts";
 import { type Place, showReferences } from "./references.ts";
@@ -46,13 +46,17 @@ export function activate(context: vscode.ExtensionContext): void {
       const uri = targetFile(file);
       return uri && play(started, uri, subject);
     }),
+    command("test", (file?: vscode.Uri | string) => {
+      const uri = targetFile(file);
+      return uri && test(started, uri);
+    }),
     command("verify", (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = targetFile(file);
-      return uri && verify(started, uri, preview, subject);
+      return uri && verify(started, uri, subject);
     }),
     command("followTrace", (file?: vscode.Uri | string) => {
       const uri = targetFile(file);
-      return uri && followTrace(preview, uri);
+      return uri && followTrace(started, preview, uri, log);
     }),
     command("followNodes", (file?: vscode.Uri | string) => {
       const uri = targetFile(file);

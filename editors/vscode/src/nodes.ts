@@ -7,9 +7,9 @@ import { homedir } from "node:os";
 import type { Launch } from "./launch.ts";
 import type { Active, Highlights, Moved } from "./highlights.ts";
 
-const ADDRESS = /http:\/\/127\.0\.0\.1:\d+\//;
+export const ADDRESS = /http:\/\/127\.0\.0\.1:\d+\//;
 const EVENT = "data: ";
-const MAX_OUTPUT = 10_000; // characters of output
+export const MAX_OUTPUT = 10_000; // characters of output
 
 export class Nodes implements Highlights {
   private readonly child: ChildProcess;

@@ -1,11 +1,12 @@
-// Command that plays a run: swarmc simulates it and writes a page, which is shown beside the text.
+// Commands that play runs: swarmc writes a page, which is shown beside the text.
 
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
+import { basename, dirname, join } from "node:path";
 
 import * as vscode from "vscode";
 
+import type { Launch } from "./launch.ts";
 import { showBundledLimit } from "./missing.ts";
 import type { Server } from "./server.ts";
 import { chooseScenario, chooseSubject } from "./simulate.ts";
@@ -29,39 +30,71 @@ export async function play(server: Server, file: vscode.Uri, subject?: Simulated
   }
   // swarmc reads files from disk.
   await vscode.workspace.saveAll(false);
-  const folder = await mkdtemp(join(tmpdir(), "swarm-"));
-  const page = join(folder, "run.html");
-  const args = ["play", file.fsPath, `--${chosen.kind}`, chosen.name, "-o", page];
-  if (scenario.uri) {
-    args.push("--scenario", scenario.uri.fsPath);
+  const more = scenario.uri ? ["--scenario", scenario.uri.fsPath] : [];
+  const words = ["play", file.fsPath, `--${chosen.kind}`, chosen.name, ...more];
+  const isShown = await playPage(launch, file, chosen.name, [...words, "-o"]);
+  if (!isShown) {
+    void vscode.window.showWarningMessage(`There is no run of ${chosen.name}: see the terminal.`);
   }
-  const task = new vscode.Task(
-    { type: "swarmdsl", command: "play" },
-    vscode.workspace.getWorkspaceFolder(file) ?? vscode.TaskScope.Workspace,
-    `play ${chosen.name}`,
-    "swarmc",
-    run(launch, args, dirname(file.fsPath)),
-  );
-  task.presentationOptions = { reveal: vscode.TaskRevealKind.Silent };
-  const running = await vscode.tasks.executeTask(task);
-  const ended = vscode.tasks.onDidEndTask(async ({ execution }) => {
-    if (execution === running) {
-      ended.dispose();
-      await showPage(page, chosen.name);
-      await rm(folder, { recursive: true, force: true });
-    }
-  });
 }
 
-/** Show a page that swarmc has written; where there is none, the terminal says why. */
-async function showPage(path: string, name: string): Promise<void> {
-  let html: string;
-  try {
-    html = await readFile(path, "utf8");
-  } catch {
-    void vscode.window.showWarningMessage(`There is no run of ${name}: see the terminal.`);
+/** Run the tests beside a file, and play the first that fails. */
+export async function test(server: Server, file: vscode.Uri): Promise<void> {
+  const launch = await server.swarmc();
+  if (!launch) {
     return;
   }
+  if (launch.bundled) {
+    showBundledLimit("run tests");
+    return;
+  }
+  await vscode.workspace.saveAll(false);
+  const folder = dirname(file.fsPath);
+  await playPage(launch, file, "the test that fails", ["test", folder, "--play"]);
+}
+
+/**
+ * Let swarmc write a page, to a path after the last argument, and show it.
+ *
+ * Returns false without a page: the terminal says why.
+ */
+export async function playPage(
+  launch: Launch,
+  file: vscode.Uri,
+  name: string,
+  args: readonly string[],
+): Promise<boolean> {
+  const folder = await mkdtemp(join(tmpdir(), "swarm-"));
+  const page = join(folder, "run.html");
+  const command = args[0] ?? "";
+  const task = new vscode.Task(
+    { type: "swarmdsl", command },
+    vscode.workspace.getWorkspaceFolder(file) ?? vscode.TaskScope.Workspace,
+    `${command} ${basename(file.fsPath)}`,
+    "swarmc",
+    run(launch, [...args, page], dirname(file.fsPath)),
+  );
+  // A run is on its page, and the results of tests are in the terminal.
+  const { Always, Silent } = vscode.TaskRevealKind;
+  task.presentationOptions = { reveal: command === "test" ? Always : Silent };
+  const running = await vscode.tasks.executeTask(task);
+  await new Promise<void>((resolve) => {
+    const ended = vscode.tasks.onDidEndTask(({ execution }) => {
+      if (execution === running) {
+        ended.dispose();
+        resolve();
+      }
+    });
+  });
+  const html = await readFile(page, "utf8").catch(() => undefined);
+  await rm(folder, { recursive: true, force: true });
+  if (html !== undefined) {
+    showPage(html, name);
+  }
+  return html !== undefined;
+}
+
+function showPage(html: string, name: string): void {
   const panel = vscode.window.createWebviewPanel(
     "swarmdsl.run",
     `Run of ${name}`,

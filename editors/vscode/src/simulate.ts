@@ -85,14 +85,7 @@ export async function chooseSubject(
   file: vscode.Uri,
   title: string,
 ): Promise<Simulated | undefined> {
-  const outline = await vscode.commands.executeCommand<vscode.DocumentSymbol[] | undefined>(
-    "vscode.executeDocumentSymbolProvider",
-    file,
-  );
-  const found = (outline ?? []).flatMap(({ name, detail }): Simulated[] => {
-    const kind = KINDS[detail];
-    return kind ? [{ kind, name }] : [];
-  });
+  const found = await subjectsOf(file);
   if (found.length <= 1) {
     if (!found.length) {
       void vscode.window.showInformationMessage(
@@ -107,6 +100,18 @@ export async function chooseSubject(
     each,
   }));
   return (await vscode.window.showQuickPick(items, { title }))?.each;
+}
+
+/** The swarms and state machines of the file. */
+export async function subjectsOf(file: vscode.Uri): Promise<Simulated[]> {
+  const outline = await vscode.commands.executeCommand<vscode.DocumentSymbol[] | undefined>(
+    "vscode.executeDocumentSymbolProvider",
+    file,
+  );
+  return (outline ?? []).flatMap(({ name, detail }): Simulated[] => {
+    const kind = KINDS[detail];
+    return kind ? [{ kind, name }] : [];
+  });
 }
 
 /** Let the user choose a scenario beside the file, if there are any. */

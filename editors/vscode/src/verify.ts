@@ -1,4 +1,4 @@
-// Command that proves properties in a terminal, and shows counterexamples in the preview.
+// Command that proves properties in a terminal, and plays counterexamples.
 
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -6,13 +6,13 @@ import { dirname, join } from "node:path";
 
 import * as vscode from "vscode";
 
+import type { Launch } from "./launch.ts";
 import { showBundledLimit } from "./missing.ts";
-import type { Preview } from "./preview.ts";
+import { playPage } from "./play.ts";
 import type { Server } from "./server.ts";
-import { chooseSubject } from "./simulate.ts";
+import { chooseSubject, subjectsOf } from "./simulate.ts";
 import type { Simulated } from "./subject.ts";
 import { run } from "./tasks.ts";
-import { Trace } from "./trace.ts";
 
 // A user waits for it.
 const LIMIT = "1min";
@@ -41,7 +41,6 @@ interface Shown extends vscode.QuickPickItem {
 export async function verify(
   server: Server,
   file: vscode.Uri,
-  preview: Preview,
   subject?: Simulated,
 ): Promise<void> {
   const launch = await server.swarmc();
@@ -73,13 +72,13 @@ export async function verify(
   const ended = vscode.tasks.onDidEndTask(async ({ execution }) => {
     if (execution === running) {
       ended.dispose();
-      await showResults(results, file, preview);
+      await showResults(results, file, launch);
       await rm(folder, { recursive: true, force: true });
     }
   });
 }
 
-async function showResults(path: string, file: vscode.Uri, preview: Preview): Promise<void> {
+async function showResults(path: string, file: vscode.Uri, launch: Launch): Promise<void> {
   let results: Results;
   try {
     results = JSON.parse(await readFile(path, "utf8")) as Results;
@@ -90,9 +89,12 @@ async function showResults(path: string, file: vscode.Uri, preview: Preview): Pr
   if (!shown) {
     return;
   }
-  await preview.show(file);
-  const highlights = preview.highlight((moved) => new Trace(shown.run, results.subject, moved));
-  await highlights.end();
+  const subject = (await subjectsOf(file)).find(({ name }) => name === results.subject);
+  const of = subject ? [`--${subject.kind}`, subject.name] : [];
+  const words = ["play", file.fsPath, ...of, "--counterexample", shown.run, "-o"];
+  if (!(await playPage(launch, file, shown.label, words))) {
+    void vscode.window.showWarningMessage(`The run of ${shown.label} has no page: see the terminal.`);
+  }
 }
 
 /** The run that shows what is wrong; the user chooses if there are several. */

@@ -291,8 +291,9 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
         window.again(lenses.locator("a", has_text="Verify").first.click, asked)
         shown = rows.filter(has_text=re.compile(r"worker\[1\]\s+do\.Trying\.succeeded"))
         expect(shown).not_to_have_count(0)
-        picture = window.view().locator("#picture")
-        expect(picture.locator(".lit")).to_contain_text(["Waiting"])
+        wrong = window.view()
+        expect(wrong.locator("#about")).to_contain_text("Pair, 2 members")
+        expect(wrong.locator("#panels")).to_contain_text("OneWaits")
         pair.unlink()
         window.leave()
 
