@@ -17,9 +17,10 @@ import tomli
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
+from swarmdsl.cli.play_pages import play_runs
 from swarmdsl.execution.experiments.running import Progress
 from swarmdsl.execution.experiments.study import command
-from swarmdsl.execution.experiments.study.command import Request, run_study
+from swarmdsl.execution.experiments.study.command import Play, Request, run_study
 from swarmdsl.execution.experiments.task import Row
 from swarmdsl.execution.experiments.toml_text import toml_text
 
@@ -44,7 +45,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def ran(text: str, *, resume: bool = False, output: str = "out", as_json: bool = True) -> Any:
+def ran(
+    text: str,
+    *,
+    resume: bool = False,
+    output: str = "out",
+    as_json: bool = True,
+    play: Play | None = None,
+) -> Any:
     """Run a study; return its results as data or text, or its diagnostics."""
     Path("study.toml").write_text(text, encoding="utf-8")
     out, told = io.StringIO(), []
@@ -62,7 +70,7 @@ def ran(text: str, *, resume: bool = False, output: str = "out", as_json: bool =
             told.append(f"{place}{each.code} {each.message} ({each.help})")
 
     request = Request(Path("study.toml"), Path(output), resume=resume, as_json=as_json)
-    succeeded = run_study(request, open_model, out, tell)
+    succeeded = run_study(request, open_model, out, tell, play)
     if not out.getvalue():
         assert not succeeded
         return told
@@ -106,11 +114,18 @@ def test_results_are_the_same_after_resume_and_nothing_runs_twice(folder: Path) 
 def test_worst_runs_play_with_the_command_in_the_report(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    text = ran(STUDY, as_json=False)
+    text = ran(STUDY, as_json=False, play=play_runs)
+    pages = [Path(each.strip()) for each in text.rpartition("written: ")[2].split(",")][-2:]
     worst = next(line for line in text.splitlines() if line.startswith("worst run"))
     value = float(worst.partition("(")[2].partition(")")[0])
     words = shlex.split(worst.rpartition(": ")[2])
     assert words[:2] == ["swarmc", "simulate"]
+    best = next(line for line in text.splitlines() if line.startswith("best run"))
+    assert float(best.partition("(")[2].partition(")")[0]) > value
+    commands = [shlex.split(each.rpartition(": ")[2]) for each in (worst, best)]
+    assert [Path(each[each.index("--play") + 1]) for each in commands] == pages
+    contents = [each.read_bytes() for each in pages]
+    pages[0].unlink()
     scenario = tomli.loads(Path(words[words.index("--scenario") + 1]).read_text())
     assert scenario["count"] == {"robot": 4}
     assert scenario["params"] == {"robot": {"patience": "5s"}}
@@ -119,6 +134,7 @@ def test_worst_runs_play_with_the_command_in_the_report(
     assert run([*words[1:], "--trace", "none", "--results", "one.json"]) in (0, 1)
     capsys.readouterr()
     assert json.loads(Path("one.json").read_text())["fitness"]["value"] == value
+    assert pages[0].read_bytes() == contents[0]
 
 
 def test_ctrl_c_tells_what_the_runs_that_are_done_show(

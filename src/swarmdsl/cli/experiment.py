@@ -32,6 +32,12 @@ if TYPE_CHECKING:
     help="Folder for the runs and the results.  [default: NAME-results for NAME.toml]",
 )
 @engine
+@click.option(
+    "--play",
+    "plays",
+    is_flag=True,
+    help="Write the pages that play the worst and the best run of the best point.",
+)
 @click.option("--resume", is_flag=True, help="Go on with the runs in the folder.")
 @options.diagnostics_format
 @options.debug
@@ -42,6 +48,7 @@ def experiment(
     cluster: str | None,
     limit: float | None,
     feed: Path | None,
+    plays: bool,
     resume: bool,
     is_json: bool,
     format_: str,
@@ -52,6 +59,7 @@ def experiment(
     points of the design run with the same seeds. The folder gets all runs in a file of SQLite,
     the results as JSON, and a page with charts, which needs no network.
     """
+    from swarmdsl.cli.play_pages import play_runs
     from swarmdsl.execution.experiments.study.command import Request, run_study
 
     check_processes(jobs, cluster)
@@ -70,6 +78,7 @@ def experiment(
             # What is found has one document on standard output.
             StringIO() if is_document else sys.stdout,
             found.extend if is_document else lambda each: render(each, format_, sys.stderr),
+            play_runs if plays else None,
         )
     if is_document:
         render(found, format_, sys.stdout)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import redirect_stderr
+from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -59,6 +61,19 @@ def play_counterexample(
         return False
     click.echo(f"{name}: {played.written.as_posix()}", err=True)
     return True
+
+
+def play_runs(runs: Sequence[tuple[Request, Path]], report: Diagnostics) -> Iterator[Path]:
+    """Write the pages of simulations whose results are known; yield those that are written."""
+    from swarmdsl.tools.player.command import play_run
+
+    for request, out in runs:
+        told = Diagnostics()
+        with redirect_stderr(StringIO()):  # a summary
+            played = play_run(request, out, told.include)
+        report.include(each for each in told if each.name == "cannot-write")
+        if played.written is not None:
+            yield out
 
 
 def play_failed(verdict: Verdict, out: Path) -> None:

@@ -28,9 +28,12 @@ from swarmdsl.execution.experiments.study.study_file import read_study
 from swarmdsl.execution.experiments.study.tables import answers, conditions, grids
 from swarmdsl.execution.experiments.study.worst import Played, worst_of
 from swarmdsl.execution.experiments.task import SCENARIO, Row, Task
+from swarmdsl.execution.simulate.prepare import Request as Simulation
 from swarmdsl.execution.simulate.summary import format_table
 
 Tell = Callable[[Diagnostics], None]
+Play = Callable[[Sequence[tuple[Simulation, Path]], Diagnostics], Iterator[Path]]
+"""Writes the pages of runs, and yields those that it has written."""
 _WORLD = f"{SCENARIO}world.kind"
 """Factor that may have worlds with a library in C."""
 _RESULTS, _REPORT, _RUNS = "results.json", "report.html", "runs"
@@ -55,8 +58,17 @@ class Request:
         return self.output if self.output is not None else Path(f"{self.path.stem}-results")
 
 
-def run_study(request: Request, open_model: OpenModel, out: TextIO, tell: Tell) -> bool | None:
-    """Run a study; return True without errors, None if interrupted."""
+def run_study(
+    request: Request,
+    open_model: OpenModel,
+    out: TextIO,
+    tell: Tell,
+    play: Play | None = None,
+) -> bool | None:
+    """Run a study; return True without errors, None if interrupted.
+
+    `play` writes the pages of the worst and the best run.
+    """
     report = Diagnostics()
     study = read_study(request.path, report)
     setting = open_study(study, open_model, report) if study is not None else None
@@ -82,6 +94,8 @@ def run_study(request: Request, open_model: OpenModel, out: TextIO, tell: Tell) 
     _report_failures(found, report)
     played = worst_of(found, setting, request.folder / _RUNS)
     written = list(_write(request.folder, found, data, played, report))
+    if play is not None and not done.interrupted:
+        written += play(played.ends, report)
     tell(report)
     subject = setting.first.subject.name
     if request.as_json:

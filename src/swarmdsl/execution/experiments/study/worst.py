@@ -16,35 +16,47 @@ from swarmdsl.execution.experiments.study.models import Setting
 from swarmdsl.execution.experiments.task import Row
 from swarmdsl.execution.experiments.toml_text import toml_text
 from swarmdsl.execution.simulate.durations import written_duration
+from swarmdsl.execution.simulate.prepare import Request
 
+_WORST, _BEST = "worst run of the best point", "best run of the best point"
 _MOST = 3
 """Runs of a kind that are shown."""
 
 
 @dataclass(frozen=True)
 class Played:
-    """Runs worth a look, and the scenarios that play them, by path."""
+    """Runs worth a look, and the scenarios that play them, by path.
+
+    `ends` are the worst and the best run of the best point, with their pages, unless the
+    model is of a git revision.
+    """
 
     runs: tuple[Worst, ...]
     scenarios: dict[Path, str]
+    ends: tuple[tuple[Request, Path], ...]
 
 
 def worst_of(found: Analysis, setting: Setting, folder: Path) -> Played:
-    """Return the worst runs of the best point, and violations and failures of any point.
+    """Return worst and best runs of the best point, and violations and failures of any point.
 
     Scenarios are files in the folder; they have the settings of a point.
     """
     names: dict[str, Path] = {}
     texts: dict[Path, str] = {}
     runs = []
+    ends = {}
     for why, result, row in _chosen(found):
         text = scenario_text(setting, result)
         if text not in names:
             names[text] = folder / f"{len(names) + 1}.toml"
             texts[names[text]] = text
-        command = _command(setting, result, names[text], row.seed)
+        path = names[text]
+        page = path.with_name(f"{path.stem}-{row.seed}.html")
+        command = _command(setting, result, path, page, row.seed)
         runs.append(Worst(why, row.seed, result.values.get(row.seed), command))
-    return Played(tuple(runs), texts)
+        if why in (_WORST, _BEST) and why not in ends:
+            ends[why] = _request(setting, result, path, row.seed), page
+    return Played(tuple(runs), texts, tuple(each for each in ends.values() if each[0].paths))
 
 
 def scenario_text(setting: Setting, result: Result) -> str:
@@ -62,7 +74,9 @@ def _chosen(found: Analysis) -> Iterator[tuple[str, Result, Row]]:
         valued = [row for row in best.rows if row.seed in best.values]
         valued.sort(key=lambda row: (sign * best.values[row.seed], row.seed))
         for row in valued[:_MOST]:
-            yield "worst run of the best point", best, row
+            yield _WORST, best, row
+        for row in valued[_MOST:][-1:]:
+            yield _BEST, best, row
     violated = [
         (f"violates {name}", result, row)
         for result in found.results
@@ -80,7 +94,21 @@ def _chosen(found: Analysis) -> Iterator[tuple[str, Result, Row]]:
     yield from failed[:_MOST]
 
 
-def _command(setting: Setting, result: Result, scenario: Path, seed: int) -> str:
+def _request(setting: Setting, result: Result, scenario: Path, seed: int) -> Request:
+    """Return the simulation of a run; it has no files for a model of a git revision."""
+    study, places = setting.study, setting.model(result.point).places
+    return Request(
+        () if any(revision for revision, _ in places) else tuple(Path(path) for _, path in places),
+        swarm=study.swarm,
+        scenario=scenario,
+        until=study.until,
+        world=study.world,
+        seed=seed,
+        trace="none",
+    )
+
+
+def _command(setting: Setting, result: Result, scenario: Path, page: Path, seed: int) -> str:
     """Return the command that plays a run."""
     study, model = setting.study, setting.model(result.point)
     words = ["swarmc", "simulate", *(path for _, path in model.places)]
@@ -88,6 +116,7 @@ def _command(setting: Setting, result: Result, scenario: Path, seed: int) -> str
     given = (
         ("--swarm", study.swarm),
         ("--scenario", scenario),
+        ("--play", page),
         ("--until", until),
         ("--world", study.world),
         ("--seed", seed),
