@@ -98,6 +98,8 @@ def test_two_runs_side_by_side(
     visit = Visit(browser, tmp_path / "run.html")
     panel = visit.page.locator(".of-compare")
     assert "differ from 0:02.500 on, first in robot[1]." in panel.inner_text()
+    assert visit.value("player.time") == 2.5e9
+    panel.get_by_role("button", name="next").click()
     panel.get_by_role("button", name="first difference").click()
     assert visit.value("player.time") == 2.5e9
     visit.page.wait_for_selector(".of-compare tr.differs")
@@ -106,6 +108,21 @@ def test_two_runs_side_by_side(
         "On.Do.Rest, On.Hear.Loud",
         "\N{NOT EQUAL TO} On.Do.Rest, On.Hear.Quiet",
     ]
+
+    # The lanes of both have one time, window and choice.
+    bars = visit.page.locator(".bars")
+    assert bars.count() == 2
+    box = bars.nth(1).bounding_box()
+    visit.page.mouse.click(box["x"] + 0.6 * box["width"], box["y"] + 50)
+    assert abs(visit.value("player.time") - 6e9) < 2 * 10e9 / box["width"]
+    assert visit.value("player.selected") is not None
+    visit.page.keyboard.press("+")
+    visit.value("player.goTime(5e9)")
+    visit.value("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    one, other = visit.value(
+        "[...document.querySelectorAll('.cursor')].map((each) => each.style.transform)"
+    )
+    assert one == other
     visit.close()
 
     assert run(["play", *words, "--compare", "missing.jsonl"]) == 1

@@ -20,6 +20,20 @@ function partings(mine, theirs) {
   return found;
 }
 
+/** Members of both runs with the times at which they begin to differ, and all of these times. */
+export function differences(recording) {
+  const { other } = recording;
+  const [mine, theirs] = [staysOf(recording), staysOf(other)];
+  const none = { times: [], states: [] };
+  const names = [...new Set([...recording.members, ...other.members].map((each) => each.name))];
+  const of = (run, stays, name) => stays[run.number(name)] ?? none;
+  const rows = names.map((name) => {
+    const pair = [of(recording, mine, name), of(other, theirs, name)];
+    return { name, pair, partings: partings(...pair) };
+  });
+  return { rows, times: [...new Set(rows.flatMap((each) => each.partings))].sort((a, b) => a - b) };
+}
+
 export const view = {
   id: "compare",
   title: "Comparison",
@@ -30,15 +44,7 @@ export const view = {
     this.player = player;
     const { recording } = player;
     const { other } = recording;
-    const [mine, theirs] = [staysOf(recording), staysOf(other)];
-    const none = { times: [], states: [] };
-    const names = [...new Set([...recording.members, ...other.members].map((each) => each.name))];
-    const of = (run, stays, name) => stays[run.number(name)] ?? none;
-    this.rows = names.map((name) => {
-      const pair = [of(recording, mine, name), of(other, theirs, name)];
-      return { name, pair, partings: partings(...pair), cells: [el("td"), el("td")] };
-    });
-    this.times = [...new Set(this.rows.flatMap((each) => each.partings))].sort((a, b) => a - b);
+    Object.assign(this, differences(recording));
     this.said = el("p", { class: "said", role: "status" });
     const go = (way) => {
       const found = way > 0 ? this.times.find((each) => each > player.time) : this.times.findLast((each) => each < player.time);
@@ -52,6 +58,7 @@ export const view = {
     const body = rows.map((row) => {
       const from = row.partings[0];
       const at = from === undefined ? "never" : el("button", { type: "button", onclick: () => player.goTime(from) }, clock(from));
+      row.cells = [el("td"), el("td")];
       row.element = el("tr", {}, el("th", { scope: "row" }, row.name), ...row.cells, el("td", {}, at));
       return row.element;
     });

@@ -14,8 +14,8 @@ const PROPERTIES = "\n"; // the group of properties, which is no role
 const SOME = 6; // properties that are shown without folding; a violated one always is
 const FEW = 60; // members that are shown without folding
 
-class Lanes {
-  constructor(element, player) {
+export class Lanes {
+  constructor(element, player, title = "") {
     const { recording } = player;
     this.player = player;
     this.recording = recording;
@@ -25,11 +25,12 @@ class Lanes {
     this.sought = "";
     this.arrows = true;
     this.end = Math.max(recording.end, 1);
-    [this.from, this.to] = [0, this.end];
+    [this.from, this.to, this.range] = [0, this.end, this.end];
+    this.changed = () => {}; // called when another window is drawn
     const roles = [...new Set(recording.members.map((each) => each.role))];
     if (recording.properties.length > SOME) this.folded.add(PROPERTIES);
     if (recording.members.length > FEW) roles.forEach((each) => this.folded.add(each));
-    this.#build(element);
+    this.#build(element, title);
     new ResizeObserver(() => this.draw()).observe(this.scroller);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
     player.on("selection", () => this.draw());
@@ -64,12 +65,11 @@ class Lanes {
     const rows = () => this.stays.reduce((sum, each) => sum + each.rows, 0);
     const before = rows();
     const length = this.to - this.from;
-    const isWhole = this.from === 0 && this.to === this.end;
+    const last = this.to === this.range; // then the end stays in view
     staysOf(recording, this.stays, this.seen);
-    const last = this.to === this.end; // then the end stays in view
     this.seen = recording.count;
-    this.end = Math.max(recording.end, 1);
-    if (last) [this.from, this.to] = [isWhole ? 0 : this.end - length, this.end];
+    this.end = this.range = Math.max(recording.end, 1);
+    if (last) [this.from, this.to] = [this.from && this.end - length, this.end];
     if (rows() === before) this.draw();
     else this.layOut();
   }
@@ -84,10 +84,10 @@ class Lanes {
 
   /** Zoom by a factor, so that a time keeps its place, or comes into view. */
   zoom(factor, around = this.player.time) {
-    const length = Math.min(this.end, Math.max((this.to - this.from) / factor, 1e6));
+    const length = Math.min(this.range, Math.max((this.to - this.from) / factor, 1e6));
     const seen = around >= this.from && around <= this.to;
     const share = seen ? (around - this.from) / (this.to - this.from) : 0.1;
-    this.from = Math.max(0, Math.min(around - share * length, this.end - length));
+    this.from = Math.max(0, Math.min(around - share * length, this.range - length));
     this.to = this.from + length;
     this.draw();
     this.show(this.player.moment);
@@ -175,6 +175,7 @@ class Lanes {
     }
     if (this.arrows) drawArrows(pen, this);
     pen.restore();
+    this.changed();
   }
 
   #fits(member, number) {
@@ -183,7 +184,7 @@ class Lanes {
     return this.stays[number].states.some((each) => each?.some((state) => state.toLowerCase().includes(this.sought)));
   }
 
-  #build(element) {
+  #build(element, title) {
     const { player } = this;
     this.heads = el("div", { class: "heads", role: "list", "aria-label": "members" });
     this.canvas = el("canvas", { "aria-hidden": "true" });
@@ -201,6 +202,7 @@ class Lanes {
     const bar = el(
       "div",
       { class: "bar" },
+      ...(title ? [el("strong", {}, title)] : []),
       this.search,
       el("label", {}, arrows, " swarm events"),
       el("button", { type: "button", title: "zoom in (+)", onclick: () => this.zoom(2) }, "+"),
@@ -241,7 +243,7 @@ class Lanes {
     this.body.addEventListener("pointerup", (event) => {
       const [x] = place(event);
       if (brush !== null && Math.abs(x - brush) > 4) {
-        [this.from, this.to] = [Math.max(0, this.time(Math.min(x, brush))), Math.min(this.end, this.time(Math.max(x, brush)))];
+        [this.from, this.to] = [Math.max(0, this.time(Math.min(x, brush))), Math.min(this.range, this.time(Math.max(x, brush)))];
         this.draw();
         this.show(player.moment);
       }
@@ -303,7 +305,7 @@ export const view = {
   id: "lanes",
   title: "Lanes",
   available: () => true,
-  mount: (element, player) => (lanes = new Lanes(element, player)),
+  mount: (element, player) => (lanes = new Lanes(element, player, player.recording.other && "this run")),
   show: (moment) => lanes.show(moment),
 };
 

@@ -1,4 +1,6 @@
 // The page: recording, player, views and controls together.
+import { addOther } from "./both_lanes.js";
+import { differences } from "./compare.js";
 import { controls } from "./controls.js";
 import { el } from "./dom.js";
 import { exports } from "./exports.js";
@@ -173,7 +175,8 @@ function start(recording) {
   const lanes = el("div", { class: "of-lanes" });
   byId("main").append(lanes);
   const main = contained(MAIN);
-  main.mount(lanes, player);
+  const mounted = main.mount(lanes, player);
+  if (recording.other && mounted) addOther(byId("main"), mounted);
   const panels = panelsOf(byId("panels"), player);
   const showControls = controls(byId("controls"), player);
   exports(byId("controls"), player);
@@ -200,6 +203,7 @@ function start(recording) {
   player.on("growth", () => soon((hasGrown = true)));
   const read = address(player, panels);
   player.go(0);
+  if (recording.other) player.goTime(differences(recording).times[0] ?? 0);
   read();
   show();
   if (recording.live) follow(player, byId("live"));
