@@ -55,6 +55,11 @@ class Visit:
         """Return the value of an expression in the page."""
         return self.page.evaluate(script)
 
+    def until(self, condition: str) -> None:
+        """Wait for a condition; the policy of the page forbids `wait_for_function`."""
+        look = f"while (!({condition})) await new Promise(requestAnimationFrame);"
+        self.page.evaluate(f"(async () => {{ {look} }})()")
+
     def close(self) -> None:
         """Close it; nothing was asked for but the page itself, and nothing went wrong."""
         asked = {each.partition("#")[0] for each in self.asked}

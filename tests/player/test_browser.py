@@ -157,7 +157,7 @@ def test_names_of_a_trace_are_text(browser: Any, tmp_path: Path, key: str) -> No
             line[key] = HOSTILE if line[key] else line[key]
     visit = Visit(browser, written(tmp_path, lines))
     visit.page.keyboard.press("End")
-    visit.page.wait_for_function("document.querySelector('.said').textContent.includes('<script>')")
+    visit.until("document.querySelector('.said').textContent.includes('<script>')")
     assert visit.value("document.querySelectorAll('img, #main script').length") == 0
     assert "\u202e" not in visit.value("document.body.innerText")
     assert visit.page.title() == "Run"
@@ -184,9 +184,7 @@ def test_a_machine_alone_and_dark_colours(browser: Any, tmp_path: Path) -> None:
         || each.getAttribute("aria-hidden"))).map((each) => each.outerHTML)"""
     assert visit.value(unnamed) == []
     visit.page.keyboard.press("End")
-    visit.page.wait_for_function(
-        "document.querySelector('[role=status]').textContent.includes('Blinking: ')"
-    )
+    visit.until("document.querySelector('[role=status]').textContent.includes('Blinking: ')")
     visit.close()
 
 

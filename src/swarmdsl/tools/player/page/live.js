@@ -14,6 +14,7 @@ export function follow(player, told) {
     source.close();
     told.textContent = words;
   };
+  told.setAttribute("role", "status");
   told.textContent = "live";
   source.onmessage = ({ data }) => {
     const { members = [], machines = {}, lines = [], notes = [], turn } = JSON.parse(data);
