@@ -38,7 +38,9 @@ ON = {"event": "Go", "configuration": ["On"], "entered": ["On"], "exited": ["Off
 
 
 def line(time: int, member: str, done: dict[str, Any]) -> str:
-    lists = {name: [] for name in ("entered", "exited", "started", "cancelled", "sent")}
+    lists: dict[str, list[str]] = {
+        name: [] for name in ("entered", "exited", "started", "cancelled", "sent")
+    }
     return f"{json.dumps({'t': time, 'member': member, **lists, **done})}\n"
 
 
