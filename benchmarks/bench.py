@@ -9,6 +9,7 @@ not changed.
 from __future__ import annotations
 
 import re
+import signal
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -62,6 +63,8 @@ def main() -> None:
     unknown = [name for name in names if name not in GROUPS]
     if unknown:
         sys.exit(f"no group {', '.join(unknown)}; there are {', '.join(GROUPS)}")
+    # What a group has started ends with it, also if this process is ended.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     for name in names:
         with TemporaryDirectory() as folder:
             text = (

@@ -17,7 +17,7 @@ import pytest
 from swarmdsl.cli import run
 from swarmdsl.execution.experiments.search.domination import crowding, dominates, fronts
 from swarmdsl.execution.experiments.search.evaluation import Aim, Evaluation, Objective
-from swarmdsl.execution.experiments.search.front import is_certain, undominated
+from swarmdsl.execution.experiments.search.front import beside, is_certain, undominated
 from swarmdsl.execution.experiments.search.front_search import FoundFront, FrontSearch
 from swarmdsl.execution.experiments.search.importance import importances
 from swarmdsl.execution.experiments.search.methods import Name, method_of
@@ -105,6 +105,14 @@ def test_the_front_is_found_and_only_what_is_clearly_dominated_leaves() -> None:
     assert not all(each.is_certain for each in found.points)
 
 
+def test_candidates_that_are_too_many_for_fresh_seeds_are_counted() -> None:
+    aim = Aim("maximize", measure="gain", others=(Objective("cost", "maximize"),))
+    runs: Any = Chain(50)
+    plan = Plan(SPACE, aim, ("",), "auto", 30, 10, 10)
+    found = FrontSearch(plan, runs, "", lambda _line: None).run_front()
+    assert (len(found.points) + len(found.near), found.unmeasured) == (20, 10)
+
+
 def test_certainty_needs_a_clear_advantage_over_each_other_one() -> None:
     def evaluation(name: str, *values: Iterator[tuple[float, float]]) -> Evaluation:
         pairs = dict(enumerate(values[0]))
@@ -125,6 +133,21 @@ def test_certainty_needs_a_clear_advantage_over_each_other_one() -> None:
     assert undominated([a, b, worse], chancy, 0.05) == [a, b, worse]
     assert is_certain(a, [a, b, worse], AIM, 0.05)
     assert not is_certain(a, [a, b, same], AIM, 0.05)
+
+
+def test_a_candidate_without_a_difference_is_seldom_called_worse() -> None:
+    """To be worse in one of many objectives is enough, so that chance has many occasions."""
+    names = "abcd"
+    aim = Aim("minimize", measure="a", others=tuple(Objective(n, "minimize") for n in names[1:]))
+
+    def drawn(chance: Random) -> Evaluation:
+        values = {seed: tuple(chance.gauss(0, 1) for _ in names) for seed in range(12)}
+        return Evaluation(Candidate(), values)
+
+    pairs = [(drawn(chance), drawn(chance)) for chance in map(Random, range(200))]
+    answers = [beside(each, today, aim, 0.05) for each, today in pairs]
+    assert 1 <= answers.count("no") <= 18
+    assert answers.count("yes") <= 1
 
 
 @pytest.mark.parametrize("method", ["nsga", "tpe"])
@@ -180,6 +203,8 @@ def test_importance_is_the_share_of_the_variance() -> None:
     ]
     shares = {each.setting: each.share for each in importances(tied, space)}
     assert shares["y"] == pytest.approx(0, abs=1e-9)
+    # A group for each candidate tells nothing.
+    assert [each.share for each in importances(observed[:5], space)] == [None]
     noisy = [(each, chance.random()) for each, _ in observed]
     assert all(each.share is not None and each.share < 0.1 for each in importances(noisy, space))
     assert [each.share for each in importances([(c, 1.0) for c, _ in observed], space)] == [
@@ -254,6 +279,7 @@ def data(folder: str) -> Any:
         (["--maximize", "good", "--minimize", "waited", "--method", "cma"], "has one objective"),
         (["--apply", "--point", "1"], "`--point` needs `--apply` and several objectives"),
         (["--maximize", "god", "--minimize", "speed"], "error[SW1824]: `Crew` has no `speed`"),
+        (["--maximize", "Worth", "--minimize", "fitness"], "help: it is called `fitness` here"),
     ],
 )
 def test_objectives_that_make_no_sense_are_reported(

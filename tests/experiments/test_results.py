@@ -60,6 +60,18 @@ def test_groups_are_listed_with_their_means(run: Run) -> None:
     assert "16 runs in 2 groups" in text
     code, text = run("--measure", "Fine", "--json")
     assert [each["Fine"] for each in json.loads(text)] == [7 / 8, 7 / 8]
+    # The interval of a probability is inside of 0 and 1.
+    assert [each["interval"] for each in json.loads(text)] == ["0.47349 .. 0.99684"] * 2
+
+
+def test_a_scenario_that_has_changed_makes_other_groups(run: Run) -> None:
+    candidate = Candidate.of({"count of robot": 2, "robot.patience": "30s"})
+    with Store(Path("out", FILE), is_new=False) as store:
+        key = Key("0123456789abcdef", "=calm.toml", "u", candidate)
+        store.add(key, [Row(candidate, "=calm.toml", 0, {"waited": 1.0}, 9.0)], "1")
+    groups = json.loads(run("--json")[1])
+    assert [each["runs"] for each in groups] == [8, 8, 1]
+    assert groups[2]["fitness"] == 9
 
 
 def test_runs_are_filtered(run: Run) -> None:

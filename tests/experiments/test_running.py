@@ -7,6 +7,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from concurrent.futures import BrokenExecutor
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -210,6 +211,29 @@ def test_a_worker_of_another_version_refuses(packed: Packed, tmp_path: Path) -> 
     ):
         runs_of(shipment, store, engine).run(tasks_of(shipment, {}))
     assert "not 0.0.1" in stopped.value.fields["reason"]
+
+
+def test_a_computer_without_this_package_refuses(packed: Packed, tmp_path: Path) -> None:
+    class Strange(Inline):
+        def submit(self, fn: Any, /, *args: Any, **named: Any) -> Any:
+            return super().submit(_unknown, *args)
+
+    shipment = packed()
+    with (
+        Engine("strange", Strange, 1) as engine,
+        Store(tmp_path / "runs.sqlite") as store,
+        pytest.raises(StoppedError, match="worker-refuses") as stopped,
+    ):
+        runs_of(shipment, store, engine).run(tasks_of(shipment, {}))
+    assert stopped.value.fields["reason"].endswith(": No module named 'swarmdsl.later'")
+
+
+def _unknown(*_: Any) -> None:
+    """Fail as a scheduler of Dask does that cannot read a task."""
+    try:
+        import_module("swarmdsl.later")
+    except ImportError as error:
+        raise RuntimeError("the environments are different") from error
 
 
 def test_workers_that_are_always_lost_end_the_runs(packed: Packed, tmp_path: Path) -> None:

@@ -100,7 +100,7 @@ def test_what_is_wrong_is_told_and_answered(serve: Serve) -> None:
     assert 'its `type` is "CancelOptimization"' in said
     assert "it is not JSON" in said
     assert "not `2.5` in 9 of 9 runs" in said
-    assert "warning[SW1832]: the candidate has no fitness: `Fine` is violated" in said
+    assert "warning[SW1832]: the candidate is out: `Fine` is violated" in said
     answers, said = serve(words=("--subject-to", "Fin"))
     assert answers == []
     assert "error[SW0202]: no property of one run called `Fin`" in said

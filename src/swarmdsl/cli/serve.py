@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import io
 import os
 import re
 import sys
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from swarmdsl.base.diagnostics.render import render
+from swarmdsl.base.read_files import lines_of
 from swarmdsl.cli import options, run_options
 from swarmdsl.cli.engine_options import check_processes, processes
 from swarmdsl.cli.exit_code import ERRORS, OK
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.execution.experiments.search.evaluation import Together
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from swarmdsl.execution.experiments.serving.xmpp import Account
 
 _MOST_SEEDS = 100_000
+_CHUNK = 1 << 16
 _PASSWORD = "SWARMDSL_XMPP_PASSWORD"
 _ADDRESS = re.compile(r"[^@:/\s]+@[^@:/\s]+(:[0-9]{1,5})?")
 
@@ -91,13 +92,23 @@ def serve(
     lines: Iterable[str]
     out: Answers = sys.stdout
     if xmpp is None:
-        lines = io.TextIOWrapper(sys.stdin.buffer, encoding="utf-8", errors="replace")
+        if sys.stdin is None:
+            raise click.UsageError("standard input is closed: messages come from there")
+        lines = _lines()
     else:
         account = _account(xmpp)
         if account is None:
             return ERRORS
         lines, out = account.lines(), account
     return OK if answer_lines(request, lines, out, _tell) else ERRORS
+
+
+def _lines() -> Iterator[str]:
+    """Yield the lines of standard input as they arrive."""
+    stdin: Any = sys.stdin.buffer
+    for lines in lines_of(lambda: stdin.read1(_CHUNK)):
+        for line in lines:
+            yield line.decode("utf-8", errors="replace")
 
 
 def _tell(report: Diagnostics) -> None:

@@ -431,6 +431,6 @@ CODES: dict[str, Code] = {
     "no-such-measure": Code("SW1824", "error", "{owner} has no `{name}` to measure"),
     "unfit-level": Code("SW1825", "error", "`{name}` cannot be {value}: {reason}"),
     "unfit-message": Code("SW1831", "error", "this is no message of an optimizer: {reason}"),
-    "no-fitness": Code("SW1832", "warning", "the candidate has no fitness: {reason}"),
+    "no-fitness": Code("SW1832", "warning", "the candidate is out: {reason}"),
     "no-connection": Code("SW1833", "error", "cannot serve as `{address}`: {reason}"),
 }

@@ -71,6 +71,11 @@ class Engine:
         executor.shutdown(wait=True, cancel_futures=True)
 
 
+def engine_of(address: str | None, jobs: int, *, is_apart: bool) -> Engine:
+    """Return the engine of a cluster at an address; without one, that of this computer."""
+    return cluster(address) if address is not None else local(jobs, is_apart=is_apart)
+
+
 def local(jobs: int, *, is_apart: bool = False) -> Engine:
     """Return the engine with processes of this computer; one job is this process.
 

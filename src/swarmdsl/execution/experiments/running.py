@@ -14,6 +14,7 @@ from concurrent.futures import (
 from contextlib import suppress
 from typing import Any
 
+from swarmdsl import __version__
 from swarmdsl.base.errors import describe_exception
 from swarmdsl.base.records import replace
 from swarmdsl.execution.experiments.blocks import Pace
@@ -29,6 +30,8 @@ _MOST_LOSSES = 3
 """Losses of workers, one after the other without a result between, before the runs end."""
 _AHEAD = 2
 """Tasks that wait for each worker, so that none of them waits for this process."""
+
+_SAME = "install the same version of swarmdsl on all computers"
 
 
 class Progress:
@@ -128,6 +131,7 @@ class Runs:
                     continue
                 # Of the executor: a task that was given to lost workers too often, for instance.
                 except Exception as error:
+                    _refuse_import(error)
                     waiting.put_back([block])
                     losses = self._lose(losses, describe_exception("a task", error))
                     continue
@@ -184,8 +188,7 @@ class Runs:
     def _rows(self, task: Task, answer: Mapping[str, Any]) -> list[Row]:
         """Keep the rows of an answer, and return them."""
         if "refused" in answer:
-            help_ = "install the same version of swarmdsl on all computers"
-            raise StoppedError("worker-refuses", help_, reason=answer["refused"])
+            raise StoppedError("worker-refuses", _SAME, reason=answer["refused"])
         data, seconds = answer["rows"], answer["seconds"]
         rows = [row_of(task, each, seconds / len(data)) for each in data]
         self._pace.note(f"{task.digest} {task.scenario}", len(rows), seconds, answer["batch"])
@@ -207,3 +210,16 @@ class Runs:
             )
             raise StoppedError("lost-workers", help_, reason=reason, times=losses + 1)
         return losses + 1
+
+
+def _refuse_import(error: BaseException) -> None:
+    """Raise StoppedError if a task failed because a computer has not this package, or an old one.
+
+    A scheduler of Dask reads tasks too, and gives what it fails with as a cause.
+    """
+    cause: BaseException | None = error
+    while cause is not None:
+        if isinstance(cause, ImportError) and (cause.name or "").partition(".")[0] == "swarmdsl":
+            reason = f"one of the cluster has no swarmdsl {__version__}: {cause}"
+            raise StoppedError("worker-refuses", _SAME, reason=reason) from error
+        cause = cause.__cause__

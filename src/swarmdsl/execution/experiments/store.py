@@ -50,10 +50,11 @@ class Key:
 
 
 class Stored(NamedTuple):
-    """A run as it is kept."""
+    """A run as it is kept; `text` is the digest of the scenario."""
 
     model: str
     scenario: str
+    text: str
     candidate: str
     seed: int
     row: str
@@ -151,8 +152,8 @@ class Store:
         """Yield all runs, in the order of their identities."""
         found = self._try(
             lambda: self._database.execute(
-                "select model, scenario, candidate, seed, row, seconds, worker, version from runs "
-                "order by model, text, scenario, candidate, seed"
+                "select model, scenario, text, candidate, seed, row, seconds, worker, version "
+                "from runs order by model, text, scenario, candidate, seed"
             )
         )
         yield from map(Stored._make, found)

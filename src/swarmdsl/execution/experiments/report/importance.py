@@ -15,7 +15,8 @@ class Importance:
     """A setting with the means of the candidates that have some of its values.
 
     `share` is that of the variance between candidates which nothing but this setting explains, less
-    what as many groups by chance would explain. None if nothing varies.
+    what as many groups by chance would explain. None if nothing varies, or if there are too few
+    candidates to tell.
     """
 
     setting: str

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from swarmdsl.execution.estimation.sample import summarize
+from swarmdsl.execution.experiments.measured import summary_of
 from swarmdsl.execution.experiments.report.canvas import short
 from swarmdsl.execution.experiments.report.charts import convergence, distributions
 from swarmdsl.execution.experiments.report.coordinates import Scored, caption_of, draw_candidates
@@ -30,7 +30,8 @@ class Worst:
 class Search:
     """A search: candidates in the order of its history, and runs of the winner on fresh seeds.
 
-    `today` has the runs of the model as it is, with the same seeds; it may be empty.
+    `today` has the runs of the model as it is, with the same seeds; it may be empty. With
+    `is_property`, values are those of a property.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Search:
     today: Sequence[float]
     level: float
     worst: Sequence[Worst] = ()
+    is_property: bool = False
 
 
 def search_sections(search: Search) -> Iterator[Section]:
@@ -58,7 +60,7 @@ def search_sections(search: Search) -> Iterator[Section]:
     if groups:
         yield Section(
             FRESH,
-            [_summary(groups, search.level), _distribution(groups, search.name)],
+            [_summary(groups, search), _distribution(groups, search.name)],
         )
     if search.worst:
         yield worst_runs(search.worst)
@@ -74,10 +76,10 @@ def worst_runs(runs: Sequence[Worst]) -> Section:
     return Section("Runs worth a look", [table])
 
 
-def _summary(groups: Sequence[tuple[str, Sequence[float]]], level: float) -> Table:
+def _summary(groups: Sequence[tuple[str, Sequence[float]]], search: Search) -> Table:
     rows = []
     for name, values in groups:
-        sample = summarize(values, level)
+        sample = summary_of(values, search.level, is_property=search.is_property)
         assert sample is not None
         least, low, _, median, _, high, greatest = map(short, sample.quantiles)
         between = ""
@@ -85,7 +87,7 @@ def _summary(groups: Sequence[tuple[str, Sequence[float]]], level: float) -> Tab
             between = f"{short(sample.interval.lower)} .. {short(sample.interval.upper)}"
         head = (name, str(sample.count), short(sample.mean), between)
         rows.append((*head, least, low, median, high, greatest))
-    head = ("", "runs", "mean", f"interval of {100 * level:g} %")
+    head = ("", "runs", "mean", f"interval of {100 * search.level:g} %")
     return text_table((*head, "least", "5 %", "median", "95 %", "greatest"), rows)
 
 

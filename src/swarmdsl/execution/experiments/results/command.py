@@ -13,9 +13,10 @@ from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.base.suggest import suggest
 from swarmdsl.base.write_stream import report_unwritten, write_stream
-from swarmdsl.execution.estimation.sample import Sample, summarize
+from swarmdsl.execution.estimation.sample import Sample
 from swarmdsl.execution.experiments.comparing import Comparison, Goal, compare
 from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.measured import summary_of
 from swarmdsl.execution.experiments.results.conditions import Condition
 from swarmdsl.execution.experiments.results.export import (
     PARQUET_PACKAGE,
@@ -126,7 +127,7 @@ _Table = tuple[tuple[str, ...], list[tuple[Any, ...]]]
 
 
 def _group_table(records: Sequence[Record], measure: str, level: float) -> _Table:
-    settings, _, _ = names_of(records)
+    settings, _, properties = names_of(records)
     head = (
         "group",
         "model",
@@ -141,7 +142,7 @@ def _group_table(records: Sequence[Record], measure: str, level: float) -> _Tabl
     rows: list[tuple[Any, ...]] = []
     for group, runs in grouped(records).items():
         found = [each for run in runs if (each := value(run, measure)) is not None]
-        sample = summarize(found, level)
+        sample = summary_of(found, level, is_property=measure in properties)
         first = runs[0]
         rows.append(
             (

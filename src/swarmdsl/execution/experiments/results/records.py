@@ -46,7 +46,10 @@ class About:
 
 @dataclass(frozen=True)
 class Record:
-    """A run. `group` is the number of its model, scenario and settings, from 1 on."""
+    """A run. `group` is the number of its model, scenario and settings, from 1 on.
+
+    A scenario that has changed since is another one.
+    """
 
     group: int
     model: str
@@ -99,9 +102,9 @@ def read_records(folder: Path, about: About) -> list[Record]:
 
 
 def _records(store: Store, about: About) -> Iterator[Record]:
-    groups: dict[tuple[str, str, str], int] = {}
+    groups: dict[tuple[str, ...], int] = {}
     for each in store.all():
-        key = (each.model, each.scenario, each.candidate)
+        key = (each.model, each.scenario, each.text, each.candidate)
         row = json.loads(each.row)
         yield Record(
             groups.setdefault(key, len(groups) + 1),

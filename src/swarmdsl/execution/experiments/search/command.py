@@ -14,7 +14,7 @@ import click
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.read_files import MOST_RECORDED, read_file
 from swarmdsl.base.write_stream import report_unwritten, write_stream
-from swarmdsl.execution.experiments.engines import Engine, cluster, local
+from swarmdsl.execution.experiments.engines import engine_of
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.progress_bar import Feed, shown
 from swarmdsl.execution.experiments.results.records import NAMES, About
@@ -25,7 +25,6 @@ from swarmdsl.execution.experiments.search.optimizing import Search
 from swarmdsl.execution.experiments.search.outcome import FrontOutcome, Outcome, WinnerOutcome
 from swarmdsl.execution.experiments.search.page import worst_runs
 from swarmdsl.execution.experiments.search.problem import Problem, Request, problem_of
-from swarmdsl.execution.experiments.shipment import Shipment
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.task import canonical
 from swarmdsl.execution.simulate.durations import written_duration
@@ -78,7 +77,8 @@ def _search(
     About({digest: problem.subject.name}, plan.aim.measure, plan.aim.goal).write(folder)
     history = stack.enter_context(write_stream(folder / HISTORY))
     stream = stack.enter_context(write_stream(request.feed)) if request.feed is not None else None
-    engine = stack.enter_context(_engine(request, problem.shipment))
+    is_apart = problem.shipment.may_crash
+    engine = stack.enter_context(engine_of(request.cluster, request.jobs, is_apart=is_apart))
 
     def best() -> str:
         return searches[0].so_far if searches else ""
@@ -103,12 +103,6 @@ def _search(
         found = WinnerOutcome(problem, searches[0].run())
     feed.say("end", **found.data())
     return found
-
-
-def _engine(request: Request, shipment: Shipment) -> Engine:
-    if request.cluster is not None:
-        return cluster(request.cluster)
-    return local(request.jobs, is_apart=shipment.may_crash)
 
 
 def _conclude(request: Request, problem: Problem, found: Outcome, report: Diagnostics) -> None:

@@ -8,8 +8,7 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.execution.estimation.intervals import Interval
-from swarmdsl.execution.estimation.sample import summarize
-from swarmdsl.execution.experiments.measured import FITNESS
+from swarmdsl.execution.experiments.measured import FITNESS, summary_of
 from swarmdsl.execution.experiments.report.charts import Spot, front_chart
 from swarmdsl.execution.experiments.report.importance import importance_section
 from swarmdsl.execution.experiments.report.page import Figure, Page, Section, html, text_table
@@ -31,7 +30,6 @@ from swarmdsl.execution.experiments.task import settings_text
 from swarmdsl.execution.simulate.summary import format_table
 
 Rows = list[tuple[str, ...]]
-_TODAY = {"yes": "yes", "no": "no", "not yet": "not yet", None: "it is out"}
 
 
 def names_of(plan: Plan, fitness: str) -> list[str]:
@@ -54,7 +52,8 @@ def front_text(found: FoundFront, plan: Plan, subject: str, fitness: str) -> Ite
     yield f"front on {counted(plan.fresh, 'fresh seed')}, intervals of {100 * plan.level:g} %:"
     yield from format_table(head, rows, 2)
     for number, name in enumerate(names_of(plan, fitness)):
-        yield f"shares of the differences in {name}: {matters_text(found.observed, plan, number)}"
+        if matters := matters_text(found.observed, plan, number):
+            yield f"shares of the differences in {name}: {matters}"
     yield from front_answers(found)
 
 
@@ -64,9 +63,12 @@ def front_answers(found: FoundFront) -> Iterator[str]:
     yield f"{counted(len(found.points), 'point')} on the front, {sure} of them for certain"
     if found.near:
         yield f"{counted(len(found.near), 'candidate')} more may be on it"
+    if found.unmeasured:
+        more = counted(found.unmeasured, "further candidate")
+        yield f"{more} of the race had no fresh seeds; more `--seeds` tell candidates apart"
     better = [str(n) for n, each in enumerate(found.points, 1) if each.dominates_today == "yes"]
     if better:
-        yield f"better than the model as it is in all objectives: point {', '.join(better)}"
+        yield f"better than the model as it is, and worse in nothing: point {', '.join(better)}"
 
 
 def _table(found: FoundFront, plan: Plan, fitness: str) -> tuple[tuple[str, ...], Rows]:
@@ -76,7 +78,7 @@ def _table(found: FoundFront, plan: Plan, fitness: str) -> tuple[tuple[str, ...]
         sure = "yes" if point.is_certain else "not yet"
         settings = settings_text(point.evaluation.candidate)
         numbers = _numbers(point.evaluation, plan)
-        rows.append((str(number), settings, *numbers, sure, _TODAY[point.dominates_today]))
+        rows.append((str(number), settings, *numbers, sure, point.dominates_today or "it is out"))
     for each in found.near:
         rows.append(("", settings_text(each.candidate), *_numbers(each, plan), "not yet", ""))
     rows.append(("", "today", *_numbers(found.today, plan), "", found.today.reason))
@@ -94,8 +96,9 @@ def _numbers(each: Evaluation, plan: Plan) -> tuple[str, ...]:
 def _intervals(each: Evaluation, plan: Plan) -> list[Interval | None]:
     """Return the interval of the mean of each objective."""
     found = []
-    for number in range(len(plan.aim.objectives)):
-        sample = summarize(list(each.of_objective(number).values()), plan.level)
+    for number, objective in enumerate(plan.aim.objectives):
+        values = list(each.of_objective(number).values())
+        sample = summary_of(values, plan.level, is_property=objective.is_property)
         found.append(sample.interval if sample is not None else None)
     return found
 
@@ -123,6 +126,7 @@ def front_data(found: FoundFront, plan: Plan, subject: str, fitness: str) -> dic
             for each in found.points
         ],
         "near": [_evaluated(each, plan) for each in found.near],
+        "unmeasured": found.unmeasured,
         "today": _evaluated(found.today, plan),
         "importance": {
             each.measure: importance_data(found.observed, plan, number)

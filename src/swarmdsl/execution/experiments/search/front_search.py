@@ -18,8 +18,8 @@ from swarmdsl.execution.experiments.task import Candidate
 class PointOnFront:
     """A candidate that nothing dominates in the means of fresh seeds.
 
-    It is certain if nothing can dominate it, as far as the runs tell. `dominates_today` is None if
-    the model as it is, is out.
+    It is certain if none of the others with fresh seeds can dominate it, as far as the runs tell.
+    `dominates_today` is None if the model as it is, is out.
     """
 
     evaluation: Evaluation
@@ -31,7 +31,8 @@ class PointOnFront:
 class FoundFront:
     """Result of a search: the front in the order of the first objective, the best first.
 
-    `near` are candidates that are dominated in the means, but not for certain.
+    `near` are candidates that are dominated in the means, but not for certain, and `unmeasured` is
+    the number of those that the race left, but which were too many for fresh seeds.
     """
 
     points: tuple[PointOnFront, ...]
@@ -40,6 +41,7 @@ class FoundFront:
     finals: tuple[Evaluation, ...]
     tried: int
     observed: tuple[Observed, ...]
+    unmeasured: int = 0
 
 
 class FrontSearch(Search):
@@ -50,7 +52,8 @@ class FrontSearch(Search):
         plan = self._plan
         survivors, left = self.finals()
         today = self._fresh(Candidate(), "today")
-        chosen = ranked(self._distinct(survivors), plan.aim)[:ON_FRONT]
+        different = ranked(self._distinct(survivors), plan.aim)
+        chosen = different[:ON_FRONT]
         measured = [self._fresh(each.candidate, "front") for each in chosen]
         possible = self._distinct([each for each in measured if each.means is not None])
         if not possible:
@@ -71,7 +74,15 @@ class FrontSearch(Search):
         ]
         near = [kept[number] for number in order if number not in first]
         finals = (*survivors, *left)
-        return FoundFront(tuple(points), tuple(near), today, finals, self.tried, self.observed)
+        return FoundFront(
+            tuple(points),
+            tuple(near),
+            today,
+            finals,
+            self.tried,
+            self.observed,
+            len(different) - len(chosen),
+        )
 
     def _distinct(self, found: list[Evaluation]) -> list[Evaluation]:
         """Return one of those with the same runs: that which changes less of the model."""

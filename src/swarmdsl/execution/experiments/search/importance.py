@@ -78,7 +78,10 @@ def _shares(columns: Sequence[Sequence[int]], values: Sequence[float]) -> list[f
     left = _unexplained(columns, values)
     sizes = [max(column) for column in columns]
     freedom = len(values) - 1 - sum(sizes)
-    chance = left / freedom if freedom > 0 else 0.0
+    # As many groups as candidates explain everything, also by chance.
+    if freedom <= 0:
+        return [None for _ in columns]
+    chance = left / freedom
     found: list[float | None] = []
     for number, size in enumerate(sizes):
         others = [column for at, column in enumerate(columns) if at != number]

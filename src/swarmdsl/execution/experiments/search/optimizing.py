@@ -14,9 +14,10 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.records import dataclass
-from swarmdsl.execution.estimation.sample import Sample, summarize
+from swarmdsl.execution.estimation.sample import Sample
 from swarmdsl.execution.experiments.comparing import Comparison, compare_paired
 from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.measured import summary_of
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.search.domination import fronts
 from swarmdsl.execution.experiments.search.evaluation import (
@@ -99,7 +100,8 @@ class Found:
     """Result of a search; `winner` and `today` are of fresh seeds.
 
     `finals` are the evaluations of the race, the best first, `tried` the number of candidates, and
-    `observed` what is known of the possible ones with the same few seeds.
+    `observed` what is known of the possible ones with the same few seeds. With `is_property`, the
+    objective is a property.
     """
 
     winner: Evaluation
@@ -108,10 +110,12 @@ class Found:
     finals: tuple[Evaluation, ...]
     tried: int
     observed: tuple[Observed, ...] = ()
+    is_property: bool = False
 
     def sample(self, of: Evaluation, level: float) -> Sample | None:
         """Return the summary of an evaluation."""
-        return summarize(list(of.values.values()), level) if not of.broken else None
+        values = list(of.values.values())
+        return summary_of(values, level, is_property=self.is_property) if not of.broken else None
 
 
 Tell = Callable[[dict[str, Any]], None]
@@ -244,7 +248,15 @@ class Search:
             comparison = compare_paired(left, right, plan.aim.goal, plan.level)
         ordered = [each for each in finals if each.candidate == winner.candidate]
         ordered += [each for each in finals if each.candidate != winner.candidate]
-        return Found(winner, today, comparison, tuple(ordered), self.tried, self.observed)
+        return Found(
+            winner,
+            today,
+            comparison,
+            tuple(ordered),
+            self.tried,
+            self.observed,
+            plan.aim.is_property,
+        )
 
     def _fresh(self, candidate: Candidate, stage: str) -> Evaluation:
         """Measure a candidate with fresh seeds."""

@@ -119,7 +119,7 @@ class FrontOutcome:
     def to_apply(self, point: int | None, report: Diagnostics) -> Candidate | None:
         """Return the point that the user chooses; ask for it on a terminal."""
         count = len(self._found.points)
-        if point is None and sys.stdin.isatty():
+        if point is None and sys.stdin is not None and sys.stdin.isatty():
             point = click.prompt(
                 f"point to apply, 1 to {count}", type=click.IntRange(1, count), err=True
             )

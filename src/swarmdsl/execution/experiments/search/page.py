@@ -55,6 +55,7 @@ def search_page(
         list(found.today.values.values()) if not found.today.broken else [],
         plan.level,
         worst,
+        plan.aim.is_property,
     )
     answers = list(_answers(found))
     sections = list(search_sections(search))

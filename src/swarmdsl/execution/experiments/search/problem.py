@@ -11,7 +11,13 @@ from swarmdsl.base.source import Source
 from swarmdsl.base.suggest import suggest
 from swarmdsl.codegen.exchange.search_space import number
 from swarmdsl.driver.config.toml import parse_toml
-from swarmdsl.execution.experiments.measured import FITNESS, PROPERTY, measures
+from swarmdsl.execution.experiments.measured import (
+    FITNESS,
+    PROPERTY,
+    check_properties,
+    measured_fitness,
+    measures,
+)
 from swarmdsl.execution.experiments.search.evaluation import Aim, Goal, Objective, Together
 from swarmdsl.execution.experiments.search.methods import Name
 from swarmdsl.execution.experiments.search.optimizing import Plan
@@ -19,7 +25,6 @@ from swarmdsl.execution.experiments.search.space import SearchSpace, report_narr
 from swarmdsl.execution.experiments.settings import apply_candidate
 from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
 from swarmdsl.execution.experiments.task import NO_SCENARIO
-from swarmdsl.execution.simulate.measures import fitness_of
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir import Fitness, Optimization, System
 
@@ -91,18 +96,19 @@ def _objectives(
         yield Objective(FITNESS, fitness.goal)
         return
     known = measures(subject)
+    owner = f"`{subject.name}`"
     given: tuple[tuple[Goal, tuple[str, ...]], ...] = (
         ("maximize", request.maximize),
         ("minimize", request.minimize),
     )
     for goal, names in given:
         for name in names:
-            measure = FITNESS if name == fitness.name and name not in known else name
-            if measure in known:
-                yield Objective(measure, goal, known[measure] == PROPERTY)
+            if name in known:
+                yield Objective(name, goal, known[name] == PROPERTY)
                 continue
             help_ = suggest(name, known, "measures")
-            owner = f"`{subject.name}`"
+            if name == fitness.name:
+                help_ = f"it is called `{FITNESS}` here"
             report.report("no-such-measure", name=name, owner=owner, help=help_)
 
 
@@ -122,11 +128,8 @@ def problem_of(request: Request, report: Diagnostics) -> Problem | None:
         help_ = f"declare its ranges: `optimize {subject.name} {{ count of {role} in 1 .. 5 }}`"
         report.report("nothing-to-optimize", name=subject.name, reason="no `optimize`", help=help_)
         return None
-    fitness = fitness_of(subject)
+    fitness = measured_fitness(subject, report)
     if fitness is None:
-        help_ = "give its inputs measures, as in `in done : uint32 = total(robot in Done)`"
-        reason = "no fitness that a run measures"
-        report.report("nothing-to-optimize", name=subject.name, reason=reason, help=help_)
         return None
     space = space_of(optimization, system)
     if not space.dimensions:
@@ -137,15 +140,7 @@ def problem_of(request: Request, report: Diagnostics) -> Problem | None:
     report_narrowed(optimization, system, space, report)
     if not report.has_errors:
         _check_scenarios(shipment, subject, space, report)
-    known = [each.name for each in system.properties if each.subject == subject.name]
-    chances = [each.name for each in system.properties if each.chance is not None]
-    for name in request.properties:
-        if name not in known or name in chances:
-            help_ = suggest(name, known, "properties")
-            kind = f"property of `{subject.name}`"
-            if name in chances:
-                kind, help_ = "property of one run", f"`{name}` has a chance: it is about many"
-            report.report("unresolved-name", kind=kind, name=name, help=help_)
+    check_properties(request.properties, subject, report)
     objectives = list(_objectives(request, subject, fitness, report))
     if report.has_errors:
         return None

@@ -33,10 +33,10 @@ def conditions_text(tried: int, plan: Plan) -> str:
 
 
 def matters_text(observed: Sequence[Observed], plan: Plan, objective: int) -> str:
-    """Return the share of each setting in the differences between candidates."""
+    """Return the share of each setting in the differences between candidates, empty if unknown."""
     pairs = [(candidate, means[objective]) for candidate, means in observed]
-    found = importances(pairs, plan.space)
-    return ", ".join(f"{each.setting} {share_text(each)}" for each in found) or "nothing"
+    found = [each for each in importances(pairs, plan.space) if each.share is not None]
+    return ", ".join(f"{each.setting} {share_text(each)}" for each in found)
 
 
 def importance_data(observed: Sequence[Observed], plan: Plan, objective: int) -> dict[str, Any]:
@@ -61,7 +61,8 @@ def as_text(found: Found, plan: Plan, subject: str, fitness: str) -> Iterator[st
     if found.comparison is not None:
         between = interval_text(found.comparison.interval)
         measured.append(("difference", number_text(found.comparison.difference), between, ""))
-    yield f"shares of the differences: {matters_text(found.observed, plan, 0)}"
+    if matters := matters_text(found.observed, plan, 0):
+        yield f"shares of the differences: {matters}"
     yield ""
     head = (f"{counted(plan.fresh, 'fresh seed')}", fitness, f"{plan.level:.0%} interval", "")
     yield from format_table(head, measured)

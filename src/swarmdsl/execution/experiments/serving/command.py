@@ -10,9 +10,9 @@ from typing import Protocol
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.suggest import suggest
-from swarmdsl.execution.experiments.engines import Engine, cluster, local
+from swarmdsl.execution.experiments.engines import engine_of
 from swarmdsl.execution.experiments.failures import StoppedError
+from swarmdsl.execution.experiments.measured import check_properties, measured_fitness
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.search.evaluation import Aim, Together
 from swarmdsl.execution.experiments.serving.manager import Manager, Trial
@@ -20,7 +20,6 @@ from swarmdsl.execution.experiments.serving.parameters import Names
 from swarmdsl.execution.experiments.shipment import Conditions, pack
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.task import NO_SCENARIO
-from swarmdsl.execution.simulate.measures import fitness_of
 
 Tell = Callable[[Diagnostics], None]
 
@@ -88,22 +87,10 @@ def _managed(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Mana
         yield None
         return
     shipment, subject = packed
-    system, swarm, fitness = subject.system, subject.swarm, fitness_of(subject)
+    system, swarm, fitness = subject.system, subject.swarm, measured_fitness(subject, report)
     assert system is not None
     assert swarm is not None
-    if fitness is None:
-        help_ = "give its inputs measures, as in `in done : uint32 = total(robot in Done)`"
-        reason = "no fitness that a run measures"
-        report.report("nothing-to-optimize", name=subject.name, reason=reason, help=help_)
-    known = [
-        each.name
-        for each in system.properties
-        if each.subject == subject.name and each.chance is None
-    ]
-    for name in request.properties:
-        if name not in known:
-            help_ = suggest(name, known, "properties")
-            report.report("unresolved-name", kind="property of one run", name=name, help=help_)
+    check_properties(request.properties, subject, report)
     tell(report)
     if report.has_errors or fitness is None:
         yield None
@@ -114,7 +101,7 @@ def _managed(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Mana
         Aim(fitness.goal, request.together, request.properties),
         request.seeds,
     )
-    engine = _engine(request, is_apart=shipment.may_crash)
+    engine = engine_of(request.cluster, request.jobs, is_apart=shipment.may_crash)
     with (
         tempfile.TemporaryDirectory(prefix="swarmdsl-") as folder,
         Store(Path(folder) / FILE) as store,
@@ -122,9 +109,3 @@ def _managed(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Mana
     ):
         runs = Runs({shipment.digest: shipment}, engine, store, limit=request.limit)
         yield Manager(runs, Names(system, swarm), trial)
-
-
-def _engine(request: Request, *, is_apart: bool) -> Engine:
-    if request.cluster is not None:
-        return cluster(request.cluster)
-    return local(request.jobs, is_apart=is_apart)

@@ -7,13 +7,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from swarmdsl.execution.estimation.sample import Sample, summarize
+from swarmdsl.execution.estimation.sample import Sample
 from swarmdsl.execution.experiments.comparing import Comparison, Goal, compare, together
 from swarmdsl.execution.experiments.designs.factors import Point, Value
 from swarmdsl.execution.experiments.designs.indices import Index, sobol_indices
 from swarmdsl.execution.experiments.designs.morris import Screened, screen
 from swarmdsl.execution.experiments.effects import Effects, Table, effects
-from swarmdsl.execution.experiments.measured import FITNESS, value_of
+from swarmdsl.execution.experiments.measured import FITNESS, summary_of, value_of
 from swarmdsl.execution.experiments.slopes import Slopes, slopes
 from swarmdsl.execution.experiments.study.plan import Study
 from swarmdsl.execution.experiments.task import Row, Task
@@ -88,7 +88,9 @@ def result_of(point: Point, task: Task, rows: Sequence[Row], measure: str, level
     values = {
         seed: value for seed, value in read.items() if value is not None and math.isfinite(value)
     }
-    return Result(point, task, rows, values, summarize(list(values.values()), level))
+    is_property = any(measure in row.verdicts and measure not in row.measures for row in rows)
+    sample = summary_of(list(values.values()), level, is_property=is_property)
+    return Result(point, task, rows, values, sample)
 
 
 def analyse(study: Study, goal: Goal, results: Sequence[Result], today: Result | None) -> Analysis:

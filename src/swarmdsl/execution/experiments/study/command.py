@@ -11,7 +11,7 @@ from typing import Any, TextIO
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.write_stream import report_unwritten, write_stream
-from swarmdsl.execution.experiments.engines import Engine, cluster, local
+from swarmdsl.execution.experiments.engines import Engine, engine_of
 from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.measured import FITNESS
 from swarmdsl.execution.experiments.progress_bar import Feed, shown
@@ -108,12 +108,10 @@ def run_study(
 
 
 def _engine(request: Request, study: Study, setting: Setting) -> Engine:
-    if request.address is not None:
-        return cluster(request.address)
     is_apart = any(each.shipment.may_crash for each in setting.models) or any(
         each.name == _WORLD for each in study.factors
     )
-    return local(request.jobs, is_apart=is_apart)
+    return engine_of(request.address, request.jobs, is_apart=is_apart)
 
 
 @dataclass(frozen=True)
