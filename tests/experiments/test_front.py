@@ -241,13 +241,15 @@ def test_a_front_is_shown_kept_and_applied(
     assert '<svg xmlns="http://www.w3.org/2000/svg" role="img"' in page
     assert page.count('<circle class="dot"') == len(front) + 3 + 2 + 3 + 2
 
-    # The same bytes again, from what is kept, and with two processes.
+    # The same bytes again, from what is kept, and with two processes. Points of another front go.
+    Path("one/front/9.toml").touch()
     assert run([*words, "-o", "one", "--resume"]) == 0
     two = [*start, "--jobs", "2", "--maximize", "good", "--maximize", "Fine"]
     assert run([*two, "-o", "two"]) == 0
     assert [Path("two", name).read_bytes() for name in KEPT] == [
         Path("one", name).read_bytes() for name in KEPT
     ]
+    assert len(list(Path("one/front").iterdir())) == 2 * len(front)
     assert {each["stage"] for each in lines(Path("one/history.jsonl"))} == {
         "race",
         "today",

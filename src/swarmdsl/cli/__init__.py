@@ -29,6 +29,10 @@ _SERVER = (["lsp"], ["lsp", "--stdio"])
 
 def main() -> None:
     """Run `swarmc` in its own process."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:  # closed by the caller; no other file takes its place
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            setattr(sys, name, os.fdopen(nowhere, "w", encoding="utf-8"))
     for stream in (sys.stdout, sys.stderr):
         # Names may have characters that the terminal's encoding lacks.
         if isinstance(stream, TextIOWrapper):

@@ -20,6 +20,7 @@ from swarmdsl.execution.experiments.progress_bar import Feed, shown
 from swarmdsl.execution.experiments.results.records import NAMES, About
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.search.apply import apply_candidate_of
+from swarmdsl.execution.experiments.search.files import remove_other_points
 from swarmdsl.execution.experiments.search.front_search import FrontSearch
 from swarmdsl.execution.experiments.search.optimizing import Search
 from swarmdsl.execution.experiments.search.outcome import FrontOutcome, Outcome, WinnerOutcome
@@ -142,6 +143,10 @@ def _write(
     lines = read_file(folder / HISTORY, MOST_RECORDED).decode()
     history = [json.loads(line) for line in lines.splitlines()]
     files = {RESULTS: data, **found.files(), REPORT: found.page(history, worst)}
+    try:
+        remove_other_points(folder, files)
+    except OSError as error:
+        report_unwritten(Path(error.filename), error, report)
     for path, text in {**_below(folder, files), **scenarios}.items():
         with _written(path, report) as stream:
             stream.write(text)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -15,7 +16,7 @@ from swarmdsl.execution.experiments.toml_text import toml_text
 from swarmdsl.execution.simulate.durations import SECOND, duration
 from swarmdsl.ir import Optimization, System
 
-_PARAMETERS = "parameters"
+_PARAMETERS, _POINTS = "parameters", "front"
 
 
 def scenario_text(candidate: Candidate) -> str:
@@ -78,9 +79,17 @@ def point_files(
 ) -> Iterator[tuple[str, str]]:
     """Yield the names and the texts of the files of a front, two for each point."""
     for number, candidate in enumerate(candidates, 1):
-        yield f"front/{number}.toml", scenario_text(candidate)
-        yield f"front/{number}.json", _json(candidate_data(candidate, system))
+        yield f"{_POINTS}/{number}.toml", scenario_text(candidate)
+        yield f"{_POINTS}/{number}.json", _json(candidate_data(candidate, system))
     yield f"{_PARAMETERS}.json", _json(parameters_data(optimization, system))
+
+
+def remove_other_points(folder: Path, files: Collection[str]) -> None:
+    """Remove points of an earlier front from a folder. Raises OSError."""
+    for path in (folder / _POINTS).glob("*.*"):
+        is_point = path.stem.isdigit() and path.suffix in (".toml", ".json")
+        if is_point and f"{_POINTS}/{path.name}" not in files:
+            path.unlink()
 
 
 def _json(data: Any) -> str:

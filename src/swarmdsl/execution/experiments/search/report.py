@@ -63,7 +63,7 @@ def as_text(found: Found, plan: Plan, subject: str, fitness: str) -> Iterator[st
         measured.append(("difference", number_text(found.comparison.difference), between, ""))
     if matters := matters_text(found.observed, plan, 0):
         yield f"shares of the differences: {matters}"
-    yield ""
+        yield ""
     head = (f"{counted(plan.fresh, 'fresh seed')}", fitness, f"{plan.level:.0%} interval", "")
     yield from format_table(head, measured)
     yield f"winner: {settings_text(found.winner.candidate)}"
