@@ -150,6 +150,13 @@ def test_a_full_disk_behind_stdout_is_an_error(spawn):
 
 
 @posix
+def test_a_closed_stdout_changes_no_result(good):
+    command = f'"{sys.executable}" -m swarmdsl check "{good}" >&-'
+    ran = subprocess.run(["sh", "-c", command], capture_output=True, text=True)
+    assert (ran.returncode, ran.stderr) == (0, "no errors in 1 file\n")
+
+
+@posix
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_a_signal_ends_it_quietly(spawn, number, code):
     process = spawn("fmt", "-", stdin=subprocess.PIPE)
