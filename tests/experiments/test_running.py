@@ -89,6 +89,21 @@ def test_rows_are_the_same_for_processes_one_of_which_is_killed(
     assert all(row.fitness is not None for rows in one for row in rows)
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGPIPE"), reason="no signal of pipes")
+def test_a_pipe_of_a_lost_worker_is_an_error_and_no_signal() -> None:
+    """`swarmc` ends by SIGPIPE as other programs do, but not where workers may be lost."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    before = signal.signal(signal.SIGPIPE, signal.SIG_DFL)
+    try:
+        with local(1), pytest.raises(BrokenPipeError):
+            os.write(writer, b"a task")
+        assert signal.getsignal(signal.SIGPIPE) is signal.SIG_DFL
+    finally:
+        signal.signal(signal.SIGPIPE, before)
+        os.close(writer)
+
+
 def test_what_the_store_has_is_not_run_again(packed: Packed, tmp_path: Path) -> None:
     shipment = packed()
     path = tmp_path / "runs.sqlite"

@@ -24,12 +24,17 @@ GROUP = "swarmdsl.executors"
 _DASK = ("tcp", "tls", "ucx")
 _FOREIGN_WORKERS = 8
 """Tasks at a time, for executors that do not have a number of `workers`."""
+_PIPE = getattr(signal, "SIGPIPE", None)
 _WAIT = 10
 """Seconds to look for a scheduler and for a worker."""
 
 
 class Engine:
-    """An executor that is started when it is needed, and again after its processes were lost."""
+    """An executor that is started when it is needed, and again after its processes were lost.
+
+    In its block, a process or a connection that has gone is an error, and does not end this process
+    by SIGPIPE.
+    """
 
     def __init__(
         self, name: str, start: Callable[[], Executor], workers: int, *, is_slow: bool = False
@@ -40,12 +45,17 @@ class Engine:
         self._start = start
         self._workers = workers
         self._executor: Executor | None = None
+        self._on_pipe: Any = None
 
     def __enter__(self) -> Engine:
+        if _PIPE is not None:
+            self._on_pipe = signal.signal(_PIPE, signal.SIG_IGN)
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         self.stop(is_hurried=kind is not None)
+        if _PIPE is not None:
+            signal.signal(_PIPE, self._on_pipe)
 
     @property
     def workers(self) -> int:

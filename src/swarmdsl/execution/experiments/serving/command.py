@@ -70,6 +70,9 @@ def serve(request: Request, lines: Iterable[str], out: Answers, tell: Tell) -> b
                 tell(found)
                 out.write(f"{answer}\n")
                 out.flush()
+    except BrokenPipeError:
+        # Nobody reads the answers any more: it ends as without further messages.
+        pass
     except StoppedError as stopped:
         stopped.report(report)
         tell(report)
