@@ -175,7 +175,7 @@ def test_runs_without_a_value_are_told(folder: Path) -> None:
     assert "no run has a value" in text
     assert "0 of 1" in text
     # The command that plays such a run is there.
-    assert "swarmc simulate . --scenario out/runs/1.toml --seed 1" in text
+    assert "swarmc simulate . --scenario out/runs/1.toml --play out/runs/1-1.html --seed 1" in text
 
 
 @pytest.mark.parametrize("design", ["latin", "sobol"])
@@ -298,7 +298,7 @@ model = ["HEAD:model.swarm", "model.swarm"]
     assert "HEAD:model.swarm" in shown
     Path("study.toml").write_text('model = "HEAD:model.swarm"\n[factors]\ncount.robot = [1]')
     assert run(["experiment", "study.toml", "-o", "old", "--jobs", "1"]) == 0
-    played = "# at HEAD: swarmc simulate model.swarm --scenario old/runs/1.toml --seed"
+    played = "# at HEAD: swarmc simulate model.swarm --scenario old/runs/1.toml --play old/runs/"
     assert played in capsys.readouterr().out
     # The model as it is, is the first one: its runs are the same.
     assert "12 runs in 2 groups" in shown

@@ -293,6 +293,7 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
         expect(shown).not_to_have_count(0)
         wrong = window.view()
         expect(wrong.locator("#about")).to_contain_text("Pair, 2 members")
+        wrong.get_by_role("tab", name="Properties").first.click()
         expect(wrong.locator("#panels")).to_contain_text("OneWaits")
         pair.unlink()
         window.leave()
