@@ -61,7 +61,7 @@ def imports(module: str) -> Iterator[str]:
 
 @cache
 def graph() -> dict[str, list[str]]:
-    """What each module imports; tests read it, not those who only collect them."""
+    """Imports of each module; read by the tests, not at collection."""
     return {module: sorted(set(imports(module)) - {module}) for module in FILES}
 
 

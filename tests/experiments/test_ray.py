@@ -27,7 +27,7 @@ PACKAGE = ROOT / "tests" / "plugins" / "ray_engine"
 
 
 class StandIn(ModuleType):
-    """What the package uses of Ray, with a pool of processes."""
+    """Stand-in for the part of Ray that the package uses, with a pool of processes."""
 
     def __init__(self) -> None:
         super().__init__("ray")

@@ -94,7 +94,7 @@ def of_table(name: str, machine: Machine, scripts: Sequence[Sequence[Step]]) -> 
 
 
 def agreed(cases: Sequence[Case], folder: Path) -> list[list[Any]]:
-    """What the engine of the page does in all runs, which is what the one in Python does."""
+    """Compare all runs of the engine of the page with those of Python; return its steps."""
     found = node("machines.js", (case.line for case in cases), folder)
     runs = []
     for case, made in zip(cases, found, strict=True):
@@ -138,7 +138,7 @@ class _World(World):
 
 
 def _run(machine: Machine, data: Any, steps: Sequence[Step]) -> list[Any]:
-    """What happens after each step, as the script for node says it."""
+    """State after each step, as the script for node prints it."""
     world, calls = _World(), _Calls(machine)
     instance = Instance(machine, world, data=deepcopy(data), observer=calls)
     found: list[Any] = []

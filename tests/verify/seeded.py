@@ -44,7 +44,7 @@ Fate = Literal["refused", "same", "checked", "verified", "missed"]
 
 
 class Case(NamedTuple):
-    """What became of a mutant of a swarm, with the codes that are reported about it.
+    """Fate of a mutant of a swarm, with the codes that are reported about it.
 
     It is `refused` by the compiler, does the `same` in all walks, or else a check before the search
     or the search finds it, or nothing. It is `wrong` if a walk violates a property of the model. It

@@ -1,4 +1,4 @@
-"""What a run measures: the fitness, its inputs, and properties."""
+"""Values that a run measures: the fitness, its inputs, and properties."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ class _Session:
         self._written: dict[str, Path] = {}
         self._found: Results | None = None
         self._shown: list[Shown | str] = []
-        """What tests can show, or the name of what they cannot."""
+        """Findings that tests can show, and names of those that they cannot."""
         self._scenario: Scenario | None = None
         self._silent: tuple[str, ...] = ()
         """Functions that may never answer."""

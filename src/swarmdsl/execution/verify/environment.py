@@ -67,7 +67,7 @@ class Arrivals:
 
 
 class Environment:
-    """What can happen to the robots of a swarm from outside.
+    """Events that can reach the robots of a swarm from outside.
 
     `said` are conditions on data, `outside` the events from outside.
     """

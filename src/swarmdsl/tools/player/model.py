@@ -15,7 +15,7 @@ from swarmdsl.tools.player.view_data import view_data
 
 
 class Model:
-    """What a page shows of the subject of a run."""
+    """Texts and machines of the subject of a run, for a page."""
 
     def __init__(self, subject: Subject) -> None:
         self._subject = subject

@@ -18,7 +18,7 @@ Together = Literal["mean", "worst"]
 
 @dataclass(frozen=True)
 class Objective:
-    """What is measured, and what is better. A property is 1 in a run where it is true, else 0."""
+    """Measure to maximize or to minimize. A property is 1 in a run where it is true, else 0."""
 
     measure: str
     goal: Goal

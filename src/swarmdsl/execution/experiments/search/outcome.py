@@ -27,7 +27,7 @@ from swarmdsl.execution.experiments.task import Candidate
 
 
 class Outcome(Protocol):
-    """What a search has found."""
+    """Result of a search."""
 
     def data(self) -> dict[str, Any]:
         """Return it as JSON types."""

@@ -15,8 +15,8 @@ from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.measured import check_properties, measured_fitness
 from swarmdsl.execution.experiments.running import Runs
 from swarmdsl.execution.experiments.search.evaluation import Aim, Together
-from swarmdsl.execution.experiments.serving.manager import Manager, Trial
 from swarmdsl.execution.experiments.serving.parameters import Names
+from swarmdsl.execution.experiments.serving.responder import Responder, Trial
 from swarmdsl.execution.experiments.shipment import Conditions, pack
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.task import NO_SCENARIO
@@ -59,14 +59,14 @@ def serve(request: Request, lines: Iterable[str], out: Answers, tell: Tell) -> b
     """
     report = Diagnostics()
     try:
-        with _managed(request, report, tell) as manager:
-            if manager is None:
+        with _responder(request, report, tell) as responder:
+            if responder is None:
                 return False
             for line in lines:
                 if not line.strip():
                     continue
                 found = Diagnostics()
-                answer = manager.answer(line.rstrip("\n"), found)
+                answer = responder.answer(line.rstrip("\n"), found)
                 tell(found)
                 out.write(f"{answer}\n")
                 out.flush()
@@ -81,7 +81,7 @@ def serve(request: Request, lines: Iterable[str], out: Answers, tell: Tell) -> b
 
 
 @contextmanager
-def _managed(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Manager | None]:
+def _responder(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Responder | None]:
     """Load the model, start the engine, and yield what answers; None if something is wrong."""
     conditions = Conditions(request.until, request.world, request.properties)
     packed = pack(request.paths, request.swarm, request.scenarios, report, conditions)
@@ -111,4 +111,4 @@ def _managed(request: Request, report: Diagnostics, tell: Tell) -> Iterator[Mana
         engine,
     ):
         runs = Runs({shipment.digest: shipment}, engine, store, limit=request.limit)
-        yield Manager(runs, Names(system, swarm), trial)
+        yield Responder(runs, Names(system, swarm), trial)

@@ -1,4 +1,4 @@
-"""Simulation manager: runs the candidates of messages, one after the other."""
+"""Answers to messages: their candidates are run, one after the other."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _SEEDS = 2**31
 
 @dataclass(frozen=True)
 class Trial:
-    """How a candidate is tried: with so many seeds from that of the message, in each scenario."""
+    """Trial of a candidate: with so many seeds from that of the message, in each scenario."""
 
     digest: str
     scenarios: Sequence[str]
@@ -34,8 +34,8 @@ class Trial:
     seeds: int = 1
 
 
-class Manager:
-    """Answers messages, as a simulation manager of CPSwarm does."""
+class Responder:
+    """Answer messages, as a simulation manager of CPSwarm does."""
 
     def __init__(self, runs: Runs, names: Names, trial: Trial) -> None:
         self._runs = runs
