@@ -17,7 +17,7 @@ from swarmdsl.execution.experiments.search.evaluation import Evaluation
 from swarmdsl.execution.experiments.search.front_search import FoundFront
 from swarmdsl.execution.experiments.search.importance import importances
 from swarmdsl.execution.experiments.search.optimizing import Plan
-from swarmdsl.execution.experiments.search.page import Chosen
+from swarmdsl.execution.experiments.search.page import Chosen, search_facts
 from swarmdsl.execution.experiments.search.report import (
     conditions_text,
     importance_data,
@@ -162,10 +162,8 @@ def front_page(
 ) -> str:
     """Return the page of a search as HTML; `names` are those of the subject and the fitness."""
     subject, fitness = names
-    scenarios = ", ".join(each for each in plan.scenarios if each)
     facts = [
-        ("search", f"{counted(found.tried, 'candidate')}, method {plan.chosen}"),
-        ("scenario", scenarios or "none"),
+        *search_facts(plan, found.tried),
         ("objectives", goals_text(plan, fitness)),
         ("front", f"{counted(plan.fresh, 'seed')} that the search has not seen"),
         ("intervals", f"{100 * plan.level:g} %, of each number by itself"),

@@ -30,6 +30,15 @@ Line = Mapping[str, Any]
 """Line of the history."""
 
 
+def search_facts(plan: Plan, tried: int) -> list[tuple[str, str]]:
+    """Return facts that begin each page of a search."""
+    scenarios = ", ".join(each for each in plan.scenarios if each)
+    return [
+        ("search", f"{counted(tried, 'candidate')}, method {plan.chosen}"),
+        ("scenario", scenarios or "none"),
+    ]
+
+
 def search_page(
     found: Found,
     plan: Plan,
@@ -39,10 +48,8 @@ def search_page(
 ) -> str:
     """Return the page of a search as HTML; `names` are those of the subject and the fitness."""
     subject, fitness = names
-    scenarios = ", ".join(each for each in plan.scenarios if each)
     facts = [
-        ("search", f"{counted(found.tried, 'candidate')}, method {plan.chosen}"),
-        ("scenario", scenarios or "none"),
+        *search_facts(plan, found.tried),
         ("measured", f"{fitness}, to {plan.aim.goal}"),
         ("winner and today", f"{counted(plan.fresh, 'seed')} that the search has not seen"),
         ("intervals", f"{100 * plan.level:g} %"),
