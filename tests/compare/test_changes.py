@@ -387,6 +387,17 @@ def test_a_delivery_breaks_who_relies_on_more(before: str, after: str, tmp_path:
     assert [each.rule for each in breaking] == expected
 
 
+def test_who_sends_an_event_relies_on_being_asked_to(tmp_path: Path) -> None:
+    robots = system(RECEIVERS.format(delivery=""), tmp_path)
+    text = RECEIVERS.format(delivery="").replace("swarm event", "swarm operator event")
+    person = system(text, tmp_path)
+
+    for old, new, expected in ((person, robots, ["EVENT_OPERATOR"]), (robots, person, [])):
+        changes, breaking = compare(old, new)
+        assert [each.property_name for each in changes] == ["operator"]
+        assert [each.rule for each in breaking] == expected
+
+
 def test_a_delivery_is_told_where_it_is(tmp_path: Path) -> None:
     before = system(RECEIVERS.format(delivery=" {\n  reliable\n  latest\n}"), tmp_path)
     after = system(RECEIVERS.format(delivery=" {\n\n  best effort\n}"), tmp_path)

@@ -81,7 +81,7 @@ _REASONS: dict[str, dict[str, str]] = {
         ),
         "events and ports are drawn by name": (
             "Delivery.deadline Delivery.keep Delivery.latest Delivery.lifespan Delivery.reliable "
-            "Event.delivery Event.topic Event.type Port.topic"
+            "Event.delivery Event.operator Event.topic Event.type Port.topic"
         ),
         "diagrams have the names of what they show": ("System.name"),
     },

@@ -304,6 +304,18 @@ def test_an_empty_file_is_a_new_one(tmp_path: Path) -> None:
             "event A : a/B", "swarm event A : a/B", "swarm event A : a/B", id="swarm-event"
         ),
         pytest.param(
+            "swarm /* s */ event A : a/B",
+            "swarm operator event A : a/B",
+            "swarm /* s */ operator event A : a/B",
+            id="event-of-a-person",
+        ),
+        pytest.param(
+            "swarm operator /* s */ event A : a/B",
+            "swarm event A : a/B",
+            "swarm  /* s */ event A : a/B",
+            id="event-of-no-person",
+        ),
+        pytest.param(
             "event A : a/B  // c\nevent Z : a/B\n\nmember M { }\n",
             "event B : a/B",
             "event A : a/B  // c\nevent Z : a/B\nevent B : a/B\n\nmember M { }\n",

@@ -84,6 +84,7 @@ syn match swarmDeclaration #\<no\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<obstacle\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<only\>\ze[ \t]*\%(after\)\>#
+syn match swarmDeclaration #\<operator\>\ze[ \t]*\%(event\)\>#
 syn match swarmDeclaration #\<other\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<possible\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<radio\>\ze[ \t]*[{]#

@@ -99,6 +99,7 @@ class PortableDescription:
                     doc_of(node.children),
                     delivery=self._delivery(node) if swarm else None,
                     predefined=type_ == MEMBER and not swarm,
+                    operator=swarm and node.get("operator") == "true",
                 )
 
     def _delivery(self, node: Node) -> Delivery | None:

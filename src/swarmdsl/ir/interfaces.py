@@ -99,7 +99,7 @@ class Event:
 
     A swarm event (`swarm` true) is published on `topic` by its sender and arrives at the
     other members on `bridge/events/<topic>`, which the swarmros bridge provides. Heartbeats raise
-    a `predefined` one, which has no topic.
+    a `predefined` one, which has no topic. A person may send an `operator` event at any time.
     """
 
     name: str
@@ -110,6 +110,7 @@ class Event:
     origin: Span | None = field(default=None, compare=False, repr=False)
     delivery: Delivery | None = None
     predefined: bool = False
+    operator: bool = False
 
     @property
     def incoming_topic(self) -> str:

@@ -140,6 +140,7 @@ def lower_event(event: Event, context: Context) -> ir.Event:
         origin=event.name.span,
         delivery=_lower_delivery(event.delivery, context) if event.delivery else None,
         predefined=is_member_event(event),
+        operator=event.operator,
     )
 
 

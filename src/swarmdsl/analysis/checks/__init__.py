@@ -17,7 +17,7 @@ from swarmdsl.analysis.checks.conflicts import check_conflicts
 from swarmdsl.analysis.checks.context import Context, make_context
 from swarmdsl.analysis.checks.dataflow import check_variables
 from swarmdsl.analysis.checks.delays import check_undelayed_sends
-from swarmdsl.analysis.checks.delivery import check_delivery, check_lossy_events
+from swarmdsl.analysis.checks.delivery import check_delivery, check_lossy_events, check_operator
 from swarmdsl.analysis.checks.enums import check_enum
 from swarmdsl.analysis.checks.equipment import check_equipment, check_sights
 from swarmdsl.analysis.checks.events import check_events
@@ -127,7 +127,7 @@ COMMON_PASSES: Sequence[Callable[[Declaration, Context], None]] = (
 """Passes over every declaration, before those of its kind."""
 
 PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
-    Event: (check_event, check_delivery),
+    Event: (check_event, check_delivery, check_operator),
     Function: (check_function, check_model),
     Component: (check_component, check_sights),
     Member: (check_member, check_equipment),

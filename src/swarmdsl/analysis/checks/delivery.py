@@ -38,6 +38,7 @@ def check_delivery(event: Event, context: Context) -> None:
             "local-delivery",
             event.delivery[0].span,
             name=event.name,
+            fault="it has no delivery",
             related=(Label(event.name.span, "this event stays on its robot"),),
             help=f"declare it as `swarm event {event.name}`, or leave the settings out",
         )
@@ -49,6 +50,18 @@ def check_delivery(event: Event, context: Context) -> None:
         context.check_single([each.span for each in found], f"`{_WORDS.get(kind, kind)}`")
     for other in ("reliable", "latest", "keep"):
         _check_contradiction(by_kind.get("best", []), by_kind.get(other, []), context)
+
+
+def check_operator(event: Event, context: Context) -> None:
+    """Check that an event that a person may send travels between robots."""
+    if event.operator and not event.swarm:
+        context.report.report(
+            "local-delivery",
+            event.name.span,
+            name=event.name,
+            fault="no operator sends it",
+            help=f"declare it as `swarm operator event {event.name}`",
+        )
 
 
 def _check_value(setting: DeliverySetting, context: Context) -> None:

@@ -57,6 +57,8 @@ def check_events(project: Project, context: Context) -> None:
         everyone = Exchange().add(found[machine] for machine in machines)
         groups.append((Exchange().add(alone), everyone))
     _check_swarm_events(groups, context)
+    if swarms:
+        _check_operator_events([found[machine] for machine in machines], context)
     _check_own_events([found[member] for member in members], context)
 
 
@@ -72,6 +74,8 @@ def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Contex
                 unhandled.setdefault(send, []).append(known.name)
         for topic, trigger in judged.awaited.items():
             if topic in known.sent or isinstance(trigger, MonitorTrigger):
+                continue
+            if trigger.event.target is not None and trigger.event.target.operator:
                 continue
             if _is_swarm_event(trigger):
                 unsent.setdefault(trigger, []).append(known.name)
@@ -91,8 +95,23 @@ def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Contex
             trigger.span,
             where=where_of("swarm", names),
             name=trigger.event.name,
-            help=f"add `send {trigger.event.name}` to an effect, unless an operator sends it",
+            help=f"add `send {trigger.event.name}` to an effect, or declare it as `swarm operator`",
         )
+
+
+def _check_operator_events(machines: list[Exchange], context: Context) -> None:
+    """Report events that a person may send although no machine waits for them."""
+    known = Exchange().add(machines)
+    declared = [node for _, node in context.used if isinstance(node, Event) and node.operator]
+    for event in declared if known.complete else ():
+        if event.swarm and received_topic(event) not in known.awaited:
+            context.report.report(
+                "unhandled-event",
+                event.name.span,
+                where="",
+                name=event.name,
+                help=f"add `on {event.name} -> ...` to a state of a machine that should react",
+            )
 
 
 def _check_own_events(members: list[Exchange], context: Context) -> None:

@@ -20,6 +20,7 @@ from swarmdsl.syntax.ast import (
     Container,
     Defer,
     DoneTrigger,
+    Event,
     EventTrigger,
     MonitorTrigger,
     Parallel,
@@ -39,11 +40,15 @@ _MOST_NAMED = 3
 Topics = frozenset[str]
 
 
+Sender = Send | Event
+"""Effect that sends an event, or an event that a person may send."""
+
+
 @dataclass
 class _Ignored:
     """States that ignore an event that a transition elsewhere handles, and the swarms."""
 
-    send: Send
+    by: Sender
     states: dict[State, None] = field(default_factory=dict)
     swarms: dict[str, None] = field(default_factory=dict)
 
@@ -129,9 +134,13 @@ def _check_swarm(
                     ignored.swarms[str(swarm.name)] = None
 
 
-def _sent_to(role: Role, roles: list[Role], context: Context) -> dict[str, Send]:
-    """Return the swarm events that another robot may send to those of a role, by topic."""
-    found: dict[str, Send] = {}
+def _sent_to(role: Role, roles: list[Role], context: Context) -> dict[str, Sender]:
+    """Return the swarm events that others may send to those of a role, by topic."""
+    found: dict[str, Sender] = {
+        received_topic(event): event
+        for _, event in context.used
+        if isinstance(event, Event) and event.operator and event.swarm
+    }
     for sender in roles:
         exchange = context.facts.exchanges.get(sender.member.target)
         if exchange is None or (sender is role and greatest(role) == 1):
@@ -188,7 +197,10 @@ def _report(trigger: EventTrigger | MonitorTrigger, ignored: _Ignored, context: 
     names = [str(state.name) for state in ignored.states]
     states = listed(names, "and") if len(names) <= _MOST_NAMED else f"{len(names)} states"
     shown = [*ignored.states][:_MOST_NAMED]
-    name = ignored.send.event.name
+    by = ignored.by
+    name = by.name if isinstance(by, Event) else by.event.name
+    who = "a person" if isinstance(by, Event) else "another robot"
+    place = by.name.span if isinstance(by, Event) else by.event.span
     context.report.report(
         "ignored-event",
         trigger.span,
@@ -197,7 +209,7 @@ def _report(trigger: EventTrigger | MonitorTrigger, ignored: _Ignored, context: 
         where=where_of("swarm", [*ignored.swarms]),
         related=(
             *(Label(state.name.span, "it is ignored in this state") for state in shown),
-            Label(ignored.send.event.span, "another robot may send it at any time"),
+            Label(place, f"{who} may send it at any time"),
         ),
         help=f"add `on {name}` or `defer {name}` to these states, or to one around them",
     )

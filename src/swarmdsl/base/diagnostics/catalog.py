@@ -197,9 +197,7 @@ CODES: dict[str, Code] = {
         "SW0616", "warning", "no definition of interface `{name}`", silent=True
     ),
     "monitor-name": Code("SW0617", "error", "topic `{topic}` cannot be called `{name}`"),
-    "local-delivery": Code(
-        "SW0618", "error", "event `{name}` stays on one robot: it has no delivery"
-    ),
+    "local-delivery": Code("SW0618", "error", "event `{name}` stays on one robot: {fault}"),
     "contradictory-delivery": Code("SW0619", "error", "{fault}"),
     "lossy-event": Code(
         "SW0620",

@@ -44,9 +44,10 @@ def print_interface(interface: Interface, names: Names) -> list[str]:
 
 def print_event(event: Event, names: Names) -> list[str]:
     """Print an event; that of a monitored topic is declared like any other."""
-    swarm = "swarm " if event.swarm else ""
+    words = (("swarm", event.swarm), ("operator", event.operator))
+    kinds = "".join(f"{word} " for word, is_said in words if is_said)
     on = on_topic(event.topic, event.name)
-    head = f"{swarm}event {event.name} : {names.type(event.type)}{on}"
+    head = f"{kinds}event {event.name} : {names.type(event.type)}{on}"
     settings = delivery_settings(event.delivery)
     line = f"{head} {{ {', '.join(settings)} }}" if settings else head
     # The formatter breaks longer lines, where settings need no separators.

@@ -159,7 +159,7 @@ class Environment:
                 continue
             if self._scenario is not None:
                 self._arrive(name, cast[0].robot, found)
-            elif name not in from_inside:
+            elif event.operator or name not in from_inside:
                 found.messages[name] = self.noted(self._demands.messages(name), doubts)
             if name in found.messages:
                 self.outside[name] = None

@@ -30,11 +30,22 @@ def merge_event(merge: Merge, old: Event, new: Event) -> None:
             merge.edits.replace(old.topic.span, f'"{topic}"')
         else:
             merge.edits.insert(old.span.end, f' on "{topic}"')
-    if new.swarm and not old.swarm:
-        merge.edits.insert(old.span.start, "swarm ")
-    elif old.swarm and not new.swarm:
-        merge.word_at(old.span.start, "")
+    _merge_kind(merge, old, new)
     _merge_delivery(merge, old, new)
+
+
+def _merge_kind(merge: Merge, old: Event, new: Event) -> None:
+    """Update the words before `event`."""
+    words = merge.tokens.code(old.span.start, 1 + old.swarm + old.operator)
+    added = "swarm " if new.swarm and not old.swarm else ""
+    if old.swarm and not new.swarm:
+        merge.word_at(words[0].start, "")
+    if old.operator and not new.operator:
+        merge.word_at(words[-2].start, "")
+    elif new.operator and not old.operator:
+        added += "operator "
+    if added:
+        merge.edits.insert(words[-1].start, added)
 
 
 def _merge_delivery(merge: Merge, old: Event, new: Event) -> None:

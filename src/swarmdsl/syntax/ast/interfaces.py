@@ -67,9 +67,13 @@ class DeliverySetting(Documented):
 
 @dataclass(slots=True, eq=False)
 class Event(TopLevel):
-    """`event Name : Type on "topic" { ... }`; `swarm` when it travels between members."""
+    """`swarm operator event Name : Type on "topic" { ... }`.
+
+    `swarm` when it travels between members, `operator` when a person may send it.
+    """
 
     swarm: bool
+    operator: bool
     name: Word
     type: TypeRef
     topic: Word | None

@@ -63,6 +63,7 @@ CONTEXTUAL = {
     'obstacle': '[A-Za-z_]',
     'of': '[A-Za-z_]',
     'only': '(?:after)\\b',
+    'operator': '(?:event)\\b',
     'other': '[A-Za-z_]',
     'possible': '[*A-Za-z_0-9"]',
     'radio': '[{]',
@@ -103,7 +104,7 @@ CONTEXTUAL = {
 # The first keywords of the alternatives of a rule.
 FIRST = {
     'ComponentItem': frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param', 'senses']),
-    'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
+    'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'operator', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
     'Effect': frozenset(['append', 'cancel', 'clear', 'event', 'false', 'in', 'neighbors', 'not', 'remove', 'self', 'send', 'true']),
     'EnvironmentItem': frozenset(['area', 'obstacle', 'rain', 'size', 'target', 'wall', 'wind', 'world', 'zone']),
     'FitnessItem': frozenset(['in', 'maximize', 'minimize', 'param']),
@@ -123,7 +124,7 @@ FIRST = {
     'Vertex': frozenset(['choice', 'deep', 'final', 'history', 'parallel', 'state']),
 }
 # Keywords of sections of a file: of its header, its declarations, its optimizations.
-TOP_LEVEL = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'import', 'member', 'message', 'optimize', 'package', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
+TOP_LEVEL = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'import', 'member', 'message', 'operator', 'optimize', 'package', 'property', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 # Keywords of items in blocks that begin a statement anywhere on a line.
 STATEMENTS = frozenset(['after', 'behavior', 'choice', 'communication', 'connect', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'operation', 'parallel', 'param', 'region', 'state', 'var'])
 # Keywords before the keyword of a statement, by the keywords that can follow them.
@@ -131,8 +132,9 @@ MODIFIERS = {
     'deep': frozenset(['history']),
     'endless': frozenset(['statemachine']),
     'internal': frozenset(['after', 'monitor', 'on']),
+    'operator': frozenset(['event']),
     'parallel': frozenset(['state']),
-    'swarm': frozenset(['event']),
+    'swarm': frozenset(['event', 'operator']),
 }
 # Keywords of optional clauses, by the first keywords of the statements that have them.
 CLAUSES = {
@@ -140,7 +142,7 @@ CLAUSES = {
     'extends': frozenset(['actuator', 'controller', 'member', 'sensor', 'virtual']),
     'gives': frozenset(['do']),
     'in': frozenset(['target']),
-    'on': frozenset(['event', 'in', 'inout', 'out', 'swarm']),
+    'on': frozenset(['event', 'in', 'inout', 'operator', 'out', 'swarm']),
 }
 # Keywords that the name of a new element follows.
 NAMING = frozenset(['actuator', 'choice', 'communication', 'const', 'controller', 'enum', 'environment', 'event', 'final', 'fitness', 'function', 'history', 'member', 'model', 'operation', 'property', 'region', 'sensor', 'state', 'statemachine', 'struct', 'type', 'virtual'])

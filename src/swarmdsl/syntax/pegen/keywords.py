@@ -200,17 +200,19 @@ class Keywords:
     def _modifiers(self, first: frozenset[str]) -> Iterator[tuple[str, frozenset[str]]]:
         """Keywords, or flags, that begin a rule before another first keyword."""
         for rule in self._grammar.rules.values():
-            if not isinstance(rule.body, Sequence):
-                continue
-            head, *rest = rule.body.parts
-            if isinstance(head, Optional):
-                head = head.part
-            if isinstance(head, Assign) and head.kind == "flag":
-                head = head.part
-            if isinstance(head, Terminal) and head.literal in first:
-                following = self._words(Sequence(tuple(rest))) & first
-                if following and not isinstance(rest[0], Assign):
-                    yield head.literal, following
+            rest = list(rule.body.parts) if isinstance(rule.body, Sequence) else []
+            is_flag = True
+            while is_flag and rest:
+                head = rest.pop(0)
+                if isinstance(head, Optional):
+                    head = head.part
+                is_flag = isinstance(head, Assign) and head.kind == "flag"
+                if isinstance(head, Assign) and is_flag:
+                    head = head.part
+                if isinstance(head, Terminal) and head.literal in first and rest:
+                    following = self._words(Sequence(tuple(rest))) & first
+                    if following and (is_flag or not isinstance(rest[0], Assign)):
+                        yield head.literal, following
 
     def _clauses(self) -> Iterator[tuple[str, frozenset[str]]]:
         """Yield reserved words that begin an optional clause, with the statements that have it."""

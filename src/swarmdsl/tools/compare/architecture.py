@@ -124,6 +124,7 @@ def _event(event: Event) -> Element:
         type=type_value(event.type),
         topic=event.topic,
         reach="swarm" if event.swarm else "member",
+        operator=event.operator,
         delivery=", ".join(delivery_settings(event.delivery)),
     )
     name, given = event.name, event.delivery

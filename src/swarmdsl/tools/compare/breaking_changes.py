@@ -114,6 +114,8 @@ def _rule(change: Change, lessened: Container[str]) -> str | None:
         return "PARAM_REQUIRED" if not change.after else None
     if (kind, change.property_name) == ("event", "delivery"):
         return "EVENT_DELIVERY" if display_name(element) in lessened else None
+    if (kind, change.property_name) == ("event", "operator"):
+        return "EVENT_OPERATOR" if not change.after else None
     if (kind, change.property_name) == ("role", "number"):
         return "ROLE_NUMBER" if _is_narrower(change.before, change.after) else None
     if (kind, change.property_name) == ("component", "operations"):

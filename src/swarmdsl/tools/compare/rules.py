@@ -14,6 +14,7 @@ RULES = {
     "EVENT_TYPE": "an event changed its message type",
     "EVENT_TOPIC": "an event changed its topic",
     "EVENT_REACH": "an event changed between the member and the whole swarm",
+    "EVENT_OPERATOR": "a person can no longer send an event",
     "EVENT_DELIVERY": "receivers of an event can rely on less of its delivery than before",
     "EVENT_UNHANDLED": "a state machine no longer handles an event",
     "EVENT_UNSENT": "a state machine no longer sends an event",

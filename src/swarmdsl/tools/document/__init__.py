@@ -35,7 +35,7 @@ _SECTIONS: tuple[tuple[str, str, tuple[str, ...], _EntryFunction], ...] = (
     ("section-machines", "State machines", ("state machine",), behaviour.machine),
     ("section-components", "Components", _COMPONENTS, architecture.component),
     ("section-functions", "Functions", ("function",), interfaces.function),
-    ("section-events", "Events", ("event", "swarm event"), interfaces.event),
+    ("section-events", "Events", ("event", "swarm event", "operator event"), interfaces.event),
     ("section-messages", "Messages", ("message", "struct"), interfaces.interface),
     ("section-services", "Services", ("service",), interfaces.interface),
     ("section-actions", "Actions", ("action",), interfaces.interface),

@@ -124,6 +124,8 @@ def _kind(node: Node) -> str:
             return "virtual component"
         case Component(kind=kind):
             return kind
+        case Event(swarm=True, operator=True):
+            return "operator event"
         case Event(swarm=True):
             return "swarm event"
     return kind_name(node)

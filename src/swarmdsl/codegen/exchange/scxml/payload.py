@@ -60,6 +60,7 @@ def describe_machine(
             type=str(event.type),
             topic=event.topic,
             swarm="true" if event.swarm else "false",
+            operator="true" if event.operator else None,
             **_delivery(event.delivery),
         )
         add_doc(element, event.doc)
