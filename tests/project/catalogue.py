@@ -13,11 +13,18 @@ from swarmdsl.driver import pipeline
 PACKAGES = {
     "cpswarm": "the CPSwarm libraries as they are today",
     "cpswarm_uint32": "the same until 2020, when tasks and targets had numbers: those of D5.4",
+    "nav2": "Nav2, the navigation of ROS 2: nav2_msgs 1.3.13 of Jazzy, of 2026-08-21",
+    "turtlebot4": "the TurtleBot 4: irobot_create_msgs 2.1.0 of Humble, of 2022-09-15, for its "
+    "Create 3 base, and turtlebot4_msgs 1.0.4 of Humble, of 2024-02-15",
+    "crazyswarm2": "Crazyflies with Crazyswarm2: crazyflie_interfaces 1.0.5 of 2026-07-20, for "
+    "Humble and Jazzy",
+    "sensors": "standard sensors of ROS: sensor_msgs, on the topics that most drivers use",
+    "tf2": "frames and poses: tf2_msgs and geometry_msgs",
 }
 
 
 def systems() -> Mapping[str, ir.System]:
-    """Compile both libraries."""
+    """Compile all libraries."""
     found = {}
     for name in PACKAGES:
         system = pipeline.check([resources.library() / name]).system
@@ -28,7 +35,7 @@ def systems() -> Mapping[str, ir.System]:
 
 def page() -> str:
     """Return the page: the manual introduction and the generated catalogue."""
-    lines = [PLACE.read_text(encoding="utf-8").partition("\n## ")[0].rstrip(), ""]
+    lines = [PLACE.read_text(encoding="utf-8").partition("\n## cpswarm\n")[0].rstrip(), ""]
     for name, system in systems().items():
         lines += [f"## {name}", "", f"{PACKAGES[name][:1].upper()}{PACKAGES[name][1:]}.", ""]
         for package in packages(name):

@@ -40,8 +40,18 @@ def test_there_are_no_mistakes(name: str, capsys) -> None:
     assert capsys.readouterr().out == ""
 
 
-@pytest.mark.parametrize("target", ["smach", "ros2", "adf", "scxml", "swarmros"])
-@pytest.mark.parametrize("name", catalogue.PACKAGES)
+OF_CPSWARM = [name for name in catalogue.PACKAGES if name.startswith("cpswarm")]
+BUILDS = [
+    *(
+        (name, target)
+        for name in OF_CPSWARM
+        for target in ("smach", "ros2", "adf", "scxml", "swarmros")
+    ),
+    *((name, "ros2") for name in catalogue.PACKAGES if name not in OF_CPSWARM),
+]
+
+
+@pytest.mark.parametrize(("name", "target"), BUILDS)
 def test_all_of_it_can_be_built(name: str, target: str, tmp_path: Path) -> None:
     """Build a model that calls all functions and extends or reuses all other declarations."""
     system = SYSTEMS[name]
@@ -91,8 +101,15 @@ def _everything(name: str, system: ir.System) -> Iterator[str]:
         yield "member Watching extends Drone { behavior SearchAndTrack }"
         yield "swarm All {\n  uav : Flying\n  ugv : Driving\n  drone : Watching"
         yield "  environment StorageHall\n  fitness RescueTime\n}"
-    else:
+    elif name == "cpswarm_uint32":
         yield f"  state {last} {{ on MissionStart -> S0 }}\n}}\nmember Robot {{ behavior Main }}"
+    else:
+        yield f"  state {last} {{"
+        yield from (f"    on {each.name} -> S0" for each in system.events)
+        yield "    after 1 s -> S0\n  }\n}\nmember Robot { behavior Main }"
+        yield from (
+            f"member My{m.name} extends {m.name} {{ behavior Main }}" for m in system.members
+        )
 
 
 def _called(system: ir.System) -> list[ir.Function]:
@@ -102,9 +119,7 @@ def _called(system: ir.System) -> list[ir.Function]:
 
 
 def _taken(system: ir.System, function: ir.Function) -> tuple[ir.Field, ...]:
-    if str(function.communication.type) == "std_srvs/SetBool":
-        return (ir.Field("data", ir.Primitive("bool")),)
-    match system.interface(function.communication.type):
+    match system.known_interface(function.communication.type):
         case ir.Action(goal=goal):
             return goal
         case ir.Service(request=request):

@@ -226,6 +226,57 @@ def test_giving_up_on_the_way_frees_the_charger():
     assert play.ended[1][0] == "succeeded"
 
 
+def test_a_charger_with_power_charges_who_stays_there():
+    """It gets 30 W less the 4 W that it uses, up to a full battery, and nothing when it has left."""
+    of = units(1, starts=[(52, 50)], battery=battery(1000.0, idling=4.0, moving=10.0))
+    play = Play(stage(of, targets=(things("charger", (50.0, 50.0)),)))
+    play.stage.energy[0] = 500.0
+    play.start("dock", [0], power=30.0).run(5)
+    assert play.outcomes() == ["succeeded"]
+    before = play.stage.energy[0]
+    play.start("hover", [0], time=10.0).run(20)
+    assert play.stage.energy[0] - before == pytest.approx(10 * (30 - 4))
+    play.start("hover", [0], time=15.0).run(20)
+    assert play.stage.energy[0] == pytest.approx(1000.0, abs=2 * play.stage.dt * 4)
+    play.start("go_to", [0], to=(60.0, 50.0, 0.0)).run(3)
+    assert play.stage.energy[0] == pytest.approx(1000.0 - 3 * 10, abs=5)
+
+
+# ---- driving
+
+
+def test_driving_on_and_back_leads_to_where_it_began():
+    play = Play(stage(units(1, WALKER, starts=[(20, 20)])))
+    play.start("drive", [0], distance=2.0, speed=0.5).run(6)
+    assert (play.stage.x[0], play.stage.y[0]) == pytest.approx((22.0, 20.0))
+    assert play.ended[0][1] == pytest.approx(2.0 / 0.5, abs=0.2)
+    play.start("drive", [0], distance=-2.0, speed=0.5).run(6)
+    assert (play.stage.x[0], play.stage.y[0]) == pytest.approx((20.0, 20.0))
+    assert (play.stage.heading_x[0], play.stage.heading_y[0]) == pytest.approx((1.0, 0.0))
+
+
+def test_an_arc_ends_on_its_circle_and_looks_along_it():
+    """A quarter of a circle of 2 m to the left leads 2 m on and 2 m aside, and looks left."""
+    play = Play(stage(units(1, WALKER, starts=[(20, 20)])))
+    play.start("drive", [0], distance=np.pi, turn=np.pi / 2, speed=0.5).run(10)
+    assert (play.stage.x[0], play.stage.y[0]) == pytest.approx((22.0, 22.0), abs=0.01)
+    assert (play.stage.heading_x[0], play.stage.heading_y[0]) == pytest.approx((0.0, 1.0))
+
+
+def test_a_turn_on_the_spot_takes_the_time_of_its_rate():
+    play = Play(stage(units(1, WALKER, starts=[(20, 20)])))
+    play.start("drive", [0], turn=-np.pi, rate=0.5).run(10)
+    assert play.ended[0][1] == pytest.approx(np.pi / 0.5, abs=0.2)
+    assert (play.stage.x[0], play.stage.y[0]) == (20.0, 20.0)
+    assert (play.stage.heading_x[0], play.stage.heading_y[0]) == pytest.approx((-1.0, 0.0))
+
+
+def test_driving_ends_at_what_is_in_the_way():
+    play = Play(stage(units(1, WALKER, starts=[(20, 20)]), edges=box((22, 18), (23, 22))))
+    play.start("drive", [0], distance=5.0).run(10)
+    assert play.outcomes() == ["aborted"]
+
+
 def test_without_chargers_nobody_docks():
     assert Play(stage(units(1))).start("dock", [0]).run(1).outcomes() == ["aborted"]
 

@@ -172,6 +172,17 @@ MODELS: Mapping[str, FunctionModel] = {
             ),
         ),
         FunctionModel(
+            "drive",
+            "Go straight on or backwards, turn on the spot, or both along an arc.",
+            (
+                Argument("distance", "length", 0.0, "way; negative to go backwards", least=-MOST),
+                Argument("turn", "angle", 0.0, "angle of the turn, to the left"),
+                Argument("rate", "number", 1.0, "fastest turn, in radians per second", least=0.001),
+                _HEIGHT,
+                _SPEED,
+            ),
+        ),
+        FunctionModel(
             "track",
             "Stay near a target; aborted when it has been out of sight for a time.",
             (
@@ -255,7 +266,12 @@ MODELS: Mapping[str, FunctionModel] = {
         FunctionModel(
             "dock",
             "Wait for a free charger, go there and land: one robot at a charger at a time.",
-            (_charger("kind of target that is a charger"), _HEIGHT, _SPEED),
+            (
+                _charger("kind of target that is a charger"),
+                Argument("power", "number", 0.0, "power in watts while it stays there", least=0.0),
+                _HEIGHT,
+                _SPEED,
+            ),
         ),
         FunctionModel(
             "charge",

@@ -35,5 +35,17 @@ def drain(stage: Robots, part: Part) -> Rows:
     stage.used[part] = np.minimum(stage.used[part] + used, most)
     left = stage.energy[part] - used
     stage.energy[part] = left
+    if stage.charger[part].any():
+        _charge(stage, part)
     empty = np.flatnonzero(alive & (left <= 0))
     return empty if isinstance(part, slice) else part[empty]
+
+
+def _charge(stage: Robots, part: Part) -> None:
+    """Charge robots that stay at a charger; one that wants to move has left it."""
+    wanted = np.abs(stage.wanted_x[part]) + np.abs(stage.wanted_y[part]) + stage.wanted_z[part]
+    stage.charger[part] *= (wanted <= _STILL) & stage.alive[part]
+    missing = np.maximum(stage.capacity[part] - stage.energy[part], 0.0)
+    more = np.minimum(stage.charger[part] * stage.dt, missing)
+    stage.energy[part] += more
+    stage.charged[part] += more

@@ -100,6 +100,8 @@ class Robots:
         """Power that each robot has used in the last step."""
         self.charged: Floats = np.zeros(self.rows)
         """Energy that each robot has got from chargers."""
+        self.charger: Floats = np.zeros(self.rows)
+        """Power of the charger at which each robot stays."""
         self.tank: Floats = np.ones(self.rows)
         """Share of what each robot can spray that it still has."""
         self.consumption = Consumption(layout, len(self.seeds))

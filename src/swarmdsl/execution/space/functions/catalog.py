@@ -13,6 +13,7 @@ from swarmdsl.execution.space.functions.charge import Charge
 from swarmdsl.execution.space.functions.coverage import Coverage
 from swarmdsl.execution.space.functions.disperse import Disperse
 from swarmdsl.execution.space.functions.dock import Dock
+from swarmdsl.execution.space.functions.drive import Drive
 from swarmdsl.execution.space.functions.flock import Flock
 from swarmdsl.execution.space.functions.follow_path import FollowPath
 from swarmdsl.execution.space.functions.form_up import FormUp
@@ -38,6 +39,7 @@ CLASSES: Mapping[str, type[Model]] = {
     "coverage": Coverage,
     "disperse": Disperse,
     "dock": Dock,
+    "drive": Drive,
     "flock": Flock,
     "follow_path": FollowPath,
     "form_up": FormUp,

@@ -40,7 +40,8 @@ def release(guest: Whole, leaves: Flags) -> Whole:
 class Dock(Model):
     """Wait for a free charger, go there, and land; aborted where there are no chargers.
 
-    The charger belongs to the robot until it goes away, is lost, or gives up on its way.
+    The charger belongs to the robot until it goes away, is lost, or gives up on its way. With a
+    power, it charges the robot until then.
     """
 
     def __init__(self, stage: Stage) -> None:
@@ -51,6 +52,7 @@ class Dock(Model):
         self._asked: dict[str, Floats] = {}
         self._guests: dict[str, Whole] = {}
         self._docked: Flags = np.zeros(rows, dtype=np.bool_)
+        self._power: Floats = np.zeros(rows)
         self._runs = runs
 
     def start(self, who: Rows, arguments: Arguments) -> None:
@@ -60,6 +62,7 @@ class Dock(Model):
         self._height[who] = self.height(who, arguments)
         self._speed[who] = self.speed(who, arguments)
         self._docked[who] = False
+        self._power[who] = arguments["power"]
         if kind not in self._guests and kind in stage.targets.kinds:
             number = len(self._chargers(kind))
             self._guests[kind] = np.full((self._runs, number), FREE)
@@ -80,8 +83,10 @@ class Dock(Model):
         return statuses(done, failed)
 
     def stop(self, who: Rows) -> None:
-        """Give back the chargers of robots that are not there yet."""
+        """Connect robots that are there; give back the chargers of the others."""
         stage = self.stage
+        there = who[self._docked[who]]
+        stage.charger[there] = self._power[there]
         for kind, guest in self._guests.items():
             leaves = np.zeros((self._runs, stage.robots), dtype=np.bool_)
             gone = who[~self._docked[who] & (self._kind[who] == kind)]
