@@ -227,7 +227,7 @@ def test_giving_up_on_the_way_frees_the_charger():
 
 
 def test_a_charger_with_power_charges_who_stays_there():
-    """It gets 30 W less the 4 W that it uses, up to a full battery, and nothing when it has left."""
+    """It gets 30 W less the 4 W that it uses, until it is full or has left."""
     of = units(1, starts=[(52, 50)], battery=battery(1000.0, idling=4.0, moving=10.0))
     play = Play(stage(of, targets=(things("charger", (50.0, 50.0)),)))
     play.stage.energy[0] = 500.0
