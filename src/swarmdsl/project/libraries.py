@@ -87,7 +87,7 @@ class Libraries:
     def _advice(self, statement: ImportLibrary, package: str, nearby: Path) -> str | None:
         if not package:
             return f"write `import {statement.name}.*` for all that a package declares"
-        names = self._names(nearby)
+        names = self.packages(nearby)
         if package.removesuffix(".msg").endswith("_msgs") and package not in names:
             ros = statement.name.replace(".msg.", ".").replace(".", "/").replace("*", "Name")
             return f"delete it: an interface of ROS needs no import, as in `x : {ros}`"
@@ -102,8 +102,8 @@ class Libraries:
             return f"`{library}` has {listed(sorted(inside.values()), 'and')}"
         return f"did you mean `{inside[close]}`?"
 
-    def _names(self, nearby: Path) -> set[str]:
-        """Names of all packages, searched once however many are missing."""
+    def packages(self, nearby: Path) -> set[str]:
+        """Return the names of all packages, searched once however many are missing."""
         if nearby not in self._packages:
             self._packages[nearby] = {
                 ".".join(path.relative_to(library).with_suffix("").parts[:2])

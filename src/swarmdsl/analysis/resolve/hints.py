@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 from swarmdsl.analysis.resolve.scopes import FileScope
@@ -53,6 +54,16 @@ def declared_elsewhere(
         if node.name == name and isinstance(node, kinds):
             return node, f"import {_import_path(file, name, scope)}"
     return None
+
+
+def declarations_elsewhere(
+    kinds: tuple[type[Node], ...], scope: FileScope
+) -> Iterator[tuple[Declaration, str]]:
+    """Yield the declarations in files that are not imported, with the imports that add them."""
+    seen = {scope.file, *(file for _, file in scope.file.imports)}
+    for file, node in scope.project.declarations():
+        if file not in seen and isinstance(node, kinds):
+            yield node, f"import {_import_path(file, str(node.name), scope)}"
 
 
 def candidates_for(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 
 from swarmdsl.base import resources
@@ -64,15 +64,32 @@ def suggest_import(name: str, kinds: tuple[type[Node], ...], project: Project) -
     project uses, or else the only one with the name. Return None if there is none.
     """
     packages = [package for kind, package in _in_library().get(name, ()) if kind in kinds]
-    used = {
+    used = _used_libraries(project)
+    if used:
+        packages = [package for package in packages if _root(package) in used]
+    return f"import {packages[0]}.{name}" if len(packages) == 1 else None
+
+
+def library_imports(kinds: tuple[type[Node], ...], project: Project) -> Iterator[tuple[str, str]]:
+    """Yield the declarations of some kinds in a library that comes with swarmdsl.
+
+    Each has its import. Libraries other than those that the project uses do not count.
+    """
+    used = _used_libraries(project)
+    for name, found in _in_library().items():
+        for kind, package in found:
+            if issubclass(kind, kinds) and (not used or _root(package) in used):
+                yield name, f"import {package}.{name}"
+
+
+def _used_libraries(project: Project) -> set[str]:
+    """Return the libraries of swarmdsl that the files of a project import."""
+    return {
         _root(target.package)
         for file in project.files
         if not file.library
         for _, target in file.imports
     } & {_root(package) for found in _in_library().values() for _, package in found}
-    if used:
-        packages = [package for package in packages if _root(package) in used]
-    return f"import {packages[0]}.{name}" if len(packages) == 1 else None
 
 
 def _root(package: str) -> str:

@@ -7,17 +7,18 @@ cursor shows, by the node that contains it, which names fit. Both work in incomp
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
-from swarmdsl.analysis.node_kinds import kind_name
-from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
-from swarmdsl.analysis.types import BUILT_INS
-from swarmdsl.base.records import dataclass
+from swarmdsl.analysis.resolve.scopes import Scopes
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.ide.server.candidates import Candidates
+from swarmdsl.ide.server.completion_entry import BEST, KEYWORD, Completion, entry_of
+from swarmdsl.ide.server.expected_value import ExpectedValue, expected_value
 from swarmdsl.ide.server.fields import facts_of, fields_of, is_placeholder_name, slots
 from swarmdsl.ide.server.identity import is_own, own_fields
+from swarmdsl.ide.server.import_names import imports_at, missing_imports
+from swarmdsl.ide.server.likely_order import by_use, keyword_rank, usual
 from swarmdsl.ide.server.outcomes import unhandled_outcomes
 from swarmdsl.ide.server.space_words import words_at
 from swarmdsl.ide.server.speculative_parse import (
@@ -30,11 +31,16 @@ from swarmdsl.ide.server.speculative_parse import (
     parse_with_placeholder,
 )
 from swarmdsl.ide.server.type_names import type_names
+from swarmdsl.ide.server.undeclared_names import undeclared_names
+from swarmdsl.ide.server.unit_names import ranked_units
+from swarmdsl.ide.server.value_names import function_entries, value_entries, word_rank
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
-    NEIGHBORS,
+    NODES,
     Assignment,
     Component,
+    Constant,
+    EnumType,
     FieldUse,
     Member,
     NameUse,
@@ -43,6 +49,7 @@ from swarmdsl.syntax.ast import (
     TopLevel,
     TypeRef,
     nodes_of,
+    references,
 )
 from swarmdsl.syntax.parser import generated
 from swarmdsl.syntax.parser.failure_finder import mismatch
@@ -51,31 +58,24 @@ from swarmdsl.syntax.recovery.statements import statement_at
 _WORD = re.compile(r"\w*")
 # Integer part of a number before its decimal point.
 _NUMBER = re.compile(r"(?<![\w.])\d\w*\.\Z")
+# Number whose unit may follow.
+_QUANTITY = re.compile(r"(?<![\w.])\d+(?:\.\d+)?[ \t]+\Z")
 # Never in the text of a model, so the parser must stop there.
 _STOP = "\0"
 _NAMES = ("IDENT", "WORD")
 _OUTCOMES = ("succeeded", "aborted", "preempted")
 
 
-@dataclass(frozen=True)
-class Completion:
-    """Word that fits at the cursor.
-
-    `node` is its declaration, None for a keyword and for a built-in function.
-
-    `text` is a snippet with fields (`${1:name}`) if the word alone is not enough.
-    """
-
-    word: str
-    detail: str
-    node: Node | None = None
-    text: str | None = None
-
-
 def completions(workspace: Workspace, file: File, offset: int) -> list[Completion]:
-    """Return the completions at an offset; they replace the word around it."""
+    """Return the completions at an offset, the likely ones first.
+
+    They replace the word around the offset, unless they say what they replace.
+    """
     text = file.source.text
     start, end = word_at(text, offset)
+    imported = imports_at(workspace, file, start)
+    if imported is not None:
+        return imported
     _, first, last = workspace.fragment_span(file, start)
     last = max(last, end)
     head, tail = text[first:start], text[end:last]
@@ -86,15 +86,25 @@ def completions(workspace: Workspace, file: File, offset: int) -> list[Completio
     keywords = [word for word in _keywords(expected) if word.isalpha()]
     if any(owner.span.absolute.end <= first for owner in owners(file)):
         keywords = [word for word in keywords if word not in ("package", "import")]
+    unhandled: list[str] = []
     if any(word in _OUTCOMES for word in keywords):
-        left = unhandled_outcomes(around, start)
-        keywords = [word for word in keywords if word not in _OUTCOMES or word in left]
-    found = [Completion(word, "keyword") for word in keywords]
+        unhandled = unhandled_outcomes(around, start)
+        keywords = [word for word in keywords if word not in _OUTCOMES or word in unhandled]
+    found: list[Completion] = []
+    place = _NameCompletion(workspace, file, (head, tail), around, start)
     if named:
-        scope = Scopes(workspace.project)[file]
-        place = _NameCompletion(workspace, file, (head, tail), scope, around, start)
         found += place.names()
-    return list({each.word: each for each in found}.values())
+    elif any(name == "UNIT" for _, name, _ in expected) or _QUANTITY.search(head):
+        found += place.units()
+    for word in sorted(keywords, key=usual):
+        rank = place.word_rank(word)
+        if rank is not None:
+            known = keyword_rank(word, around, start, unhandled) if rank == KEYWORD else rank
+            found.append(Completion(word, "keyword", rank=known))
+    unique: dict[str, Completion] = {}
+    for each in found:
+        unique.setdefault(each.word, each)
+    return sorted(unique.values(), key=lambda each: each.rank)
 
 
 def word_at(text: str, offset: int) -> tuple[int, int]:
@@ -150,31 +160,50 @@ class _NameCompletion:
         workspace: Workspace,
         file: File,
         around: tuple[str, str],
-        scope: FileScope,
         owner: TopLevel | None,
         offset: int,
     ) -> None:
         self._workspace = workspace
+        self._project = workspace.project
         self._file = file
         self._around = around
-        self._scope = scope
+        self._scope = Scopes(workspace.project)[file]
         self._owner = owner
         self._offset = offset
+        self._value: ExpectedValue | None = None
 
-    def names(self) -> Iterator[Completion]:
-        """Yield the names that fit."""
+    def names(self) -> list[Completion]:
+        """Return the names that fit."""
         # In parentheses, or in the braces of a part.
         inside = closing_brackets(self._around[0]).split("\n")
         blocks = isinstance(self._owner, (Component, Member)) and len(inside) > 1
         given = inside[0] == ")" or blocks
-        words = (*NAME, *ARGUMENT) if given else NAME
-        for owner in parse_with_placeholder(
-            self._workspace, self._file, self._around, self._owner, words
-        ):
+        for owner in self._parsed((*NAME, *ARGUMENT) if given else NAME):
             found = self._matching(owner)
             if found is not None:
-                yield from found
-                return
+                return list(found)
+        return []
+
+    def units(self) -> list[Completion]:
+        """Return the units of the number before the cursor, or of a declaration."""
+        head, tail = self._around
+        number = _QUANTITY.search(head)
+        expected = None
+        if number is not None:
+            place = _NameCompletion(
+                self._workspace, self._file, (head[: number.start()], tail), self._owner,
+                self._offset,
+            )  # fmt: skip
+            values = (expected_value(each, self._project) for each in place._parsed(NAME))
+            expected = next((each.type for each in values if each is not None), None)
+        return [Completion(name, "unit", rank=rank) for name, rank in ranked_units(expected)]
+
+    def word_rank(self, word: str) -> int | None:
+        """Return the rank of a keyword; None if it begins a value that does not fit."""
+        return word_rank(word, self._value) if self._value is not None else KEYWORD
+
+    def _parsed(self, words: Sequence[str]) -> Iterator[TopLevel]:
+        return parse_with_placeholder(self._workspace, self._file, self._around, self._owner, words)
 
     def _matching(self, owner: TopLevel) -> Iterable[Completion] | None:
         """Return the completions of the placeholder; None if it names no existing element."""
@@ -182,33 +211,62 @@ class _NameCompletion:
         if words is not None:
             return [Completion(word, detail, None, text) for word, detail, text in words]
         if is_placeholder_name(owner):
-            given = slots(owner, self._workspace.project)
+            given = slots(owner, self._project)
             left = given.unassigned if given is not None else []
             sign = (
                 "=>"
                 if any(each.field == PLACEHOLDER for each in nodes_of(owner, ResultMapping))
                 else "="
             )
-            return [_completion(each, f"{each.name} {sign} ${{1}}") for each in left]
+            return [entry_of(each, f"{each.name} {sign} ${{1}}", rank=BEST) for each in left]
+        self._value = expected_value(owner, self._project)
         for use in nodes_of(owner, FieldUse):
             if use.name == PLACEHOLDER and is_own(use):
                 return [Completion(name, f"field : {kind}") for name, kind in own_fields().items()]
-            if use.name == PLACEHOLDER and (facts := facts_of(use, owner, self._workspace.project)):
-                fields = fields_of(use, owner, self._workspace.project)
+            if use.name == PLACEHOLDER and (facts := facts_of(use, owner, self._project)):
+                fields = self._values(fields_of(use, owner, self._project))
                 told = [Completion(name, f"field : {kind}") for name, kind in facts.items()]
-                return [*map(_completion, fields), *told]
+                return [*fields, *told]
         nodes = Candidates(self._workspace, self._scope, self._owner or owner, self._offset)
         for found in nodes.of(owner):
-            calls = _calls() if _is_value(owner) else ()
-            return [*(_completion(each) for each in found), *calls]
+            return self._fitting(found, owner)
         for type_ in nodes_of(owner, TypeRef):
             if PLACEHOLDER in type_.name:
-                known = type_names(type_, owner, self._scope)
-                return [
-                    _completion(each, word=word) if each is not None else Completion(word, detail)
-                    for word, detail, each in known
-                ]
-        return None
+                return self._types(type_, owner)
+        return undeclared_names(owner, self._project)
+
+    def _fitting(self, nodes: Iterable[Node], owner: TopLevel) -> Iterable[Completion]:
+        """Return the completions of candidates for the placeholder."""
+        for holder, ref in references(owner):
+            if PLACEHOLDER in ref.name:
+                ordered = by_use(nodes, holder, ref, owner, self._owner or owner, self._offset)
+                kind = NODES.get(ref.kind)
+                more = self._imports((kind,)) if kind is not None and "." not in ref.name else ()
+                return [*map(entry_of, ordered), *more]
+        if self._value is None:
+            return map(entry_of, nodes)
+        calls = function_entries(self._value) if _is_value(owner) else ()
+        more = self._imports((Constant, EnumType)) if _is_value(owner) else ()
+        return [*self._values(nodes), *calls, *more]
+
+    def _values(self, nodes: Iterable[Node]) -> Iterable[Completion]:
+        return (
+            value_entries(nodes, self._value) if self._value is not None else map(entry_of, nodes)
+        )
+
+    def _types(self, type_: TypeRef, owner: TopLevel) -> list[Completion]:
+        known, kinds = type_names(type_, owner, self._scope)
+        more = self._imports(kinds) if "/" not in type_.name else ()
+        return [
+            *(
+                entry_of(each, word=word) if each is not None else Completion(word, detail)
+                for word, detail, each in known
+            ),
+            *more,
+        ]
+
+    def _imports(self, kinds: tuple[type[Node], ...]) -> Iterable[Completion]:
+        return missing_imports(kinds, self._scope)
 
 
 def _is_value(owner: TopLevel) -> bool:
@@ -220,20 +278,3 @@ def _is_value(owner: TopLevel) -> bool:
     if any(PLACEHOLDER in each.target.span.text for each in assigned):
         return False
     return any(PLACEHOLDER in use.name for use in nodes_of(owner, NameUse))
-
-
-def _calls() -> Iterator[Completion]:
-    """Yield the built-in functions."""
-    for name, function in BUILT_INS.items():
-        fields = ", ".join(f"${{{n}:{each}}}" for n, each in enumerate(function.parameters, 1))
-        text = f"{name} {fields}" if name == NEIGHBORS else f"{name}({fields})"
-        yield Completion(name, function.signature(name), text=text)
-
-
-def _completion(node: Node, text: str | None = None, word: str = "") -> Completion:
-    """Return the completion of a node, with its kind and type as detail."""
-    type_ = getattr(node, "type", None)
-    detail = kind_name(node)
-    if isinstance(type_, TypeRef):
-        detail += f" : {type_.span.text}"
-    return Completion(word or str(node.name), detail, node, text)  # type: ignore[attr-defined]

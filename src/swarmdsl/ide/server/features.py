@@ -39,10 +39,13 @@ FEATURES: Mapping[str, Mapping[str, Any]] = {
         lsp.CALL_HIERARCHY_INCOMING_CALLS: None,
         lsp.CALL_HIERARCHY_OUTGOING_CALLS: None,
     },
-    "edit": {
+    "complete": {
+        # After the others, formatted text has a blank, which would close the list.
         lsp.TEXT_DOCUMENT_COMPLETION: lsp.CompletionOptions(
-            trigger_characters=[".", ">", ":", "[", "(", ",", "/"]
+            trigger_characters=[" ", ".", "[", "(", "/", '"']
         ),
+    },
+    "edit": {
         lsp.TEXT_DOCUMENT_SIGNATURE_HELP: lsp.SignatureHelpOptions(
             trigger_characters=["(", ","], retrigger_characters=["="]
         ),

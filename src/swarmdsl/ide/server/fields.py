@@ -27,6 +27,7 @@ from swarmdsl.syntax.ast import (
     MessageType,
     MonitorTrigger,
     NameUse,
+    Node,
     Operation,
     Param,
     Parameter,
@@ -116,7 +117,7 @@ def slots(owner: TopLevel, project: Project) -> Slots | None:
 def fields_of(use: FieldUse, owner: TopLevel, project: Project) -> Sequence[Field]:
     """Return the fields of the type of the placeholder's base."""
     typing = Typing(Interfaces(project.declarations()))
-    type_ = _with_event(use, owner, typing).infer(use.base)
+    type_ = with_event(use, owner, typing).infer(use.base)
     return (typing.interfaces.fields(type_) if isinstance(type_, Named) else None) or ()
 
 
@@ -124,7 +125,7 @@ def facts_of(use: FieldUse, owner: TopLevel, project: Project) -> dict[str, Type
     """Return the types of the facts about an event that its message does not hide."""
     if not (isinstance(use.base, NameUse) and use.base.name == "event"):
         return {}
-    typing = _with_event(use, owner, Typing(Interfaces(project.declarations())))
+    typing = with_event(use, owner, Typing(Interfaces(project.declarations())))
     if not typing.of_swarm:
         return {}
     return {name: type_ for name, type_ in ENVELOPE_FIELDS.items() if typing.is_envelope(name)}
@@ -134,12 +135,12 @@ def is_of_member(use: FieldUse, owner: TopLevel, project: Project) -> bool:
     """Return True for a field of `event` where it says which robot joined or was lost."""
     if not (isinstance(use.base, NameUse) and use.base.name == "event"):
         return False
-    typing = _with_event(use, owner, Typing(Interfaces(project.declarations())))
+    typing = with_event(use, owner, Typing(Interfaces(project.declarations())))
     return typing.event == MEMBER
 
 
-def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:
-    """Return the typing at a field access, which may be about an event that triggers or happens."""
+def with_event(use: Node, owner: TopLevel, typing: Typing) -> Typing:
+    """Return the typing at a node of an expression, with the event that triggers or happens."""
     for fact in nodes_of(owner, Fact):
         if fact.guard is not None and any(node is use for node in walk(fact.guard)):
             return typing.in_fact(fact)

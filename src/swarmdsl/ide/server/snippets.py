@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Collection, Iterator
 from functools import cache
 from pathlib import Path
@@ -11,11 +12,13 @@ from swarmdsl.base.read_files import read_text
 from swarmdsl.base.records import dataclass
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.candidates import containers
+from swarmdsl.ide.server.completion import word_at
 from swarmdsl.ide.server.outcomes import unhandled_outcomes
 from swarmdsl.ide.server.speculative_parse import declaration_at
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Activity, State, StateMachine
 
+_BEGINNING = re.compile(r"(?:\A|[\n{};]|\*/)[ \t]*\Z")
 _TABLE = Path(__file__).parent / "snippets.json"
 
 
@@ -42,7 +45,13 @@ def table() -> dict[tuple[str, ...], list[Snippet]]:
 def snippets(
     keywords: Collection[str], workspace: Workspace, file: File, offset: int
 ) -> Iterator[Snippet]:
-    """Yield the snippets that fit at an offset, given the possible keywords."""
+    """Yield the snippets that fit at an offset, given the possible keywords.
+
+    They are whole statements, so they fit only where one begins.
+    """
+    start, _ = word_at(file.source.text, offset)
+    if _BEGINNING.search(file.source.text, 0, start) is None:
+        return
     for words, several in table().items():
         if all(word in keywords for word in words):
             yield from several

@@ -1,8 +1,8 @@
-"""Handlers for editing: completion, signature help, formatting, rename, quick fixes."""
+"""Handlers for editing: signature help, formatting, rename, quick fixes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from lsprotocol import types as lsp
@@ -11,64 +11,12 @@ from pygls.exceptions import JsonRpcException
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.renaming import RefusedError, renamable, rename
-from swarmdsl.ide.server.completion import Completion, completions
 from swarmdsl.ide.server.diagnostics import to_lsp_diagnostics
 from swarmdsl.ide.server.fixes import quick_fix
-from swarmdsl.ide.server.hover import described
 from swarmdsl.ide.server.layout import line_changes
-from swarmdsl.ide.server.session import Place, Session
+from swarmdsl.ide.server.session import Session
 from swarmdsl.ide.server.signatures import signature
-from swarmdsl.ide.server.snippets import snippets
-from swarmdsl.ide.server.symbol_kinds import COMPLETION_KINDS
 from swarmdsl.syntax.formatter import format_source
-
-
-def _completion(session: Session, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
-    place = session.place(params.text_document, params.position)
-    if place is None:
-        return []
-    fills = session.has_capability("text_document.completion.completion_item.snippet_support")
-    answers = []
-    for index, each in enumerate(completions(*place)):
-        answer = lsp.CompletionItem(
-            label=each.word,
-            detail=each.detail,
-            kind=_completion_kind(each),
-            sort_text=f"{each.node is None:d}{index:05}",
-        )
-        if each.node is not None:
-            text = described(each.node)
-            answer.documentation = lsp.MarkupContent(kind=lsp.MarkupKind.Markdown, value=text)
-        if fills and each.text is not None:
-            answer.insert_text = each.text
-            answer.insert_text_format = lsp.InsertTextFormat.Snippet
-        answers.append(answer)
-    return [*answers, *(_snippets(place, answers) if fills else ())]
-
-
-def _completion_kind(completion: Completion) -> lsp.CompletionItemKind:
-    if completion.node is not None:
-        return COMPLETION_KINDS.get(type(completion.node), lsp.CompletionItemKind.Variable)
-    if completion.detail == "keyword":
-        return lsp.CompletionItemKind.Keyword
-    if completion.text is not None:
-        return lsp.CompletionItemKind.Function
-    return lsp.CompletionItemKind.Struct
-
-
-def _snippets(place: Place, answers: list[lsp.CompletionItem]) -> Iterator[lsp.CompletionItem]:
-    """Yield snippets that begin with one of the possible keywords."""
-    keywords = {each.label for each in answers if each.kind is lsp.CompletionItemKind.Keyword}
-    for snippet in snippets(keywords, *place):
-        yield lsp.CompletionItem(
-            label=snippet.label,
-            detail=snippet.about,
-            kind=lsp.CompletionItemKind.Snippet,
-            filter_text=snippet.label,
-            insert_text=snippet.text,
-            insert_text_format=lsp.InsertTextFormat.Snippet,
-            sort_text=f"2{snippet.label}",
-        )
 
 
 def _signature(session: Session, params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
@@ -183,7 +131,6 @@ def _code_actions(session: Session, params: lsp.CodeActionParams) -> list[lsp.Co
 
 
 REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
-    lsp.TEXT_DOCUMENT_COMPLETION: _completion,
     lsp.TEXT_DOCUMENT_SIGNATURE_HELP: _signature,
     lsp.TEXT_DOCUMENT_FORMATTING: _formatting,
     lsp.TEXT_DOCUMENT_RANGE_FORMATTING: _range_formatting,
