@@ -127,10 +127,10 @@ def ros(ros_folder: Path, packages: list[Path], tmp_path: Path) -> Iterator[Any]
     for number, node in enumerate(made.nodes):
         # A monitor has the lines of others in its trace.
         if node.trace and not node.module.endswith("_monitor"):
-            _agrees(node, tmp_path / f"replay_{number}.toml")
+            check_trace(node, tmp_path / f"replay_{number}.toml")
 
 
-def _agrees(node: Any, scenario: Path) -> None:
+def check_trace(node: Any, scenario: Path) -> None:
     """Replay the trace of a node on its machine in the model; both must agree."""
     environment = load_module("environment")
     (model,) = [m for m in environment.MODELS if f"{_system(m).name}_behavior" == node.package]

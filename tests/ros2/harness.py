@@ -22,6 +22,7 @@ class Ros:
 
     def __init__(self, folder: Path, packages: list[Path], domain: int, scratch: Path) -> None:
         self.scratch = scratch
+        self.prefix: list[str] = []  # what begins each command
         self.python = folder / "venv" / "bin" / "python"
         self.processes: list[subprocess.Popen[str]] = []
         self.nodes: list[RosNode] = []
@@ -62,7 +63,7 @@ class Ros:
     def start(self, *command: object, **options: Any) -> subprocess.Popen[str]:
         """Start a process."""
         process = subprocess.Popen(
-            [str(self.python), *map(str, command)],
+            [*self.prefix, str(self.python), *map(str, command)],
             env=self.environment,
             text=True,
             cwd=self.scratch,

@@ -2,7 +2,7 @@
 
 from collections import namedtuple
 
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
 from .engine import Event
@@ -15,7 +15,9 @@ SETTINGS = (
 )
 JOINED, LOST = 'member_joined', 'member_lost'
 _TOPIC = 'members'
-_DEPTH = 1000
+_SENDING = QoSProfile(depth=1)
+_HEARING = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
+"""A reliable subscription waits for each lost heartbeat, and hears none meanwhile."""
 
 
 class Member(namedtuple('Member', ('id', 'role'))):
@@ -59,11 +61,11 @@ class Members:
                 what = 'no robot is heard: parameter `heartbeat.period` or `member` is missing'
                 node.get_logger().warning(what)
             return
-        topic, qos = f'{swarm.rstrip("/")}/{_TOPIC}', QoSProfile(depth=_DEPTH)
-        self._publisher = node.create_publisher(String, topic, qos, callback_group=group)
+        topic = f'{swarm.rstrip("/")}/{_TOPIC}'
+        self._publisher = node.create_publisher(String, topic, _SENDING, callback_group=group)
         if hear is not None:
             self._subscription = node.create_subscription(
-                String, topic, self._listen, qos, callback_group=group
+                String, topic, self._listen, _HEARING, callback_group=group
             )
 
     def begin(self):
