@@ -24,6 +24,9 @@ KEYS = 100
 FEW = 10
 SEED = 13
 LINES_OF_A_FILE = 10_000
+# Times that a name of an event is deleted and typed again, over all of its letters.
+EVENTS = 120
+_EVENT = "swarm event "
 _WORD = "moved"
 _PEERS = peers.FOLDER
 
@@ -69,6 +72,7 @@ def section(folder: Path) -> Section:
     file = single / "single.swarm"
     typed = {each.name: _typed(each, file, KEYS if each is OURS else FEW) for each in present}
     peaks = {each.name: _peak(each, large) for each in present if each is OURS}
+    renamed = _renamed(OURS, file)
 
     def row(what: str, value: Callable[[Server], str]) -> None:
         found.rows.append([what, *(value(each) for each in present)])
@@ -78,6 +82,18 @@ def section(folder: Path) -> Section:
     row("keystroke to diagnostics", lambda each: _figures(typed[each.name].keys))
     row("completion", lambda each: _figures(typed[each.name].completions))
     row("hover", lambda each: _figures(typed[each.name].hovers))
+    row(
+        f"a letter of the name of an event that many machines use, {len(renamed.keys)} edits",
+        lambda each: _figures(renamed.keys) if each is OURS else "",
+    )
+    row(
+        "the same, those of them that bind or lose the events",
+        lambda each: _figures(renamed.binding) if each is OURS else "",
+    )
+    row(
+        "peak memory after these edits, MB",
+        lambda each: f"{renamed.memory / 1e6:.0f}" if each is OURS else "",
+    )
     row(
         f"peak memory with {lines:,} lines, MB",
         lambda each: f"{peaks[each.name] / 1e6:.0f}" if each.name in peaks else "",
@@ -89,6 +105,9 @@ def section(folder: Path) -> Section:
     found.goal(f"completion, in ms, {slow}", _high(ours.completions) * 1e3, 30, "{:.1f}")
     found.goal(f"hover, in ms, {slow}", _high(ours.hovers) * 1e3, 30, "{:.1f}")
     found.goal("peak memory, in MB", peaks[OURS.name] / 1e6, 150, "{:.0f}")
+    found.goal("a letter of the name of an event, in ms", median(renamed.keys) * 1e3, 150, "{:.0f}")
+    found.goal("an edit that binds the events, in ms", median(renamed.binding) * 1e3, 300, "{:.0f}")
+    found.goal("peak memory after these edits, in MB", renamed.memory / 1e6, 300, "{:.0f}")
     found.notes += absent
     return found
 
@@ -139,6 +158,46 @@ def _typed(server: Server, file: Path, count: int) -> Typed:
         ]
     client.close()
     return Typed(keys, actions["completion"], actions["hover"])
+
+
+@dataclass
+class Renamed:
+    """CPU seconds of edits of names of events, and the peak memory after them, in bytes.
+
+    `binding` are the edits after which machines that used an event find none, or find it again.
+    """
+
+    keys: list[float]
+    binding: list[float]
+    memory: int
+
+
+def _renamed(server: Server, file: Path) -> Renamed:
+    """Delete the names of events letter by letter, and type them again."""
+    text = file.read_text(encoding="utf-8")
+    rows = text.split("\n")
+    client = Client(server.command, file.parent)
+    client.open(file, text)
+    places = [(line, row) for line, row in enumerate(rows) if row.startswith(_EVENT)]
+    found = Renamed([], [], 0)
+    version = 1
+    while len(found.keys) < 2 * EVENTS:
+        for line, row in places:
+            start, end = len(_EVENT), len(_EVENT) + len(row[len(_EVENT) :].split()[0])
+            # The first letter stays: a declaration without a name is a syntax error.
+            deleted = [(at, "") for at in range(end - 1, start, -1)]
+            typed = [(at, row[at]) for at in range(start + 1, end)]
+            for at, letter in (*deleted, *typed):
+                version += 1
+                before = client.cpu
+                client.type(file, version, line, at, letter)
+                client.wait_for_diagnostics(file)
+                found.keys.append(client.cpu - before)
+                if at == end - 1:
+                    found.binding.append(found.keys[-1])
+    found.memory = client.memory
+    client.close()
+    return found
 
 
 def _place(rows: Sequence[str], dice: Random) -> tuple[int, int]:

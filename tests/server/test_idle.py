@@ -59,3 +59,20 @@ def test_busy_server_collects_garbage(collected, monkeypatch):
     monkeypatch.setattr(server, "_IDLE_AFTER", 60)
     ask = {"jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": {"query": "a"}}
     assert '"id": 2' in run(INITIALIZE, ask, ask, until=collected)
+
+
+def test_server_with_many_new_objects_collects_garbage(collected, monkeypatch):
+    monkeypatch.setattr(server, "_IDLE_AFTER", 60)
+    monkeypatch.setattr(server, "_new_objects", lambda: server._OBJECTS_PER_COLLECTION)
+    assert '"id": 1' in run(INITIALIZE, until=collected)
+
+
+def test_new_objects_are_counted_without_automatic_collection():
+    gc.disable()
+    try:
+        gc.collect()
+        before = server._new_objects()
+        kept = [[] for _ in range(1000)]
+        assert server._new_objects() - before >= len(kept)
+    finally:
+        gc.enable()

@@ -91,5 +91,11 @@ class FactCache:
 
     reuse: Mapping[StateMachine, Reuse] = field(default_factory=dict)
     reused: frozenset[StateMachine] = frozenset()
-    exchanges: Mapping[Declaration | None, Exchange] = field(default_factory=dict)
+    exchanges: dict[Declaration | None, Exchange] = field(default_factory=dict)
     usage: UsageCache = field(default_factory=UsageCache)
+
+    def forget(self, declarations: Iterable[Declaration]) -> None:
+        """Drop the facts of declarations whose references were bound again."""
+        for each in declarations:
+            self.usage.pop(each, None)
+            self.exchanges.pop(each, None)

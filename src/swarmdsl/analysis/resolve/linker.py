@@ -45,6 +45,7 @@ from swarmdsl.syntax.ast import (
     Fitness,
     Function,
     Member,
+    Node,
     Operation,
     Optimization,
     Param,
@@ -167,11 +168,18 @@ def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> N
     for node, ref in references(owner):
         kind = _TOP_LEVEL.get(ref.kind)
         if kind is not None and not isinstance(node, Activity):
-            found = scope.resolve(ref.name, kind)
-            if isinstance(found, Unresolved):
-                report_reference(found, ref, node, kind, scope, report)
-            else:
-                ref.target = found
+            bind_reference(node, ref, kind, scope, report)
+
+
+def bind_reference(
+    node: Node, ref: Ref[Any], kind: type[Any], scope: FileScope, report: Diagnostics
+) -> None:
+    """Resolve a reference from `node` to a declaration of a kind."""
+    found = scope.resolve(ref.name, kind)
+    if isinstance(found, Unresolved):
+        report_reference(found, ref, node, kind, scope, report)
+    else:
+        ref.target = found
 
 
 def _params_of_members(

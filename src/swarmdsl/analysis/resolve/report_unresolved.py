@@ -6,7 +6,7 @@ a correct model does not pay for them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TypeVar
 
 from swarmdsl.analysis.node_kinds import kind_of
@@ -75,24 +75,16 @@ def report_missing(
     candidates: Iterable[str],
     report: Diagnostics,
     *,
-    nodes: Mapping[str, Declaration] | None = None,
     hint: Hint | None = None,
 ) -> None:
     """Report a missing name and suggest the most similar candidate.
 
-    `nodes` are the declarations of candidates. `hint` is used if no candidate is similar.
+    `hint` is used if no candidate is similar.
     """
     close = closest(name, candidates) if report.wants_hint("unresolved-name") else None
-    similar = nodes.get(close) if close and nodes else None
     other = hint() if hint is not None and not close else None
-    report.report(
-        "unresolved-name",
-        at,
-        kind=kind,
-        name=name,
-        related=(Label(similar.name.span, "this has a similar name"),) if similar else (),
-        help=f"did you mean `{close}`?" if close else other,
-    )
+    help_ = f"did you mean `{close}`?" if close else other
+    report.report("unresolved-name", at, kind=kind, name=name, help=help_)
 
 
 def report_missing_inside(
@@ -207,6 +199,19 @@ def _report_missing_declaration(
     if not report.wants_hint("unresolved-name"):
         report.report("unresolved-name", at, kind=kind, name=name)
         return
+    key = (name, kinds, tuple(built_in))
+    if key not in scope.suggestions:
+        scope.suggestions[key] = _suggestion(*key, scope)
+    related, help_ = scope.suggestions[key]
+    if help_ is None and hint is not None and "." not in name:
+        help_ = hint()
+    report.report("unresolved-name", at, kind=kind, name=name, related=related, help=help_)
+
+
+def _suggestion(
+    name: str, kinds: Kinds, built_in: tuple[str, ...], scope: FileScope
+) -> tuple[tuple[Label, ...], str | None]:
+    """Return the place and the help of the best hint for a missing declaration."""
     from swarmdsl.analysis.resolve.hints import candidates_for, declared_elsewhere
     from swarmdsl.analysis.resolve.missing_declaration import suggest_declaration, suggest_import
 
@@ -214,22 +219,17 @@ def _report_missing_declaration(
     if elsewhere is not None:
         node, line = elsewhere
         label = Label(node.name.span, "declared in a file that is not imported")
-        help_ = f"add `{line}`"
-        report.report("unresolved-name", at, kind=kind, name=name, related=(label,), help=help_)
-        return
+        return (label,), f"add `{line}`"
     qualified = "." in name
     if not qualified and (library := suggest_import(name, kinds, scope.project)) is not None:
-        report.report("unresolved-name", at, kind=kind, name=name, help=f"add `{library}`")
-        return
-
-    def declaration() -> str | None:
-        if qualified:
-            return None
-        return suggest_declaration(name, kinds) or (hint() if hint is not None else None)
-
+        return (), f"add `{library}`"
     nodes = candidates_for(name, kinds, scope)
-    candidates = [*built_in, *nodes]
-    report_missing(kind, name, at, candidates, report, nodes=nodes, hint=declaration)
+    close = closest(name, [*built_in, *nodes])
+    if close is None:
+        return (), None if qualified else suggest_declaration(name, kinds)
+    similar = nodes.get(close)
+    label_of = (Label(similar.name.span, "this has a similar name"),) if similar else ()
+    return label_of, f"did you mean `{close}`?"
 
 
 def _may_be_skipped(name: str, scope: FileScope) -> bool:

@@ -11,10 +11,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from swarmdsl.analysis.resolve.membership import MEMBER_EVENTS, member_events
+from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.project.libraries import imported_name
 from swarmdsl.project.loader import File, Project
-from swarmdsl.syntax.ast import Declaration
+from swarmdsl.syntax.ast import Declaration, Node
 
 if TYPE_CHECKING:
     from swarmdsl.analysis.resolve.interfaces import Interfaces
@@ -66,6 +67,11 @@ class FileScope:
         self.skipped_names = file.parsed.skipped_names.union(
             *(other.parsed.skipped_names for _, other in file.imports)
         )
+        # Hints for missing declarations, by name, kinds and built-in names: place and help.
+        self.suggestions: dict[
+            tuple[str, tuple[type[Node], ...], tuple[str, ...]],
+            tuple[tuple[Label, ...], str | None],
+        ] = {}
         found = {statement for statement, _ in file.imports}
         self.imports_resolved = all(statement in found for statement in file.model.imports)
 

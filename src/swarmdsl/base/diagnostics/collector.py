@@ -37,11 +37,14 @@ ALL_WARNINGS = "warnings"
 
 
 MOST_HINTS = 50
+"""Different messages of one kind that get a hint, at most."""
+
+MOST_HINTED = 500
 """Diagnostics of one kind that get a hint, at most."""
 
 
 _NOTHING: dict[Diagnostic, None] = {}
-_NO_COUNTS: dict[str, int] = {}
+_NO_TALLIES: dict[str, Tally] = {}
 _NO_LEVELS: Mapping[str, Level] = {}
 
 
@@ -82,6 +85,30 @@ def placed(found: Diagnostic, place: Callable[[Span], Span]) -> Diagnostic:
     )
 
 
+class Tally:
+    """Number of diagnostics of one kind, and their different messages."""
+
+    __slots__ = ("count", "messages")
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.messages: set[str] = set()
+
+    def add(self, other: Tally) -> None:
+        """Add the diagnostics of another collector."""
+        self.count += other.count
+        self.messages |= other.messages
+
+    @property
+    def allows_hint(self) -> bool:
+        """True if one more diagnostic of the kind gets a hint.
+
+        Each search visits all candidates. After many different names there is likely a single
+        cause, such as a missing import.
+        """
+        return len(self.messages) < MOST_HINTS and self.count < MOST_HINTED
+
+
 class Diagnostics:
     """Collector of diagnostics, without duplicates.
 
@@ -89,11 +116,11 @@ class Diagnostics:
     """
 
     # In an editor there are many, most of them empty.
-    __slots__ = ("_counts", "_found", "_levels", "has_errors")
+    __slots__ = ("_found", "_levels", "_tallies", "has_errors")
 
     def __init__(self, levels: Mapping[str, Level] | None = None) -> None:
         self._found: dict[Diagnostic, None] = _NOTHING
-        self._counts: dict[str, int] = _NO_COUNTS
+        self._tallies: dict[str, Tally] = _NO_TALLIES
         self._levels = levels or _NO_LEVELS
         # True if a diagnostic stops the build.
         self.has_errors = False
@@ -140,10 +167,12 @@ class Diagnostics:
             if level is Level.DENY:
                 found = replace(found, severity=Severity.ERROR)
         if self._found is _NOTHING:
-            self._found, self._counts = {}, {}
+            self._found, self._tallies = {}, {}
         self._found.setdefault(found)
         self.has_errors = self.has_errors or found.severity is Severity.ERROR
-        self._counts[found.name] = self.count_of(found.name) + 1
+        tally = self._tallies.setdefault(found.name, Tally())
+        tally.count += 1
+        tally.messages.add(found.message)
 
     def wants(self, silent: str) -> bool:
         """Return True if a warning that is off by default is enabled."""
@@ -155,16 +184,17 @@ class Diagnostics:
         return self._levels.get(name, others)
 
     def wants_hint(self, name: str) -> bool:
-        """Return True if a hint should be searched for an unresolved name.
+        """Return True if a hint should be searched for an unresolved name."""
+        tally = self._tallies.get(name)
+        return tally is None or tally.allows_hint
 
-        Each search visits all candidates. After fifty reports of one kind there is likely a single
-        cause, such as a missing import.
-        """
-        return self.count_of(name) < MOST_HINTS
+    def tally(self, name: str) -> Tally:
+        """Return the tally of the reports with this name."""
+        return self._tallies.get(name) or Tally()
 
     def count_of(self, name: str) -> int:
         """Return the number of reports with this name."""
-        return self._counts.get(name, 0)
+        return self.tally(name).count
 
     def count(self, severity: Severity) -> int:
         """Return the number of diagnostics of a severity."""

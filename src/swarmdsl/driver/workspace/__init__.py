@@ -22,7 +22,7 @@ from swarmdsl.analysis.checks.context import Context, read_packages
 from swarmdsl.analysis.checks.facts import FactCache
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.linker import link
-from swarmdsl.base.diagnostics.collector import MOST_HINTS, Diagnostic, Diagnostics, placed
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Tally, placed
 from swarmdsl.base.read_files import MOST
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config.settings import Settings
@@ -35,6 +35,7 @@ from swarmdsl.driver.workspace.invalidation import (
     packages,
     visible_names,
 )
+from swarmdsl.driver.workspace.rebinding import rebind, rebinding
 from swarmdsl.driver.workspace.relink import link_outside
 from swarmdsl.project.libraries import imported_name
 from swarmdsl.project.loader import File, Project, expanded, load
@@ -230,7 +231,7 @@ class Workspace:
         change.everything |= self._full_report is not None
         self._full_report = None
         self._reported.difference_update(change.removed)
-        stale = affected(change, self._fragments.values(), self._reported)
+        stale, checked = self._affected(change)
         fresh = set(change.new)
         for fragment in change.removed:
             fragment.forget()
@@ -248,9 +249,22 @@ class Workspace:
             return
         context = make_context(self.project, self._collector(), self._facts)
         linking.record_uses(stale, context.interfaces.declared)
-        self._check(stale, context)
+        self._check(stale | checked, context)
         if self._exceeds_hint_limit():
             self._check_all()
+
+    def _affected(self, change: Change) -> tuple[set[Fragment], set[Fragment]]:
+        """Return the fragments to read, link and check again, and those only to check again."""
+        events = rebinding(change, self._fragments, self._reported)
+        if events is None:
+            return affected(change, self._fragments.values(), self._reported), set()
+        rebind(events, change, self._fragments, self.project)
+        stale = {*change.new, *with_users(events.stale).intersection(self._fragments.values())}
+        checked = events.checked - stale
+        for fragment in events.outdated:
+            self._facts.forget(fragment.parsed.model.declarations)
+        self._update_reported(events.machines - stale)
+        return stale, checked
 
     def _read(self, fragments: set[Fragment]) -> None:
         for fragment in fragments:
@@ -277,9 +291,10 @@ class Workspace:
             for optimization in fragment.parsed.model.optimizations:
                 check_optimization(optimization, of_fragment)
             shown = {label.span.source for found in fragment.found() for label in found.related}
+            used = (each for each in fragment.uses if self._fragments.get(each.source) is each)
             fragment.use(
                 {
-                    *fragment.uses,
+                    *used,
                     *(self._fragments[each] for each in shown if each in self._fragments),
                 }
             )
@@ -298,12 +313,15 @@ class Workspace:
 
     def _exceeds_hint_limit(self) -> bool:
         """Return True if only the first diagnostics get a hint."""
-        counts = dict.fromkeys(_HINTED_DIAGNOSTICS, self._loaded.count_of(_HINTED_DIAGNOSTICS[0]))
-        for fragment in self._reported:
-            for report in (fragment.outside, fragment.inside, fragment.checked):
-                for name in _HINTED_DIAGNOSTICS:
-                    counts[name] += report.count_of(name)
-        return any(count >= MOST_HINTS for count in counts.values())
+        for name in _HINTED_DIAGNOSTICS:
+            total = Tally()
+            total.add(self._loaded.tally(name))
+            for fragment in self._reported:
+                for report in (fragment.outside, fragment.inside, fragment.checked):
+                    total.add(report.tally(name))
+            if not total.allows_hint:
+                return True
+        return False
 
     def _check_all(self) -> None:
         """Check everything at once, if the order of declarations affects diagnostics."""

@@ -31,10 +31,12 @@ from swarmdsl.syntax.parse import parse
 
 # Interval between checks that the parent process is alive, in seconds.
 _CLIENT_CHECK = 5.0
-# Garbage is collected after this many seconds without a message, or after this many messages.
-# During an edit, it would take a tenth of the time.
+# Garbage is collected after this many seconds without a message, after this many messages, or when
+# there are this many objects more than after the last collection (about 30 MB): an edit that
+# affects many declarations leaves a tenth of that. After each edit, it would take too long.
 _IDLE_AFTER = 0.5
 _MESSAGES_PER_COLLECTION = 200
+_OBJECTS_PER_COLLECTION = 250_000
 # If checking takes less than this (seconds), diagnostics follow at once. Otherwise the server waits
 # as long as a check takes, at most the second value, so that further edits cost nothing.
 _FAST_CHECK = 0.05
@@ -85,6 +87,8 @@ class Server(LanguageServer):
         except Empty:
             if self.session.dirty:
                 self._publish()
+                if self._has_garbage():
+                    self._collect()
                 return True
             if self._messages:
                 self._idle()
@@ -96,7 +100,7 @@ class Server(LanguageServer):
         self.protocol.process(message)
         if self.session.dirty and not self.session.models.has_pending_edits:
             self._publish()  # the models are up to date after the answer
-        if self._messages >= _MESSAGES_PER_COLLECTION:
+        if self._has_garbage():
             self._collect()
         return not self._outgoing.gone
 
@@ -130,6 +134,11 @@ class Server(LanguageServer):
             self.report_server_error(error)
         self._collect()
 
+    def _has_garbage(self) -> bool:
+        """Return True if so much may be garbage that a collection does not wait any longer."""
+        many = _new_objects() >= _OBJECTS_PER_COLLECTION
+        return many or self._messages >= _MESSAGES_PER_COLLECTION
+
     def _collect(self) -> None:
         self._messages = 0
         gc.collect()
@@ -158,3 +167,11 @@ class Server(LanguageServer):
     def log(self, message: str) -> None:
         """Send an error message to the log of the client."""
         self.window_log_message(lsp.LogMessageParams(type=lsp.MessageType.Error, message=message))
+
+
+def _new_objects() -> int:
+    """Return how many objects that may be garbage there are since the last collection.
+
+    They are counted though automatic collection is off.
+    """
+    return gc.get_count()[0]
