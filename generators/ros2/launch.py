@@ -14,6 +14,7 @@ from swarmdsl.codegen.shared import (
     check_part_values,
     check_wiring,
     has_node,
+    member_functions,
     member_wiring,
 )
 from swarmdsl.ir import Member, Role, Swarm, System
@@ -21,6 +22,8 @@ from swarmdsl.ir import Member, Role, Swarm, System
 from .names import TARGET
 from .params import given
 
+_ROBOT = "robot"
+"""Launch file of one robot."""
 _SECOND = 1_000_000_000
 
 
@@ -39,8 +42,8 @@ class LaunchedNode:
 class LaunchedRole:
     """A role of the swarm, of which `least` members are launched by default.
 
-    `components` is the launch file of the nodes of its components, in another package. `robots`
-    are the nodes of members with values of their own, by index.
+    `bringup` is the launch file of the nodes of its functions and components, in another package.
+    `robots` are the nodes of members with values of their own, by index.
     """
 
     name: str
@@ -49,7 +52,7 @@ class LaunchedRole:
     lower: int
     upper: int | None
     nodes: tuple[LaunchedNode, ...]
-    components: str | None
+    bringup: str | None
     robots: Mapping[int, tuple[LaunchedNode, ...]]
 
 
@@ -66,14 +69,9 @@ class Launch:
     origin: Span | None
 
     @property
-    def has_components(self) -> bool:
-        """True if components need nodes of their own."""
-        return any(role.components is not None for role in self.roles)
-
-    @property
-    def has_remaps(self) -> bool:
-        """True if topics of a node are remapped."""
-        return any(node.remaps for role in self.roles for node in role.nodes)
+    def has_bringup(self) -> bool:
+        """True if functions or components need nodes of their own."""
+        return any(role.bringup is not None for role in self.roles)
 
 
 def launches(system: System, modules: Mapping[str, str], report: Diagnostics) -> list[Launch]:
@@ -82,7 +80,8 @@ def launches(system: System, modules: Mapping[str, str], report: Diagnostics) ->
     for swarm in system.swarms:
         roles = tuple(role for role in _roles(swarm, system, modules, report) if role.nodes)
         if roles:
-            name = fresh(snake_case(swarm.name) or "swarm", (each.name for each in found))
+            taken = (_ROBOT, *(each.name for each in found))
+            name = fresh(snake_case(swarm.name) or "swarm", taken)
             bringup = bringup_package(system)
             found.append(
                 Launch(
@@ -114,7 +113,8 @@ def _roles(
     components = system.components_by_name
     for role in swarm.roles:
         member = system.members_by_name[role.member]
-        parts = any(has_node(components[part.component]) for part in member.parts)
+        needed = any(has_node(components[part.component]) for part in member.parts)
+        needed = needed or bool(member_functions(member, system))
         check_part_values(role, member, system, TARGET, report)
         yield LaunchedRole(
             role.name,
@@ -123,7 +123,7 @@ def _roles(
             role.multiplicity.lower,
             role.multiplicity.upper,
             tuple(_nodes(role.configured(member), system, modules, report)),
-            f"{snake_case(member.name)}.launch.py" if parts else None,
+            f"{snake_case(member.name)}.launch.py" if needed else None,
             {
                 robot.index: tuple(
                     _nodes(role.configured(member, robot.index), system, modules, report)

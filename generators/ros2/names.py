@@ -11,8 +11,17 @@ from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 TARGET = "ros2"
 _MODULES = (
     *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "identity", "members"),
-    *("node", "parameters", "property_monitors", "robot_lines", "swarm_measures"),
-    *("swarm_monitor", "swarm_verdicts", "swarm_watch", "topics", "tracing", "values"),
+    *("launching", "model", "models", "node", "parameters", "property_monitors", "robot_lines"),
+    *(
+        "robots",
+        "swarm_measures",
+        "swarm_monitor",
+        "swarm_verdicts",
+        "swarm_watch",
+        "topics",
+        "tracing",
+        "values",
+    ),
 )
 # A package with such a name would hide a module that the nodes import.
 _IMPORTED = (

@@ -28,11 +28,13 @@ _MODULES = (
     "host",
     "identity",
     "members",
+    "models",
     "parameters",
     "topics",
     "tracing",
     "values",
 )
+_OF_LAUNCHES = ("launching", "robots")
 _OF_MONITORS = (
     *("robot_lines", "swarm_measures", "swarm_monitor", "swarm_verdicts", "swarm_watch"),
 )
@@ -83,6 +85,9 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
     for module in _MODULES:
         text = runtime_source(_RUNTIME / f"{module}.py", head)
         yield OutputFile(f"{root}/{root}/{module}.py", text)
+    model = {"NAME": package.system, "VERSION": options.version, "DIGEST": package.digest}
+    text = runtime_source(_RUNTIME / "model.py", head, **model)
+    yield OutputFile(f"{root}/{root}/model.py", text)
     node = _fill("package/package/node.py", header=head, lifecycle=options.lifecycle, **values)
     yield OutputFile(f"{root}/{root}/node.py", node)
     if package.callbacks:
@@ -104,6 +109,12 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
     for test in ("flake8", "pep257"):
         text = runtime_source(_RUNTIME / "test" / f"test_{test}.py", head)
         yield OutputFile(f"{root}/test/test_{test}.py", text)
+    if package.launches:
+        text = _fill("package/launch/robot.launch.py", header=head, **values)
+        yield OutputFile(f"{root}/launch/robot.launch.py", text)
+        for module in _OF_LAUNCHES:
+            text = runtime_source(_RUNTIME / f"{module}.py", head)
+            yield OutputFile(f"{root}/{root}/{module}.py", text)
     monitors = {monitor.launch: monitor.module for monitor in package.monitors}
     for launch in package.launches:
         text = _fill(

@@ -13,7 +13,13 @@ from swarmdsl.codegen.ros import (
     interfaces_to_write,
     manifest,
 )
-from swarmdsl.codegen.shared import envelopes_of, follows_members, missing_values, uses_self
+from swarmdsl.codegen.shared import (
+    envelopes_of,
+    follows_members,
+    missing_values,
+    model_digest,
+    uses_self,
+)
 from swarmdsl.ir import StateMachine, System
 
 from . import names, package
@@ -75,9 +81,11 @@ PLAIN = Variant()
 
 @dataclass(frozen=True)
 class PackageView:
-    """The whole package."""
+    """The whole package; `system` is the name of its model, and `digest` the meaning of that."""
 
     name: str
+    system: str
+    digest: str
     doc: str
     header: str
     machines: tuple[MachineView, ...]
@@ -134,6 +142,8 @@ def package_view(
     depends += [("test_depend", needed) for needed in linters]
     return PackageView(
         name=name,
+        system=system.name,
+        digest=model_digest(system),
         doc=doc,
         header=header(system, machines),
         machines=views,

@@ -1,4 +1,4 @@
-"""Package that starts a node for each component of a member, and connects them."""
+"""Package that starts the functions and components of members, and connects them."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from swarmdsl.codegen import (
     Label,
     Span,
     dataclass,
+    fresh,
     incoming_topic,
     is_ros_package_name,
     snake_case,
@@ -21,6 +22,7 @@ from swarmdsl.codegen.shared import (
     bringup_package,
     check_wiring,
     has_node,
+    member_functions,
     member_wiring,
     params_by_name,
 )
@@ -34,10 +36,11 @@ from .settings import value_of
 
 @dataclass(frozen=True)
 class Started:
-    """The node of a part: its package, params as YAML, and remapped topics."""
+    """The node of a part or function: its package, params as YAML, and remapped topics."""
 
     name: str
     package: str
+    kind: str
     has_settings: bool
     values: tuple[tuple[str, str], ...]
     remaps: Remaps
@@ -47,7 +50,7 @@ class Started:
 
 @dataclass(frozen=True)
 class Robot:
-    """A robot type with the nodes of its parts."""
+    """A robot type with the nodes of its functions and parts."""
 
     name: str
     member: str
@@ -81,17 +84,20 @@ class Bringup:
 
 
 def bringup(system: System, made: Packages, ros: int, report: Diagnostics) -> Bringup | None:
-    """Return the package that starts the nodes; None if no member has a part with a node.
+    """Return the package that starts the nodes; None if no member has any.
 
     The package exists even if none of the nodes is written, because launch files of behaviours
     include its launch files.
     """
     written = {node.model: node for node, _ in made.nodes if node.kind == "component"}
+    functions = {node.model: node for node, _ in made.nodes if node.kind == "function"}
     components = system.components_by_name
     robots = []
     for member in system.members:
         parts = [part for part in member.parts if has_node(components[part.component])]
-        if not parts:
+        # In ROS 1, launch files of behaviours include this package unasked, whatever is beside it.
+        called = member_functions(member, system) if ros == 2 else []
+        if not parts and not called:
             continue
         wired = member_wiring(member, system)
         check_wiring(wired, TARGET, report)
@@ -102,7 +108,11 @@ def bringup(system: System, made: Packages, ros: int, report: Diagnostics) -> Br
             for part in parts
             if part.component in written
         )
-        doc = tuple(comment_lines(member.doc)) or (f"The components of one {member.name}.",)
+        names = [part.name for part in member.parts]
+        for name in called:
+            if name in functions:
+                started += (_function(functions[name], fresh(functions[name].package, names)),)
+        doc = tuple(comment_lines(member.doc)) or (f"The nodes of one {member.name}.",)
         robots.append(Robot(snake_case(member.name), member.name, started, doc, member.origin))
     if not robots:
         return None
@@ -148,12 +158,18 @@ def _started(part: Part, node: Node, wired: Wiring, ros: int, report: Diagnostic
     return Started(
         part.name,
         node.package,
+        "components",
         bool(node.settings),
         tuple(values),
         wired.remaps(part.name),
         tuple(comment_lines(part.doc)),
         part.origin,
     )
+
+
+def _function(node: Node, name: str) -> Started:
+    doc = tuple(comment_lines(node.doc))
+    return Started(name, node.package, "functions", bool(node.settings), (), (), doc, node.origin)
 
 
 def _check_name(

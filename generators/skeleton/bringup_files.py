@@ -29,7 +29,7 @@ def bringup_files(
         depends = [("buildtool_depend", "ament_cmake"), *tools, *depends]
     else:
         depends = [("buildtool_depend", "catkin"), ("exec_depend", "roslaunch"), *depends]
-    summary = f"Starts the components of {_listed(made)}."
+    summary = f"Starts the functions and components of {_listed(made)}."
     text = manifest(
         root,
         summary,

@@ -6,6 +6,7 @@ have their own, namespaces are pushed and popped, included files see what the in
 
 from __future__ import annotations
 
+import importlib.util
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -27,6 +28,9 @@ _MODULES = {
     "ament_index_python": (),
     "ament_index_python.packages": (),
 }
+
+_OWN = ("robots", "launching")
+"""Modules of a package that its launch files import, each after those that it imports."""
 
 
 class Recorded:
@@ -61,6 +65,18 @@ def _install(packages: Mapping[str, Path], setitem: Callable[..., None]) -> None
         for each in classes:
             setattr(module, each, type(each, (Recorded,), {}))
         setitem(sys.modules, name, module)
+    for name, folder in packages.items():
+        modules = [path for path in _OWN if (folder / name / f"{path}.py").is_file()]
+        if modules:
+            package = ModuleType(name)
+            package.__path__ = [str(folder / name)]
+            setitem(sys.modules, name, package)
+        for each in modules:
+            path = folder / name / f"{each}.py"
+            spec = importlib.util.spec_from_file_location(f"{name}.{each}", path)
+            assert spec is not None
+            assert spec.loader is not None
+            setitem(sys.modules, spec.name, importlib.util.module_from_spec(spec))
     missing = type("PackageNotFoundError", (KeyError,), {})
 
     def share(name: str) -> str:
@@ -71,6 +87,15 @@ def _install(packages: Mapping[str, Path], setitem: Callable[..., None]) -> None
     index = sys.modules["ament_index_python.packages"]
     index.PackageNotFoundError = missing  # type: ignore[attr-defined]
     index.get_package_share_directory = share  # type: ignore[attr-defined]
+    for each in [
+        sys.modules[f"{name}.{own}"]
+        for name in packages
+        for own in _OWN
+        if f"{name}.{own}" in sys.modules
+    ]:
+        assert each.__spec__ is not None
+        assert each.__spec__.loader is not None
+        each.__spec__.loader.exec_module(each)
 
 
 def _include(

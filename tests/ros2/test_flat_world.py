@@ -226,7 +226,8 @@ def test_nodes_fly_as_the_simulation(ros: Any, patrol: Path) -> None:
 
 def launch(ros: Any, package: Path, monkeypatch: pytest.MonkeyPatch, **arguments: str) -> None:
     """Start the nodes of a swarm as its launch file says."""
-    (file,) = (package / "launch").glob("*.launch.py")
+    robot = package / "launch" / "robot.launch.py"
+    (file,) = set(robot.parent.glob("*.launch.py")) - {robot}
     described = launching.launch(file, {package.name: package}, monkeypatch.setitem, **arguments)
     for number, each in enumerate(described):
         words = ["-m", f"{package.name}.{each['executable']}", "--ros-args"]

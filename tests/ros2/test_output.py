@@ -277,13 +277,63 @@ def test_the_launch_file_starts_every_member(
         ("/eyes/left_1", "watch", "left[1]", 2),
         ("/eyes/head_0", "eye", "head[0].eye", 1),
     ]
-    (alone,) = launch(member="left[2]", left_count="3")
-    assert alone["namespace"] == "/eyes/left_2"
-    assert alone["parameters"][0]["self.count"] == 3
-    with pytest.raises(ValueError, match=re.escape("there is no member left[2]")):
-        launch(member="left[2]")
-    with pytest.raises(ValueError, match="there cannot be 5 members in role left"):
-        launch(left_count="5")
+    some = launch(members="left[2] head_0, head", left_count="4")
+    assert [each["namespace"] for each in some] == ["/eyes/left_2", "/eyes/head_0"]
+    assert [each["parameters"][0]["self.count"] for each in some] == [4, 1]
+
+
+def test_one_robot_is_launched_on_its_own_computer(
+    generate: Generate, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write(generate(MODEL), tmp_path)
+    package = tmp_path / "lab_behavior"
+
+    def launch(**arguments: str) -> list[dict[str, Any]]:
+        path = package / "launch" / "robot.launch.py"
+        return launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, **arguments)
+
+    traces, logs = tmp_path / "out" / "traces", tmp_path / "out" / "logs"
+    folders = {"trace_dir": str(traces), "log_dir": str(logs)}
+    (node,) = launch(
+        member="left_2", other_models="refuse", respawn="true", respawn_delay="0.5", **folders
+    )
+    assert node["namespace"] == "/eyes/left_2"
+    values, *files = node["parameters"]
+    assert values == {
+        "member": "left[2]",
+        "self.count": 3,  # as many as its number needs
+        "model.others": "refuse",
+        "stay": True,
+        "use_sim_time": False,
+        "trace.file": str(traces / "left[2].jsonl"),
+        "trace.keep": True,
+    }
+    assert [Path(file).name for file in files] == ["left.yaml"]
+    assert (node["respawn"], node["respawn_delay"]) == (True, 0.5)
+    assert node["additional_env"] == {"ROS_LOG_DIR": str(logs)}
+    assert traces.is_dir()
+    assert logs.is_dir()
+    for given, said in (
+        ({}, "`member` names one robot, not ``: left_0, head_0 and so on"),
+        ({"member": "left"}, "names one robot, not `left`"),
+        ({"member": "right_0"}, "there is no robot right_0, but left_0, head_0 and so on"),
+        ({"member": "head_0", "swarm": "ears"}, "there is no swarm ears, but eyes"),
+        (
+            {"member": "left_4"},
+            "no left_4: there is left_0 to left_3, and left_count can be 2 to 4",
+        ),
+        ({"member": "left_2", "left_count": "2"}, "no left_2: there is left_0 to left_1"),
+        ({"member": "left_0", "left_count": "5"}, "there cannot be 5 of left, but 2 to 4"),
+        ({"member": "left_0", "left_count": "two"}, "must be a number of robots, not `two`"),
+        ({"member": "left_0", "respawn_delay": "soon"}, "a number of seconds, not `soon`"),
+        ({"member": "left_0", "log_dir": str(package / "setup.py")}, "log_dir cannot be made"),
+    ):
+        with pytest.raises(Exception, match=re.escape(said)) as error:
+            launch(**given)
+        assert type(error.value).__name__ == "RobotError"
+    path = package / "launch" / "eyes.launch.py"
+    with pytest.raises(Exception, match="there is no robot left2: there is left_0 to left_1"):
+        launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, members="left2")
 
 
 WATCHED = """
@@ -415,19 +465,20 @@ def test_the_launch_file_starts_the_monitor(
         path = package / "launch" / "depot.launch.py"
         return launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, **arguments)
 
-    first, *others = launch(trace_dir="traces")
+    traces = tmp_path / "traces"
+    first, *others = launch(trace_dir=str(traces))
     assert (first["kind"], first["namespace"], first["name"]) == ("Node", "/depot", "monitor")
     assert first["executable"] == "depot_monitor"
     assert first["parameters"] == [
         {
             "members": "carrier[0] carrier[1]",
             "use_sim_time": False,
-            "trace.file": "traces/monitor.jsonl",
+            "trace.file": str(traces / "monitor.jsonl"),
         }
     ]
     assert [each["name"] for each in others] == ["carrying", "carrying"]
     assert [each["name"] for each in launch(monitor="false")] == ["carrying", "carrying"]
-    assert [each["name"] for each in launch(member="carrier[1]")] == ["carrying"]
+    assert [each["name"] for each in launch(members="carrier[1]")] == ["carrying"]
 
 
 def test_whole_numbers_stay_in_their_types(generate: Generate) -> None:

@@ -41,14 +41,15 @@ class Members:
     Sends the heartbeats of this robot, and hears those of others if `hear` is not None.
 
     `hear` is called with each event about another robot. Nodes of one robot share its name: it is
-    there while one of them is.
+    there while one of them is. Only robots are heard for which `counts` is true.
     """
 
-    def __init__(self, node, settings, swarm, robot, group, alarms, hear):
+    def __init__(self, node, settings, swarm, robot, group, alarms, hear, counts):
         self._node = node
         self._robot = robot
         self._alarms = alarms
         self._hear = hear
+        self._counts = counts
         self._period = settings['heartbeat.period']
         self._timeout = settings['heartbeat.timeout']
         self._first = settings['heartbeat.members'].split()
@@ -108,7 +109,7 @@ class Members:
         self._alarms.post(lambda: self._receive(message.data))
 
     def _receive(self, name):
-        if self._beat is None or not name:
+        if self._beat is None or not name or not self._counts(name):
             return
         is_new = name not in self._heard
         if self._note(name) and is_new:

@@ -36,12 +36,16 @@ if TYPE_CHECKING:
     from swarmdsl.codegen.shared.missing_values import (
         missing_values,
     )
+    from swarmdsl.codegen.shared.model_digest import (
+        model_digest,
+    )
     from swarmdsl.codegen.shared.nodes import (
         BehaviorNode,
         ParamValue,
         behavior_nodes,
         bringup_package,
         has_node,
+        member_functions,
     )
     from swarmdsl.codegen.shared.parallel_transitions import (
         entered_region,
@@ -89,8 +93,9 @@ else:
             "swarmdsl.codegen.shared.events": "Events delays",
             "swarmdsl.codegen.shared.identity": "follows_members member_uses uses_self",
             "swarmdsl.codegen.shared.missing_values": "missing_values",
+            "swarmdsl.codegen.shared.model_digest": "model_digest",
             "swarmdsl.codegen.shared.nodes": (
-                "BehaviorNode ParamValue behavior_nodes bringup_package has_node"
+                "BehaviorNode ParamValue behavior_nodes bringup_package member_functions has_node"
             ),
             "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
             "swarmdsl.codegen.shared.part_values": "check_part_values",
@@ -134,9 +139,11 @@ __all__ = [
     "follows_members",
     "has_node",
     "measure_text",
+    "member_functions",
     "member_uses",
     "member_wiring",
     "missing_values",
+    "model_digest",
     "params_by_name",
     "parts_text",
     "python_address",

@@ -54,8 +54,27 @@ def behavior_nodes(member: Member, system: System) -> Iterator[BehaviorNode]:
             yield BehaviorNode(name, machine, params, part.name, wired.remaps(part.name))
 
 
+def member_functions(member: Member, system: System) -> list[str]:
+    """Return the functions of the model, outside libraries, that a member's behaviours call.
+
+    Those of its components are not among them: the nodes of the components have them.
+    """
+    operations = {name for each in system.components for name in each.operations}
+    operations |= {
+        name for each in system.members for part in each.parts for name in part.operations
+    }
+    found: dict[str, None] = {}
+    for node in behavior_nodes(member, system):
+        for state in node.machine.walk():
+            if state.activity is not None:
+                name = state.activity.function
+                if not system.function(name).in_library and name not in operations:
+                    found.setdefault(name)
+    return list(found)
+
+
 def bringup_package(system: System) -> str:
-    """Return the package of target `skeleton` that starts members' components."""
+    """Return the package of target `skeleton` that starts members' functions and components."""
     return f"{snake_case(system.name)}_bringup"
 
 

@@ -1,0 +1,285 @@
+"""Launch a swarm, some of its robots, or one of them on its own computer."""
+
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ament_index_python.packages import get_package_share_directory, PackageNotFoundError
+from launch import LaunchDescription
+from launch.actions import (
+    DeclareLaunchArgument,
+    GroupAction,
+    IncludeLaunchDescription,
+    OpaqueFunction,
+)
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import LifecycleNode, Node, PushRosNamespace
+
+from .robots import chosen, limits, RobotError
+
+_SPACE = 'the namespace of the swarm'
+
+
+class Behavior(NamedTuple):
+    """Node of a robot, for its own behaviour or that of a part, with its remapped topics."""
+
+    executable: str
+    name: str
+    part: str = ''
+    remappings: Any = None
+
+
+class Swarm(NamedTuple):
+    """
+    A swarm with its roles by name; `package` has its nodes and their parameters.
+
+    `bringup` is the package with the nodes of functions and components, `heartbeat` the seconds
+    between heartbeats of a robot and without them until it is lost, `monitor` the executable that
+    watches the properties.
+    """
+
+    package: str
+    name: str
+    roles: Any
+    bringup: str = ''
+    heartbeat: Any = None
+    monitor: str = ''
+    is_managed: bool = False
+
+
+def describe_swarm(swarm):
+    """Describe a launch of a swarm, or of the robots that `members` names."""
+    arguments = [
+        ('namespace', swarm.name, _SPACE),
+        ('members', '', 'the robots to launch, such as uav_1,uav_3; all when empty'),
+        ('use_sim_time', 'false', 'whether time comes from the topic /clock'),
+        ('world', 'false', 'whether a simulated world has the robots: swarmc simulate --ros2'),
+        ('log_level', 'info', 'the least level of messages that are logged'),
+        ('log_dir', '', 'folder for the logs of the nodes; that of ROS when empty'),
+        ('trace_dir', '', 'folder for the trace of each node; none is written when empty'),
+        ('respawn', 'false', 'whether a node that fails is started again, in its first state'),
+        ('respawn_delay', '2.0', 'seconds until a node is started again'),
+        ('other_models', 'warn', 'robots of another model: warn, refuse or ignore'),
+    ]
+    if swarm.monitor:
+        about = 'whether the properties are watched, in a launch of the whole swarm'
+        arguments.append(('monitor', 'true', about))
+    if swarm.is_managed:
+        about = 'whether the nodes configure and activate themselves'
+        arguments.append(('autostart', 'true', about))
+    if swarm.bringup:
+        installed = 'true' if _folder(swarm.bringup) else 'false'
+        for name in ('functions', 'components'):
+            about = f'whether {name} are launched, by package {swarm.bringup}'
+            arguments.append((name, installed, about))
+    for name, role in swarm.roles.items():
+        about = f'how many of {name}: {limits(role)}; when empty {role.least}, or as many as named'
+        arguments.append((f'{name}_count', '', about))
+    launch = OpaqueFunction(function=lambda context: _Launch(swarm, context).groups())
+    return LaunchDescription([*_declared(arguments), launch])
+
+
+def describe_robot(package, swarms):
+    """
+    Describe a launch of the robot `member`, with all nodes that its computer has.
+
+    `swarms` has the roles of each swarm by the name of its launch file, which has more arguments.
+    """
+    first = next(role for roles in swarms.values() for role in roles)
+    arguments = [
+        ('member', '', f'the robot of this computer, such as {first}_0'),
+        ('swarm', '', f'its swarm, if several have such a robot: {", ".join(swarms)}'),
+    ]
+    launch = OpaqueFunction(function=lambda context: _one_robot(context, package, swarms))
+    return LaunchDescription([*_declared(arguments), launch])
+
+
+def _one_robot(context, package, swarms):
+    member = LaunchConfiguration('member').perform(context).strip()
+    named = LaunchConfiguration('swarm').perform(context)
+    there = ', '.join(f'{role}_0' for roles in swarms.values() for role in roles)
+    if not member or ',' in member or any(member in roles for roles in swarms.values()):
+        raise RobotError(f'`member` names one robot, not `{member}`: {there} and so on')
+    if named and named not in swarms:
+        raise RobotError(f'there is no swarm {named}, but {", ".join(swarms)}')
+    role = member.rpartition('[')[0] or member.rpartition('_')[0]
+    having = [name for name, roles in swarms.items() if role in roles and named in ('', name)]
+    if not having:
+        raise RobotError(f'there is no robot {member}, but {there} and so on')
+    if len(having) > 1:
+        raise RobotError(f'several swarms have {role}: say which, swarm:={having[0]} for instance')
+    path = str(Path(_folder(package), 'launch', f'{having[0]}.launch.py'))
+    source = PythonLaunchDescriptionSource(path)
+    return [IncludeLaunchDescription(source, launch_arguments=[('members', member)])]
+
+
+class _Launch:
+    """Nodes of the robots that are launched, as the arguments say."""
+
+    def __init__(self, swarm, context):
+        self._swarm = swarm
+        self._context = context
+        counts = {name: self._text(f'{name}_count') for name in swarm.roles}
+        self._counts, self._robots = chosen(swarm.roles, self._text('members'), counts)
+        self._namespace = self._text('namespace').strip('/')
+        self._config = Path(_folder(swarm.package), 'config', swarm.name)
+        self._traces = self._made('trace_dir')
+        self._logs = self._made('log_dir')
+        try:
+            self._delay = float(self._text('respawn_delay'))
+        except ValueError:
+            said = self._text('respawn_delay')
+            raise RobotError(f'respawn_delay must be a number of seconds, not `{said}`') from None
+
+    def groups(self):
+        """Return a group of nodes for each robot, and one for the monitor."""
+        is_whole = not self._text('members').strip()
+        has_monitor = self._swarm.monitor and is_whole and self._is_on('monitor')
+        monitor = [self._monitor()] if has_monitor else []
+        return [*monitor, *(self._robot(role, number) for role, number in self._robots)]
+
+    def _robot(self, role, number):
+        nodes = self._swarm.roles[role].nodes
+        return GroupAction(
+            [
+                PushRosNamespace(LaunchConfiguration('namespace')),
+                PushRosNamespace(f'{role}_{number}'),
+                *(self._behavior(role, number, node) for node in nodes),
+                *self._bringup(role, number),
+            ]
+        )
+
+    def _behavior(self, role, number, node):
+        """Return a node, with the parameters of the role and its own, which go before them."""
+        member = f'{role}[{number}]' + (f'.{node.part}' if node.part else '')
+        parameters = {
+            'member': member,
+            'self.count': self._counts[role],
+            'model.others': self._text('other_models'),
+            'stay': self._is_on('respawn'),
+            'use_sim_time': self._is_on('use_sim_time') or self._is_on('world'),
+            **self._heartbeat(),
+            **self._trace(member),
+        }
+        if self._swarm.is_managed:
+            parameters['lifecycle.autostart'] = self._is_on('autostart')
+        if self._is_on('world'):
+            # The world hears what a robot sends there, and says there what reaches it by radio.
+            parameters['swarm'] = f'/{self._namespace}/{role}_{number}/radio'
+            # It does not pass on models.
+            parameters['model.others'] = 'ignore'
+        files = (f'{role}.yaml', f'{role}_{number}.model.yaml', f'{role}_{number}.yaml')
+        paths = [self._config / file for file in files]
+        made = LifecycleNode if self._swarm.is_managed else Node
+        return made(
+            package=self._swarm.package,
+            executable=node.executable,
+            name=node.name,
+            parameters=[parameters, *(str(path) for path in paths if path.exists())],
+            remappings=node.remappings,
+            respawn=self._is_on('respawn'),
+            respawn_delay=self._delay,
+            **({'namespace': ''} if self._swarm.is_managed else {}),
+            **self._common(),
+        )
+
+    def _monitor(self):
+        parameters = {
+            'members': self._members(),
+            'use_sim_time': self._is_on('use_sim_time') or self._is_on('world'),
+        }
+        if self._traces:
+            parameters['trace.file'] = str(Path(self._traces, 'monitor.jsonl'))
+        node = Node(
+            package=self._swarm.package,
+            executable=self._swarm.monitor,
+            name='monitor',
+            parameters=[parameters],
+            **self._common(),
+        )
+        return GroupAction([PushRosNamespace(LaunchConfiguration('namespace')), node])
+
+    def _bringup(self, role, number):
+        """Return the nodes of functions and components, if they are wanted and installed."""
+        file = self._swarm.roles[role].bringup
+        # A world has the servers of the functions.
+        functions = file and self._is_on('functions') and not self._is_on('world')
+        components = file and self._is_on('components')
+        if not (functions or components):
+            return []
+        folder = _folder(self._swarm.bringup)
+        if not folder:
+            what = f'package {self._swarm.bringup}, which target `skeleton` of swarmc writes'
+            raise RobotError(f'functions and components need {what}: it is not installed')
+        path = Path(folder, 'launch', file)
+        if not path.exists():
+            return []
+        own = self._config / f'{role}_{number}.yaml'
+        arguments = {
+            # The group has set the namespace already.
+            'namespace': '',
+            'use_sim_time': LaunchConfiguration('use_sim_time'),
+            'params_file': str(own) if own.exists() else '',
+            'functions': 'true' if functions else 'false',
+            'components': 'true' if components else 'false',
+        }
+        source = PythonLaunchDescriptionSource(str(path))
+        return [IncludeLaunchDescription(source, launch_arguments=arguments.items())]
+
+    def _common(self):
+        """Return what all nodes have in common."""
+        more = {'additional_env': {'ROS_LOG_DIR': self._logs}} if self._logs else {}
+        arguments = ['--ros-args', '--log-level', LaunchConfiguration('log_level')]
+        return {'arguments': arguments, 'output': 'screen', **more}
+
+    def _heartbeat(self):
+        if self._swarm.heartbeat is None:
+            return {}
+        period, timeout = self._swarm.heartbeat
+        return {
+            'heartbeat.period': period,
+            'heartbeat.timeout': timeout,
+            'heartbeat.members': self._members(),
+        }
+
+    def _members(self):
+        """Return the robots of the whole swarm, divided by spaces."""
+        counts = self._counts.items()
+        return ' '.join(f'{role}[{number}]' for role, count in counts for number in range(count))
+
+    def _trace(self, name):
+        if not self._traces:
+            return {}
+        path = str(Path(self._traces, f'{name}.jsonl'))
+        return {'trace.file': path, 'trace.keep': self._is_on('respawn')}
+
+    def _made(self, argument):
+        """Return a folder, which exists, or an empty string."""
+        folder = self._text(argument)
+        if folder:
+            try:
+                Path(folder).mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise RobotError(f'{argument} cannot be made: {error}') from None
+        return folder
+
+    def _text(self, argument):
+        return LaunchConfiguration(argument).perform(self._context)
+
+    def _is_on(self, argument):
+        return self._text(argument).lower() == 'true'
+
+
+def _declared(arguments):
+    return [
+        DeclareLaunchArgument(name, default_value=value, description=description)
+        for name, value, description in arguments
+    ]
+
+
+def _folder(package):
+    """Return the folder of an installed package; an empty string if there is none."""
+    try:
+        return get_package_share_directory(package)
+    except PackageNotFoundError:
+        return ''

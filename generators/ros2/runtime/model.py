@@ -1,0 +1,5 @@
+"""The model that this package is generated from."""
+
+NAME = ''
+VERSION = ''
+DIGEST = ''
