@@ -22,6 +22,7 @@ STAND_IN = "Stand-in for"
 
 # The templates of Python modules; everything that needs no logic is in a folder `runtime`.
 PYTHON_TEMPLATES = {
+    "ros2/templates/package/launch/robot.launch.py.j2",
     "ros2/templates/package/launch/swarm.launch.py.j2",
     "ros2/templates/package/package/callbacks.py.j2",
     "ros2/templates/package/package/machine.py.j2",

@@ -282,6 +282,18 @@ def test_the_launch_file_starts_every_member(
     assert [each["parameters"][0]["self.count"] for each in some] == [4, 1]
 
 
+def test_the_digest_is_that_of_what_a_model_means(generate: Generate) -> None:
+    def digest(text: str) -> str:
+        module = generate(text)["lab_behavior/lab_behavior/model.py"].text
+        (found,) = re.findall(r"^DIGEST = '([0-9a-f]{12})'$", module, re.MULTILINE)
+        return found
+
+    said = MODEL.replace("swarm Eyes", "// Eyes.\n/// All eyes.\nswarm   Eyes")
+    assert said != MODEL
+    assert digest(said) == digest(MODEL)
+    assert digest(MODEL.replace("Eye[2..4]", "Eye[2..5]")) != digest(MODEL)
+
+
 def test_one_robot_is_launched_on_its_own_computer(
     generate: Generate, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -12,7 +12,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, ClockType
 from std_msgs.msg import String
 
-from . import engine, members, parameters
+from . import engine, members, models, parameters
 from .alarms import Alarms, Pauses
 from .diagnostics import Diagnostics, Losses
 from .engine import Envelope, Event, ExecutionError, Instance, LoopError, Machine, Servers
@@ -28,11 +28,14 @@ engine.FAILURES = (*engine.FAILURES, AttributeError, TypeError)
 _SETTINGS = (
     *SETTINGS,
     *members.SETTINGS,
+    *models.SETTINGS,
     Parameter('swarm', 'string', '', 'Namespace of the swarm; empty for the one around the own.'),
     Parameter('timeouts.server', 'duration', 5.0, 'How long a server may be missing, in s.'),
     Parameter('timeouts.cancel', 'duration', 5.0, 'How long a server may take to stop, in s.'),
     Parameter('diagnostics.period', 'duration', 1.0, 'Time between diagnostics, in s; 0: none.'),
     Parameter('trace.file', 'string', '', 'Where the trace is written to, as lines of JSON.'),
+    Parameter('trace.keep', 'bool', False, 'Whether earlier traces stay, with a number.'),
+    Parameter('stay', 'bool', False, 'Whether the node goes on when its machine has ended.'),
     Parameter('debug.inject', 'bool', False, 'Whether events are taken from `~/events`.'),
 )
 
@@ -98,7 +101,7 @@ class Host:
         self._calls = {}
         self._instance = None
         self._waiting = []
-        self._is_configured = False
+        self._is_configured = self.stays = False
         self.cancel_timeout = self.server_timeout = 0
         parameters.declare(node, (*_SETTINGS, *behavior.parameters))
 
@@ -125,6 +128,7 @@ class Host:
             for name, function in behavior.functions.items()
         }
         self._losses = Losses(self, self._tell_lost)
+        self._diagnostics = Diagnostics(node, behavior.machine.name, self._member, self._losses)
         swarm = settings['swarm'] or node.get_namespace().rpartition('/')[0]
         self._topics = Topics(
             node,
@@ -136,6 +140,9 @@ class Host:
             self._receive,
             self._losses.add,
         )
+        self._models = models.Models(
+            node, settings, swarm, behavior.machine.name, self._group, self._alarms, self.warn
+        )
         self._members = members.Members(
             node,
             settings,
@@ -144,6 +151,7 @@ class Host:
             self._group,
             self._delays,
             self._deliver if behavior.follows_members else None,
+            self._models.counts,
         )
         self._types = {topic.event: topic.interface for topic in behavior.topics}
         self._injected = None
@@ -154,15 +162,16 @@ class Host:
         self._servers = Servers()
         self._pauses = Pauses()
         self._period = settings['diagnostics.period']
-        self._diagnostics = Diagnostics(node, behavior.machine.name, self._member, self._losses)
-        self._output = Output(node, behavior.machine.name, self._member, settings['trace.file'])
+        path, keep = settings['trace.file'], settings['trace.keep']
+        self._output = Output(node, behavior.machine.name, self._member, path, keep)
+        self.stays = settings['stay']
         self._is_configured = True
         if self._period > 0:
             self.later(self._period, self._tell_in_intervals)
 
     def begin(self):
-        """Start the machine from its beginning."""
-        self.post(self._begin)
+        """Start the machine from its beginning, unless others have another model."""
+        self.post(lambda: self._models.admit(self._begin, self._fail))
 
     def end(self, then=lambda: None):
         """End the machine, and call `then` when no server works for it any more."""
@@ -182,6 +191,7 @@ class Host:
             client.destroy()
         self._topics.release()
         self._members.release()
+        self._models.release()
         if self._injected is not None:
             self._node.destroy_subscription(self._injected)
         self._diagnostics.release()
@@ -305,7 +315,12 @@ class Host:
         self._members.begin()
         self._instance.start()
 
+    def _not_begun(self):
+        """Note that the machine was ended before it began."""
+
     def _end(self, then):
+        if self._models.withdraw():
+            self._not_begun()
         if self._instance is not None and self._instance.running:
             self._trace.begin(self._instance, Event('node.shutdown'))
             self._instance.stop()
@@ -362,6 +377,8 @@ class Host:
         self.post(lambda: self._deliver(event))
 
     def _deliver(self, event):
+        if self._models.refuses(event.envelope.sender):
+            return
         if self._instance is not None and self._instance.running:
             self._trace.begin(self._instance, event)
             self._instance.receive(event)

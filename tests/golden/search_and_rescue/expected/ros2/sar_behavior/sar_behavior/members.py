@@ -3,7 +3,7 @@
 
 from collections import namedtuple
 
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
 from .engine import Event
@@ -16,7 +16,9 @@ SETTINGS = (
 )
 JOINED, LOST = 'member_joined', 'member_lost'
 _TOPIC = 'members'
-_DEPTH = 1000
+_SENDING = QoSProfile(depth=1)
+_HEARING = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
+"""A reliable subscription waits for each lost heartbeat, and hears none meanwhile."""
 
 
 class Member(namedtuple('Member', ('id', 'role'))):
@@ -40,14 +42,15 @@ class Members:
     Sends the heartbeats of this robot, and hears those of others if `hear` is not None.
 
     `hear` is called with each event about another robot. Nodes of one robot share its name: it is
-    there while one of them is.
+    there while one of them is. Only robots are heard for which `counts` is true.
     """
 
-    def __init__(self, node, settings, swarm, robot, group, alarms, hear):
+    def __init__(self, node, settings, swarm, robot, group, alarms, hear, counts):
         self._node = node
         self._robot = robot
         self._alarms = alarms
         self._hear = hear
+        self._counts = counts
         self._period = settings['heartbeat.period']
         self._timeout = settings['heartbeat.timeout']
         self._first = settings['heartbeat.members'].split()
@@ -60,11 +63,11 @@ class Members:
                 what = 'no robot is heard: parameter `heartbeat.period` or `member` is missing'
                 node.get_logger().warning(what)
             return
-        topic, qos = f'{swarm.rstrip("/")}/{_TOPIC}', QoSProfile(depth=_DEPTH)
-        self._publisher = node.create_publisher(String, topic, qos, callback_group=group)
+        topic = f'{swarm.rstrip("/")}/{_TOPIC}'
+        self._publisher = node.create_publisher(String, topic, _SENDING, callback_group=group)
         if hear is not None:
             self._subscription = node.create_subscription(
-                String, topic, self._listen, qos, callback_group=group
+                String, topic, self._listen, _HEARING, callback_group=group
             )
 
     def begin(self):
@@ -107,7 +110,7 @@ class Members:
         self._alarms.post(lambda: self._receive(message.data))
 
     def _receive(self, name):
-        if self._beat is None or not name:
+        if self._beat is None or not name or not self._counts(name):
             return
         is_new = name not in self._heard
         if self._note(name) and is_new:

@@ -3,6 +3,7 @@
 
 from itertools import count
 import json
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from rclpy.logging import LoggingSeverity
@@ -190,15 +191,21 @@ class Trace(Observer):
 
 
 class Output:
-    """Writes the lines of a trace to the topics of the node, to its log, and to a file."""
+    """
+    Writes the lines of a trace to the topics of the node, to its log, and to a file.
 
-    def __init__(self, node, machine, member, path):
+    An earlier file is overwritten, or with `keep` gets a number.
+    """
+
+    def __init__(self, node, machine, member, path, keep=False):
         self._node = node
         self._machine = machine
         self._member = member
         self._state = node.create_publisher(String, '~/state', _LAST)
         self._transitions = node.create_publisher(String, '~/transitions', _HISTORY)
         try:
+            if keep and Path(path).exists():
+                Path(path).rename(_numbered(Path(path)))
             self._file = open(path, 'w', encoding='utf-8') if path else None
         except OSError as error:
             raise StartError(f'the trace cannot be written: {error}') from None
@@ -233,6 +240,12 @@ class Output:
         self._node.destroy_publisher(self._transitions)
         if self._file is not None:
             self._file.close()
+
+
+def _numbered(path):
+    """Return a path that does not exist, with a number: `uav[0].1.jsonl`."""
+    made = (path.with_suffix(f'.{number}{path.suffix}') for number in count(1))
+    return next(each for each in made if not each.exists())
 
 
 _as_json = json.JSONEncoder(ensure_ascii=False).encode

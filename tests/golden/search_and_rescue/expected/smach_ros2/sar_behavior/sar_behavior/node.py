@@ -39,7 +39,8 @@ class StateMachineNode(Node):
 
     def _end(self, failed):
         self.failed = self.failed or failed
-        self._on_end()
+        if failed or not self.host.stays:
+            self._on_end()
 
 
 def run(behavior, name, args=None):

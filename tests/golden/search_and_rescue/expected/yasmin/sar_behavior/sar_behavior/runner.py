@@ -130,6 +130,9 @@ class Engine(host.Host):
             super()._begin()
         self._chart.begun()
 
+    def _not_begun(self):
+        self._chart.begun()
+
     def _begin_activity(self, activation):
         run, activation.run = activation.run, None
         if run is not None:
