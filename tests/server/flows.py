@@ -25,7 +25,7 @@ enum Mode {
 }
 const DEFAULT_HEIGHT : float64 = 2.5
 event Start : std_msgs/Empty on "start"
-«event Stop : s|td_msgs/Empty» on "stop"
+event Stop «: s|td_msgs/Empty» on "stop"
 event TargetSeen : std_msgs/String on "seen"
 swarm event MissionDone : std_msgs/Empty
 
@@ -37,8 +37,8 @@ controller Tracker {
 }
 
 statemachine Patrol {
-  «param height : float64 = D|EFAULT_HEIGHT»
-  «var mode : M|ode» = Mode.SLOW
+  param height : float64 «= D|EFAULT_HEIGHT»
+  var mode «: M|ode» = Mode.SLOW
   var seen : string
   var high : bool
   «initial I|dle»
@@ -49,16 +49,16 @@ statemachine Patrol {
   state Rise {
     «do ta|ke_off»(altitude = height) gives (reached => high)
     «on su|cceeded» -> Watch
-    «on aborted -> H|ome»
+    on aborted «-> H|ome»
   }
   state Watch {
     «do l|and»
-    «on TargetSeen [seen == ""] / mode = M|ode.FAST» -> Dock
+    on TargetSeen [seen == ""] / mode «= M|ode.FAST» -> Dock
     «on T|argetSeen» / seen = event.data
-    «on Start, M|issionDone» -> Home
-    «on succeeded [h|igh»] -> Dock
+    on Start«, M|issionDone» -> Home
+    on succeeded «[h|igh»] -> Dock
     on succeeded, aborted -> Home
-    «on Stop / send M|issionDone» -> Home
+    on Stop / «send M|issionDone» -> Home
     «after 5 m|in» -> Home
   }
   «state D|ock»
@@ -70,12 +70,12 @@ statemachine Patrol {
 
 member Rover {
   camera : Camera
-  «tracker : T|racker»
+  tracker «: T|racker»
   «behavior P|atrol»
-  «connect camera.i|mage» -> tracker.picture
+  connect «camera.i|mage» -> tracker.picture
 }
 swarm Rovers {
-  «rover : R|over»[2]
+  rover «: R|over»[2]
 }
 """
 _MARK = re.compile(r"«(.*?)\|(.*?)»(.*)")
@@ -99,7 +99,7 @@ def flows() -> list[Flow]:
         if mark is not None:
             typed, completed, then = mark.groups()
             wanted = re.split(r'[ "(\[]', typed)[-1]
-            wanted = wanted.rpartition(".")[2] if typed.startswith("connect") else wanted
+            wanted = wanted.removeprefix("camera.")  # the list has ports alone
             found.append(Flow(line, typed, wanted + completed, typed + completed, then))
     return found
 

@@ -15,6 +15,8 @@ pytest.importorskip("playwright", reason="no playwright: `make vscode`")
 
 from playwright.sync_api import expect
 
+from ...server.flows import FUNCTIONS, GIVEN, MODEL
+from .typing import fill
 from .window import Window
 
 pytestmark = pytest.mark.timeout(900)  # on a busy machine, each step may take two minutes
@@ -108,6 +110,21 @@ def test_completion(window: Window) -> None:
     rows = window.page.locator(".suggest-widget .monaco-list-row")
     expect(rows.filter(has_text="SelectRover")).to_have_count(1)
     window.press("Escape")
+
+
+def test_names_are_in_the_list_while_one_types(window: Window) -> None:
+    folder = window.folder / "typed"
+    folder.mkdir()
+    (folder / "swarm.toml").write_text('[project]\nname = "patrol"\n', encoding="utf-8")
+    (folder / "functions.swarm").write_text(FUNCTIONS, encoding="utf-8")
+    (folder / "patrol.swarm").write_text(GIVEN, encoding="utf-8")
+    try:
+        window.open("patrol.swarm")
+        fill(window)
+        window.saved("typed/patrol.swarm", lambda now: now == MODEL)
+        window.leave()
+    finally:
+        shutil.rmtree(folder)
 
 
 def test_error_has_a_squiggle_and_a_quick_fix(window: Window) -> None:

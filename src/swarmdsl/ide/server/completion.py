@@ -188,15 +188,14 @@ class _NameCompletion:
         """Return the units of the number before the cursor, or of a declaration."""
         head, tail = self._around
         number = _QUANTITY.search(head)
-        expected = None
+        found = ranked_units(None)
         if number is not None:
-            place = _NameCompletion(
-                self._workspace, self._file, (head[: number.start()], tail), self._owner,
-                self._offset,
-            )  # fmt: skip
+            around = (head[: number.start()], tail)
+            place = _NameCompletion(self._workspace, self._file, around, self._owner, self._offset)
             values = (expected_value(each, self._project) for each in place._parsed(NAME))
-            expected = next((each.type for each in values if each is not None), None)
-        return [Completion(name, "unit", rank=rank) for name, rank in ranked_units(expected)]
+            type_ = next((each.type for each in values if each is not None), None)
+            found = ranked_units(type_) if type_ is not None else iter(())
+        return [Completion(name, "unit", rank=rank) for name, rank in found]
 
     def word_rank(self, word: str) -> int | None:
         """Return the rank of a keyword; None if it begins a value that does not fit."""

@@ -85,7 +85,8 @@ def _packages(workspace: Workspace, file: File, place: Span) -> Iterator[Complet
     known = {each.name for each in file.model.imports if isinstance(each, ImportLibrary)}
     package = place.text.rpartition(".")[0]
     for name in sorted(libraries.packages(Path(file.source.name).parent)):
-        if f"{name}.*" not in known and name != file.package:
+        begins = not package or f"{name}.".startswith(f"{package}.")
+        if begins and f"{name}.*" not in known and name != file.package:
             yield Completion(f"{name}.*", "package", rank=BEST, replaced=place)
     for name, line in library_imports((Node,), workspace.project):
         path = line.partition(" ")[2]

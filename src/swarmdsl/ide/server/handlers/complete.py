@@ -16,10 +16,12 @@ from swarmdsl.ide.server.session import Place, Session
 from swarmdsl.ide.server.snippets import snippets
 from swarmdsl.ide.server.symbol_kinds import COMPLETION_KINDS
 
-# Text before a blank after which a name follows, and no other word.
+# Text before a blank after which a name or a unit follows. A list that is empty there would hide
+# the one of a word that is typed before the answer arrives.
 _BEFORE_NAME = re.compile(
     r"(?:[-=]>|[=:,/(\[<>]|\b(?:on|do|send|cancel|initial|behavior|connect|extends|environment|"
-    r"fitness|import|defer|of|in|to|state|and|or|not|event|function))[ ]\Z"
+    r"fitness|import|defer|of|in|to|state|and|or|not|event|function)|"
+    r"(?<![\w.])\d+(?:\.\d+)?)[ ]\Z"
 )
 
 
