@@ -14,6 +14,8 @@ from typing import Any
 
 import pytest
 
+from swarmdsl.base.diagnostics.catalog import CODES
+
 ROOT = Path(__file__).resolve().parents[2]
 EXTENSION = ROOT / "editors" / "vscode"
 pytestmark = pytest.mark.timeout(900)  # npm may have to install its tools first
@@ -130,9 +132,17 @@ def test_problem_matcher_reads_diagnostics(tmp_path: Path) -> None:
     model.write_text("package a\n\nswarm event Found : Nothing\n", encoding="utf-8")
     command = [sys.executable, "-m", "swarmdsl", "check", "--format", "concise", str(model)]
     output = subprocess.run(command, capture_output=True, text=True).stdout
-    [pattern] = MANIFEST["contributes"]["problemPatterns"]
+    pattern, of_build = MANIFEST["contributes"]["problemPatterns"]
     for matcher in MANIFEST["contributes"]["problemMatchers"]:
-        assert matcher["pattern"] == f"${pattern['name']}"
+        assert matcher["pattern"] == f"${matcher['name'].removesuffix('-watch')}"
+        # The server shows the others in open files, under the owner of this name.
+        is_shown = matcher["owner"] == "swarmdsl"
+        assert matcher["applyTo"] == ("closedDocuments" if is_shown else "allDocuments")
+        assert matcher["pattern"] == ("$swarmc" if is_shown else "$swarmc-build")
+    for code in (each.code for each in CODES.values()):
+        line = f"a.swarm:1:2: warning[{code}] it is so"
+        matching = [each for each in (pattern, of_build) if re.search(each["regexp"], line)]
+        assert matching == [of_build if code.startswith("SW09") else pattern]
     found = re.search(pattern["regexp"], output, re.MULTILINE)
     assert found, output
     assert found[pattern["file"]] == str(model)
@@ -146,7 +156,7 @@ def test_background_matcher_detects_rebuilds(tmp_path: Path) -> None:
     model = tmp_path / "model.swarm"
     model.write_text("package a\n", encoding="utf-8")
     command = [sys.executable, "-m", "swarmdsl", "check", "--watch", "--format", "concise", "."]
-    _, watch = MANIFEST["contributes"]["problemMatchers"]
+    watch = MANIFEST["contributes"]["problemMatchers"][1]
     begin, end = (watch["background"][f"{each}Pattern"] for each in ("begins", "ends"))
     seen = []
     with subprocess.Popen(

@@ -34,32 +34,32 @@ export function activate(context: vscode.ExtensionContext): void {
     command("selectInterpreter", selectInterpreter),
     command("showLog", () => log.show()),
     command("newModel", () => newModel(context.extensionUri)),
-    command("simulate", (file?: vscode.Uri | string, subject?: Simulated) => {
-      const uri = targetFile(file);
+    command("simulate", async (file?: vscode.Uri | string, subject?: Simulated) => {
+      const uri = await savedFile(file);
       return uri && simulate(started, uri, subject);
     }),
-    command("simulateInRealTime", (file?: vscode.Uri | string, subject?: Simulated) => {
-      const uri = targetFile(file);
+    command("simulateInRealTime", async (file?: vscode.Uri | string, subject?: Simulated) => {
+      const uri = await savedFile(file);
       return uri && simulate(started, uri, subject, preview);
     }),
-    command("play", (file?: vscode.Uri | string, subject?: Simulated) => {
-      const uri = targetFile(file);
+    command("play", async (file?: vscode.Uri | string, subject?: Simulated) => {
+      const uri = await savedFile(file);
       return uri && play(started, uri, subject);
     }),
-    command("test", (file?: vscode.Uri | string) => {
-      const uri = targetFile(file);
+    command("test", async (file?: vscode.Uri | string) => {
+      const uri = await savedFile(file);
       return uri && test(started, uri);
     }),
-    command("verify", (file?: vscode.Uri | string, subject?: Simulated) => {
-      const uri = targetFile(file);
+    command("verify", async (file?: vscode.Uri | string, subject?: Simulated) => {
+      const uri = await savedFile(file);
       return uri && verify(started, uri, subject);
     }),
-    command("followTrace", (file?: vscode.Uri | string) => {
-      const uri = targetFile(file);
+    command("followTrace", async (file?: vscode.Uri | string) => {
+      const uri = await savedFile(file);
       return uri && followTrace(started, preview, uri, log);
     }),
-    command("followNodes", (file?: vscode.Uri | string) => {
-      const uri = targetFile(file);
+    command("followNodes", async (file?: vscode.Uri | string) => {
+      const uri = await savedFile(file);
       return uri && followNodes(started, preview, uri, log);
     }),
     command("preview", (file?: vscode.Uri | string, subject?: Subject) => {
@@ -95,4 +95,10 @@ function targetFile(file: vscode.Uri | string | undefined): vscode.Uri | undefin
   }
   const document = vscode.window.activeTextEditor?.document;
   return file ?? (document?.languageId === "swarm" ? document.uri : undefined);
+}
+
+/** File of a command that runs swarmc, which reads from disk: a new file is saved first. */
+async function savedFile(file: vscode.Uri | string | undefined): Promise<vscode.Uri | undefined> {
+  const uri = targetFile(file);
+  return uri?.scheme === "untitled" ? vscode.workspace.save(uri) : uri;
 }

@@ -148,7 +148,7 @@ export class Preview implements vscode.Disposable {
   }
 
   private follow(document: vscode.TextDocument): void {
-    if (this.panel && document.languageId === "swarm" && document.uri.scheme === "file") {
+    if (this.panel && document.languageId === "swarm" && ["file", "untitled"].includes(document.uri.scheme)) {
       this.file = document.uri;
       this.scheduleUpdate();
     }

@@ -116,7 +116,10 @@ export class Server implements vscode.Disposable {
         options: { cwd: this.extension.fsPath },
       },
       {
-        documentSelector: [{ scheme: "file", language: "swarm" }],
+        documentSelector: [
+          { scheme: "file", language: "swarm" },
+          { scheme: "untitled", language: "swarm" },
+        ],
         // The same as in the problem matcher, so that each problem is shown once.
         diagnosticCollectionName: "swarmdsl",
         outputChannel: this.log,

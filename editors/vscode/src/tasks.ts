@@ -18,6 +18,9 @@ const OFFERED: readonly Definition[] = [
   { type: "swarmdsl", command: "test" },
 ];
 
+// The language server shows the same as the first one in open files, but nothing of targets.
+const MATCHERS = ["$swarmc", "$swarmc-build"];
+
 export function provideTasks(server: Server): vscode.Disposable {
   return vscode.tasks.registerTaskProvider("swarmdsl", {
     async provideTasks() {
@@ -45,7 +48,7 @@ function createTask(definition: Definition, folder: vscode.WorkspaceFolder, laun
     line.join(" "),
     "swarmc",
     run(launch, [...line, ...(reported ? ["--format", "concise"] : [])], folder.uri.fsPath),
-    reported ? [watch ? "$swarmc-watch" : "$swarmc"] : [],
+    reported ? MATCHERS.map((each) => (watch ? `${each}-watch` : each)) : [],
   );
   task.isBackground = watch;
   if (command === "test") {

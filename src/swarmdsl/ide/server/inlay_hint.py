@@ -77,6 +77,8 @@ def _policies(activity: Activity) -> Iterator[InlayHint]:
         result = "callback"
     elif activity.results:
         result = "userdata"
+    if goal == result == "empty":
+        return  # nothing is left implicit
     end = activity.span.end
     about = f"goal policy: {goal}; result policy: {result}"
     yield InlayHint(end, f" {goal} → {result}", about)

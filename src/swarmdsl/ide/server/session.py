@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterable, Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
-from urllib.parse import unquote_to_bytes, urlsplit
+from urllib.parse import unquote, unquote_to_bytes, urlsplit
 
 from lsprotocol import types as lsp
 from pygls.capabilities import get_capability
@@ -44,7 +44,11 @@ class Session:
         # Document symbols that were sent last, with the start position of their declaration.
         self.symbol_cache: dict[TopLevel, tuple[Position, list[lsp.DocumentSymbol]]] = {}
         self.dirty = False
+        # Files that a message was shown about.
+        self.told: set[str] = set()
         self._uris: dict[Path, str] = {}
+        # Files that have no place on disk yet, by URI.
+        self._untitled: dict[str, Path] = {}
         self._published: dict[str, list[Diagnostic]] = {}
         self._changed: set[str] = set()
 
@@ -65,6 +69,8 @@ class Session:
             parts = urlsplit(uri)
         except ValueError:
             return None
+        if parts.scheme == "untitled":
+            return self._untitled_path(uri, parts.path)
         if parts.scheme != "file":
             return None
         # A `?` belongs to the file name: editors do not escape it.
@@ -75,6 +81,26 @@ class Session:
         if sys.platform == "win32":
             name = f"//{parts.netloc}{name}" if parts.netloc else name.lstrip("/")
         return Path(os.path.normpath(name))
+
+    def _untitled_path(self, uri: str, name: str) -> Path | None:
+        """Return a path for a new file: in the first open folder, where its imports are found."""
+        if uri not in self._untitled:
+            folder = next(iter(self.models.folders), Path.home())
+            last = PurePosixPath(unquote(name)).name
+            if not last or "\0" in last:
+                return None
+            # No file on disk has it, and no project.
+            self._untitled[uri] = folder / f".{last}.untitled"
+        return self._untitled[uri]
+
+    def tell_once(self, message: str, name: str) -> None:
+        """Show a message about a file, unless it was shown before."""
+        if name not in self.told:
+            self.told.add(name)
+            text = f"{Path(name).name}: {message}"
+            self.client.window_show_message(
+                lsp.ShowMessageParams(type=lsp.MessageType.Info, message=text)
+            )
 
     def uri(self, path: Path) -> str:
         """Return the URI under which the client knows a file."""
@@ -106,6 +132,8 @@ class Session:
         path = self.path(document.uri)
         if path is not None and self.documents.pop(path, None) is not None:
             self._changed.discard(self._uris.pop(path, ""))
+            self.told.discard(str(path))
+            self._untitled.pop(document.uri, None)
             self.models.close(path)
             self.semantic_tokens.forget(str(path))
             self.symbol_cache.clear()
@@ -177,13 +205,18 @@ class Session:
         for workspace, name, diagnostics in self.models.diagnostics():
             # Diagnostics without a file are shown in an open one.
             for path in [Path(name)] if name else self.models.opened(workspace)[:1]:
-                found.setdefault(self.uri(path), []).extend(diagnostics)
+                # Somebody begins to write a file that is open and empty.
+                shown = (each for each in diagnostics if not self._is_begun(path, each))
+                found.setdefault(self.uri(path), []).extend(shown)
         for uri in {**self._published, **found, **dict.fromkeys(self._changed)}:
             now = found.get(uri, [])
             if uri in self._changed or now != self._published.get(uri, []):
                 self._publish(uri, now)
         self._changed.clear()
         self._published = {uri: each for uri, each in found.items() if each}
+
+    def _is_begun(self, path: Path, found: Diagnostic) -> bool:
+        return found.name == "empty-file" and path in self.documents
 
     def _publish(self, uri: str, found: Sequence[Diagnostic]) -> None:
         path = self.path(uri)

@@ -74,6 +74,9 @@ _KEYWORDS = frozenset(
     literal for _, _, literal in generated.TERMINALS if literal.isalpha()
 ) | frozenset(("and", "or", "not", "true", "false"))
 
+# Keywords for which the TextMate grammar has a scope of their own, for colours of the user.
+_OWN_SCOPES = ("succeeded", "aborted", "preempted", "maximize", "minimize")
+
 
 class Token(NamedTuple):
     """Offset, length, index in TYPES, and bit set of MODIFIERS of a word."""
@@ -128,7 +131,7 @@ def declaration_tokens(owner: TopLevel, scope: FileScope) -> list[Token]:
         found[start] = _token(start, each.span.end - base - start, kind, modifiers)
     source, start, end = owner.span
     for at, word in find_tokens(source.text, _WORD, start, end):
-        if word in _KEYWORDS and at not in found:
+        if word in _KEYWORDS and word not in _OWN_SCOPES and at not in found:
             found[at] = _token(at, len(word), "keyword")
     return [token for token in found.values() if token is not None]
 

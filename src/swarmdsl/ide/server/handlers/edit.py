@@ -54,7 +54,9 @@ def _layout(
     source = found[1].source
     text = format_source(source, Diagnostics())
     if text is None:
+        session.tell_once("not formatted: this file has syntax errors", source.name)
         return []
+    session.told.discard(source.name)
     whole = Span(source, 0, len(source.text))
     within = whole if part is None else session.span(found[1], part)
     shown = session.documents.get(source.path) if source.path is not None else None
