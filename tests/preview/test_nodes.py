@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from swarmdsl.ide.preview.ros2 import _NodeListener
+from swarmdsl.ide.preview.live_trace import TraceReader
+from swarmdsl.ide.preview.ros2 import NodeListener, Ros, _NodeTrace
 from swarmdsl.ide.preview.serving import Snapshot
 
 
@@ -59,11 +60,16 @@ class Told:
         self.places.append(None)
 
 
-def listening(graph: Graph, snapshot: Any) -> _NodeListener:
+def listening(graph: Graph, snapshot: Any) -> NodeListener:
     qos = SimpleNamespace(
         QoSProfile=lambda **chosen: chosen, DurabilityPolicy=SimpleNamespace(TRANSIENT_LOCAL=1)
     )
-    return _NodeListener(qos, None, graph, ["/yard"], snapshot, pytest.fail)
+    return NodeListener(
+        Ros(qos, None),
+        graph,
+        ["/yard"],
+        lambda owner: _NodeTrace(TraceReader(owner, True, snapshot, pytest.fail)),
+    )
 
 
 def test_machine_outside_of_a_swarm_is_named_after_its_node() -> None:

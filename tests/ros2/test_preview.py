@@ -133,7 +133,7 @@ print("left")
 
 @pytest.mark.parametrize(
     ("method", "forever"),
-    [('(Executor, "get_nodes")', False), ('(ros2._NodeListener, "poll")', True)],
+    [('(Executor, "get_nodes")', False), ('(ros2.NodeListener, "poll")', True)],
     ids=["executor", "callback"],
 )
 def test_preview_ends_whatever_the_executor_does(

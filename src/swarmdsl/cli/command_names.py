@@ -13,6 +13,7 @@ COMMANDS = (
     "doctor",
     "experiment",
     "explain",
+    "fleet",
     "fmt",
     "import",
     "lsp",

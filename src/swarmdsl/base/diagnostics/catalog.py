@@ -328,6 +328,7 @@ CODES: dict[str, Code] = {
     "no-ros": Code("SW1021", "error", "cannot serve the robots to nodes of ROS 2: {reason}"),
     "no-picture": Code("SW1022", "error", "there is no picture of the robots: {reason}"),
     "clocks-differ": Code("SW1023", "warning", "the clock of {who} differs: {reason}"),
+    "unreadable-bag": Code("SW1024", "error", "cannot read the recording `{path}`: {reason}"),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),

@@ -35,6 +35,8 @@ class Feed:
     def __init__(self) -> None:
         self._changed = threading.Condition()
         self._messages: list[Message] = []
+        self._shown: Message | None = None
+        """Message of which only the last counts."""
         self._trace = 0
         """Number of times that the trace began."""
         self._is_closed = False
@@ -43,6 +45,12 @@ class Feed:
         """Add a message for all pages."""
         with self._changed:
             self._messages.append(message)
+            self._changed.notify_all()
+
+    def show(self, message: Message) -> None:
+        """Replace the message of which only the last counts; all pages get it."""
+        with self._changed:
+            self._shown = message
             self._changed.notify_all()
 
     def begin(self) -> None:
@@ -61,9 +69,11 @@ class Feed:
     def follow(self) -> Iterator[Sequence[Mapping[str, object]]]:
         """Yield the messages for a page, now and when there are more; empty on a timeout."""
         trace, sent = self._trace, 0
+        shown: Message | None = None
 
         def is_new() -> bool:
-            return self._is_closed or trace != self._trace or len(self._messages) > sent
+            is_other = trace != self._trace or shown is not self._shown
+            return self._is_closed or is_other or len(self._messages) > sent
 
         while not self._is_closed:
             with self._changed:
@@ -74,6 +84,9 @@ class Feed:
                     trace = self._trace
                     new = self._messages[sent:]
                     sent += len(new)
+                    if self._shown is not None and self._shown is not shown:
+                        new = [*new, self._shown]
+                    shown = self._shown
             yield new
             if new == [_RENEWED]:
                 return

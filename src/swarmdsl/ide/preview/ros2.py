@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from threading import Event, Thread
-from typing import Any
+from typing import Any, NamedTuple, Protocol
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.simulate.trace_line import NAMES
@@ -21,7 +21,7 @@ PREFIX = "ros2:"
 """Prefix of a node or namespace on the command line; alone, it selects all nodes."""
 _NAME = re.compile(r"/?(?:[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*/?)?", re.ASCII)
 _TYPE = "std_msgs/msg/String"
-_POLL_INTERVAL = 0.5
+POLL_INTERVAL = 0.5
 """Seconds between two polls of the ROS graph."""
 _GRACE = 5.0
 """Seconds that callbacks and ROS may take to end."""
@@ -46,6 +46,35 @@ def listening(
     if not names:
         yield
         return
+
+    def listen(ros: Ros, node: Any) -> Callable[[], None]:
+        def begun(owner: str) -> NodeTrace:
+            # There may be other nodes, now or later.
+            return _NodeTrace(TraceReader(owner, True, snapshot, tell))
+
+        return NodeListener(ros, node, names, begun).poll
+
+    with spinning("preview", names, listen):
+        yield
+
+
+class Ros(NamedTuple):
+    """Modules of ROS 2 that a listener needs."""
+
+    qos: Any
+    string: Any
+
+
+Listen = Callable[[Ros, Any], Callable[[], None]]
+"""Begins to listen with a node; returns what looks at the graph from time to time."""
+
+
+@contextmanager
+def spinning(purpose: str, names: Sequence[str], listen: Listen) -> Iterator[None]:
+    """Run a node of our own while the context lasts; its name has the purpose.
+
+    The names are those that it follows. Raises UnavailableError.
+    """
     for name in names:
         if _NAME.fullmatch(name) is None:
             raise UnavailableError(
@@ -63,20 +92,19 @@ def listening(
             "that is installed for its Python",
         ) from error
 
-    def listen(begun: Callable[[], None]) -> None:
+    def run(begun: Callable[[], None]) -> None:
         context = rclpy.Context()
         try:
             rclpy.init(context=context)
             node = rclpy.create_node(
-                f"swarmc_preview_{os.getpid()}",
+                f"swarmc_{purpose}_{os.getpid()}",
                 context=context,
                 enable_rosout=False,
                 start_parameter_services=False,
             )
             executor = make_executor(context=context)
             executor.add_node(node)
-            listener = _NodeListener(rclpy.qos, string, node, names, snapshot, tell)
-            node.create_timer(_POLL_INTERVAL, listener.poll)
+            node.create_timer(POLL_INTERVAL, listen(Ros(rclpy.qos, string), node))
         except Exception:
             context.try_shutdown()
             raise
@@ -90,7 +118,7 @@ def listening(
             context.try_shutdown()
 
     stop = Event()
-    with _in_thread(listen, stop):
+    with _in_thread(run, stop):
         yield
 
 
@@ -128,26 +156,44 @@ def _in_thread(listen: Callable[[Callable[[], None]], None], stop: Event) -> Ite
             thread.join(_GRACE)
 
 
-class _NodeListener:
-    """Subscribes to nodes that have a name or are in its namespace."""
+class NodeTrace(Protocol):
+    """What is done with the messages of a node, until it ends."""
+
+    def on_transition(self, message: Any) -> None:
+        """Handle `~/transitions`: a line of the trace."""
+
+    def on_state(self, message: Any) -> None:
+        """Handle `~/state`, the latched state for late subscribers."""
+
+    def on_end(self) -> None:
+        """Handle the end of the node."""
+
+
+class NodeListener:
+    """Subscribes to nodes that have a name or are in its namespace.
+
+    `begun` returns what is done with their messages, by the name of the node; with its `history`,
+    this also gets those that the node has kept.
+    """
 
     def __init__(
         self,
-        qos: Any,
-        string: Any,
+        ros: Ros,
         node: Any,
         names: Sequence[str],
-        snapshot: Snapshot,
-        tell: Callable[[Diagnostics], None],
+        begun: Callable[[str], NodeTrace],
+        *,
+        history: bool = False,
     ) -> None:
         self._node = node
         self._names = [f"/{name.strip('/')}".rstrip("/") for name in names]
-        self._snapshot = snapshot
-        self._tell = tell
-        self._string = string
-        self._all = qos.QoSProfile(depth=1000)
-        self._last = qos.QoSProfile(depth=1, durability=qos.DurabilityPolicy.TRANSIENT_LOCAL)
-        self._traces: dict[str, tuple[_NodeTrace, list[Any]]] = {}
+        self._begun = begun
+        self._string = ros.string
+        latched = ros.qos.DurabilityPolicy.TRANSIENT_LOCAL
+        kept = {"durability": latched} if history else {}
+        self._all = ros.qos.QoSProfile(depth=1000, **kept)
+        self._last = ros.qos.QoSProfile(depth=1, durability=latched)
+        self._traces: dict[str, tuple[NodeTrace, list[Any]]] = {}
         self._publishers: dict[str, set[tuple[int, ...]]] = {}
         """Endpoint ids of the publishers of each node."""
 
@@ -172,8 +218,7 @@ class _NodeListener:
                 self._node.destroy_subscription(each)
             robot.on_end()
         for owner in sorted(publishing.keys() - self._traces.keys()):
-            # There may be other nodes, now or later.
-            robot = _NodeTrace(TraceReader(owner, True, self._snapshot, self._tell))
+            robot = self._begun(owner)
             listen = self._node.create_subscription
             self._traces[owner] = (
                 robot,

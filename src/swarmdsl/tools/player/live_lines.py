@@ -24,11 +24,15 @@ class LiveLines:
     """Reads more and more lines of one trace, of a model if it is known.
 
     A message to the page has some of `members`, `machines` with the states of theirs, `lines`, and
-    `notes`. Times never go back: a line that would is shown at the time of the one before.
+    `notes`. Times never go back: a line that would is shown at the time of the one before, and
+    told if it is by more milliseconds than `patience`.
     """
 
-    def __init__(self, name: str, model: Model | None, machines: Iterable[Machine]) -> None:
+    def __init__(
+        self, name: str, model: Model | None, machines: Iterable[Machine], patience: int = 0
+    ) -> None:
         self._name = name
+        self._patience = patience
         self._model = model
         self._machines = {each.name: each for each in machines}
         self._of: dict[str, str] = {}
@@ -79,7 +83,8 @@ class LiveLines:
 
     def _keep_time(self, step: Message, found: Diagnostics) -> None:
         if step["t"] < self._time:
-            if not self._is_late:
+            is_much = self._time - step["t"] > self._patience
+            if is_much and not self._is_late:
                 self._is_late = True
                 behind = format_duration((self._time - step["t"]) * MILLISECOND)
                 found.report(

@@ -28,8 +28,11 @@ def page(recording: Recording, other: Recording | None = None) -> str:
     The policy lets nothing be loaded, and nothing run but the two scripts with these hashes: one
     unpacks the other. That of a live run also asks its server for lines.
     """
-    script, loader = join(_FILES, "main.js"), join(_FILES, "loader.js")
-    sheets = sorted(each for each in _FILES.glob("*.css") if each.name != "player.css")
+    is_fleet = "fleet" in recording.views
+    script = join(_FILES, "fleet_page.js" if is_fleet else "main.js")
+    loader = join(_FILES, "loader.js")
+    left_out = {"player.css"} if is_fleet else {"player.css", "fleet.css"}
+    sheets = sorted(each for each in _FILES.glob("*.css") if each.name not in left_out)
     styles = style() + "".join(map(read_text, (_FILES / "player.css", *sheets)))
     policy = (
         f"default-src 'none'; style-src {_hash(styles)}; script-src {_hash(loader)} "

@@ -17,7 +17,7 @@ export function follow(player, told) {
   told.setAttribute("role", "status");
   told.textContent = "live";
   source.onmessage = ({ data }) => {
-    const { members = [], machines = {}, lines = [], notes = [], turn } = JSON.parse(data);
+    const { members = [], machines = {}, lines = [], notes = [], turn, fleet } = JSON.parse(data);
     if (turn === "gone") told.textContent = TURNS.gone;
     else if (turn) end(TURNS[turn]);
     player.grow((recording) => {
@@ -25,6 +25,7 @@ export function follow(player, told) {
       for (const each of members) recording.join(each);
       for (const each of lines) recording.append(each);
       recording.notes.push(...notes);
+      if (fleet) recording.fleet.now = fleet;
     });
   };
   source.onerror = () => end(`The server of this page has ended. ${STAYS}`);

@@ -7,7 +7,7 @@ import { exports } from "./exports.js";
 import { follow } from "./live.js";
 import { Player } from "./player.js";
 import { load } from "./recording.js";
-import { MAIN, VIEWS } from "./views.js";
+import { BEGINNINGS, MAIN, VIEWS } from "./views.js";
 
 const byId = (id) => document.getElementById(id);
 const DURATION = /^(\d+(?:\.\d+)?)(ms|s|min|h)?$/;
@@ -206,13 +206,14 @@ function start(recording) {
   if (recording.other) player.goTime(differences(recording).times[0] ?? 0);
   read();
   show();
+  for (const each of BEGINNINGS) each(player);
   if (recording.live) follow(player, byId("live"));
   document.documentElement.dataset.ready = "true";
   return player;
 }
 
 const other = byId("other")?.textContent;
-Promise.all([load(byId("recording").textContent), other ? load(other) : null])
+export const started = Promise.all([load(byId("recording").textContent), other ? load(other) : null])
   .then(([recording, compared]) => {
     recording.other = compared; // a run to compare with
     globalThis.player = start(recording);

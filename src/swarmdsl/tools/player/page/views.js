@@ -16,3 +16,5 @@ import { view as whatIf } from "./what_if.js";
 export const MAIN = lanes;
 /** The views below it, in the order of their tabs. */
 export const VIEWS = [compare, machine, sequence, map, properties, variables, measures, coverage, log, text, whatIf];
+/** What is called with the player when a page begins. */
+export const BEGINNINGS = [];

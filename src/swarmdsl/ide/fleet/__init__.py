@@ -1,0 +1,1 @@
+"""Robots of a swarm that run, seen and steered by a person: `swarmc fleet`."""

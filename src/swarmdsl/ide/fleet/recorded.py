@@ -1,0 +1,106 @@
+"""Fleet in a recording of ROS 2: a bag in MCAP or SQLite."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.ide.fleet.batteries import BATTERY, share_of
+from swarmdsl.ide.fleet.told_lines import LINES, TOPICS, member_in, model_in, time_of
+from swarmdsl.ide.fleet.watch import Watch
+
+_SECOND = 1_000_000_000
+_STRING = "std_msgs/msg/String"
+SUFFIXES = (".mcap", ".db3")
+_NEEDED = "`pip install 'swarmdsl[bags]'`"
+
+
+class UnreadableBagError(Exception):
+    """A bag cannot be read; the message names the reason."""
+
+    def __init__(self, reason: str, hint: str) -> None:
+        super().__init__(reason)
+        self.hint = hint
+
+
+def is_bag(name: str) -> bool:
+    """Return True for a bag, or for the folder of one."""
+    path = Path(name)
+    return path.suffix in SUFFIXES or (path / "metadata.yaml").is_file()
+
+
+class BagClock:
+    """Time of the last message of a bag, in seconds: heartbeats are late by it."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+
+    def __call__(self) -> float:
+        """Return the time."""
+        return self.now
+
+
+def read_bag(name: str, watch: Watch, clock: BagClock) -> None:
+    """Add all messages of a bag to a watch. Raises UnreadableBagError."""
+    lines: list[str] = []
+    robots: dict[str, str] = {}
+    with _opened(Path(name)) as reader:
+        wanted = [each for each in reader.connections if _is_wanted(each.topic, each.msgtype)]
+        for connection, time, data in reader.messages(wanted):
+            clock.now = time / _SECOND
+            message = reader.deserialize(data, connection.msgtype)
+            space, _, last = connection.topic.rpartition("/")
+            if last in LINES and connection.msgtype == _STRING:
+                lines.append(message.data)
+                if member := member_in(message.data):
+                    _note_robot(member, space, robots)
+            else:
+                _note(watch, space, last, message, robots)
+    watch.read(sorted(lines, key=time_of))
+
+
+def _is_wanted(topic: str, type_: str) -> bool:
+    last = topic.rpartition("/")[2]
+    return type_ == BATTERY or (type_ == _STRING and last in (*LINES, *TOPICS))
+
+
+def _note_robot(member: str, space: str, robots: dict[str, str]) -> None:
+    robot = Robot.called(member)
+    name = f"{robot.role}_{robot.index}"
+    around, found, _ = f"{space}/".partition(f"/{name}/")
+    if robot.role and found:
+        robots[f"{around}/{name}"] = robot.name or member
+
+
+def _note(watch: Watch, space: str, last: str, message: Any, robots: dict[str, str]) -> None:
+    with watch.noting() as standing:
+        if last == "members":
+            standing.beat(message.data)
+        elif last == "models" and (told := model_in(message.data)) is not None:
+            standing.tell_model(*told)
+        elif hasattr(message, "percentage"):
+            for at, name in robots.items():
+                if f"{space}/".startswith(f"{at}/"):
+                    standing.charge(name, share_of(message.percentage))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[Any]:
+    try:
+        from rosbags.highlevel import AnyReader, AnyReaderError
+        from rosbags.interfaces import ConnectionExtRosbag2  # noqa: F401 - of the same version
+        from rosbags.typesys import Stores, get_typestore
+    except ImportError as error:
+        raise UnreadableBagError(
+            f"bags need the Python package rosbags: {error}", _NEEDED
+        ) from None
+    folder = path if path.is_dir() else path.parent
+    try:
+        with AnyReader([folder], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
+            yield reader
+    except (AnyReaderError, OSError) as error:
+        hint = "name the folder that `ros2 bag record` has written, with its metadata.yaml"
+        raise UnreadableBagError(f"{path}: {error}", hint) from None

@@ -1,0 +1,131 @@
+"""Fleet in a terminal: a table that is drawn again, or lines of what has changed."""
+
+from __future__ import annotations
+
+import select
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from importlib.util import find_spec
+from typing import Any, TextIO
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.table import Table
+from rich.text import Text
+
+from swarmdsl.base import interrupts
+from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.ide.fleet.watch import RECORDED, NotSentError, Watch
+
+_NAP = 0.25
+"""Seconds between two looks."""
+_STYLES = {"there": "green", "lost": "bold red", "ended": "dim", "expected": "dim"}
+_COLUMNS = ("robot", "status", "states", "last event", "battery")
+_QUIT = ("q", "\x04")
+_HAS_KEYS = find_spec("termios") is not None  # not so on Windows
+
+
+def show(watch: Watch, out: TextIO) -> None:
+    """Show the fleet until Ctrl-C, or `q` in a terminal; a recording only once without one."""
+    if not (out.isatty() and sys.stdin.isatty() and _HAS_KEYS):
+        if watch.no_sending == RECORDED:
+            print(*lines_of(watch.head()).values(), sep="\n", file=out)
+        else:
+            _write_changes(watch, out)
+        return
+    said = ""
+    console = Console(file=out)
+    with _keys(), Live(console=console, screen=True, auto_refresh=False) as live:
+        while True:
+            live.update(_drawing(watch, said), refresh=True)
+            key = _key()
+            if key in _QUIT:
+                return
+            if key.isdecimal() and 0 < int(key) <= len(watch.events):
+                said = send(watch, watch.events[int(key) - 1].name)
+            interrupts.raise_lost()
+
+
+def send(watch: Watch, name: str) -> str:
+    """Send an event without data; return what became of it."""
+    try:
+        heard = watch.send(name, {})
+    except NotSentError as error:
+        return f"{name} is not sent: {error}"
+    return f"{name} is sent to {heard} node{'s' if heard != 1 else ''}"
+
+
+def lines_of(head: Mapping[str, Any]) -> dict[str, str]:
+    """Return what is told of each robot, property and alarm, by its key."""
+    found = {}
+    for row in head["robots"]:
+        cells = (each for each in _cells(row)[1:] if each)
+        found[row["robot"]] = printable(" ".join((row["robot"], *cells)))
+    for name, verdict in head["verdicts"].items():
+        found[f"property {name}"] = printable(f"property {name}: {verdict}")
+    for each in head["alarms"]:
+        found[f"alarm {each}"] = printable(f"alarm: {each}")
+    return found
+
+
+def _write_changes(watch: Watch, out: TextIO) -> None:
+    """Write a line for each thing that has changed, without a terminal that could be drawn on."""
+    told: dict[str, str] = {}
+    for _ in watch.feed.follow():
+        now = lines_of(watch.head())
+        for key, line in now.items():
+            if told.get(key) != line:
+                print(line, file=out, flush=True)
+        told = now
+        interrupts.raise_lost()
+
+
+def _drawing(watch: Watch, said: str) -> Group:
+    head = watch.head()
+    table = Table(box=None)
+    for each in _COLUMNS:
+        table.add_column(each)
+    for row in head["robots"]:
+        cells = [Text(printable(each)) for each in _cells(row)]
+        cells[1].stylize(_STYLES.get(row["status"], ""))
+        table.add_row(*cells)
+    alarms = [Text(printable(each), "bold red") for each in head["alarms"]]
+    verdicts = [Text(printable(f"{name}: {each}")) for name, each in head["verdicts"].items()]
+    keys = [f"{number} {each.name}" for number, each in enumerate(watch.events, 1)]
+    can = f" ({watch.no_sending})" if watch.no_sending and keys else ""
+    foot = Text(printable("   ".join([*keys, "q quit"]) + can), "bold")
+    return Group(*alarms, table, *verdicts, Text(printable(said)), foot)
+
+
+def _cells(row: Mapping[str, Any]) -> tuple[str, ...]:
+    machines = row["machines"]
+    latest = max(machines, key=lambda each: each["t"], default=None)
+    battery = row["battery"]
+    return (
+        row["robot"],
+        row["status"],
+        "; ".join(", ".join(each["states"]) for each in machines),
+        latest["event"] if latest is not None else "",
+        f"{battery:.0%}" if battery is not None else "",
+    )
+
+
+@contextmanager
+def _keys() -> Iterator[None]:
+    """Let keys be read one by one, without waiting for the end of a line."""
+    import termios
+    import tty
+
+    before = termios.tcgetattr(sys.stdin)
+    tty.setcbreak(sys.stdin)
+    try:
+        yield
+    finally:
+        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
+
+
+def _key() -> str:
+    """Return the key that was pressed, or an empty text after a while."""
+    ready, _, _ = select.select([sys.stdin], [], [], _NAP)
+    return sys.stdin.read(1) if ready else ""

@@ -1,0 +1,148 @@
+"""Recordings of a fleet, and fleets in terminals."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+
+from swarmdsl.cli import run
+
+from .test_page import MODEL, line
+
+STRING, BATTERY = "std_msgs/msg/String", "sensor_msgs/msg/BatteryState"
+SECOND = 1_000_000_000
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Path:
+    path = tmp_path / "model.swarm"
+    path.write_text(MODEL, encoding="utf-8")
+    return path
+
+
+def record(path: Path, plugin: Any) -> Path:
+    """Write what two robots tell to a bag; one of them falls silent."""
+    types = get_typestore(Stores.ROS2_JAZZY)
+    charge = types.types[BATTERY]
+    fields = {each.name: 0 for each in charge.__dataclass_fields__.values()}
+    battery = charge(**{**fields, **_arrays(types), "percentage": 0.5})
+    about = {"node": "/crew/robot_0/work", "member": "robot[0]", "machine": "Work"}
+    about |= {"model": "crew", "version": "1.0", "digest": "aa"}
+    with Writer(path, version=9, storage_plugin=plugin) as writer:
+        topics = {}
+
+        def write(topic: str, time: float, message: Any, kind: str = STRING) -> None:
+            if topic not in topics:
+                topics[topic] = writer.add_connection(topic, kind, typestore=types)
+            data = types.types[STRING](data=message) if kind == STRING else message
+            writer.write(topics[topic], int(time * SECOND), types.serialize_cdr(data, kind))
+
+        for number in range(2):
+            said = line(0, f"robot[{number}]", None, "Off")
+            write(f"/crew/robot_{number}/work/transitions", 1, said)
+            write("/crew/members", 1, f"robot[{number}]")
+        write("/crew/models", 1.5, json.dumps(about))
+        write("/crew/robot_0/battery", 1.5, battery, BATTERY)
+        write("/crew/robot_0/work/transitions", 2, line(1000, "robot[0]", "Visit", "On"))
+        write("/crew/members", 8, "robot[0]")
+        verdict = {"t": 1000, "property": "Stays", "verdict": "false"}
+        write("/crew/crew_monitor/verdicts", 8, json.dumps(verdict))
+    return path
+
+
+def _arrays(types: Any) -> dict[str, Any]:
+    import numpy as np
+
+    header = types.types["std_msgs/msg/Header"]
+    stamp = types.types["builtin_interfaces/msg/Time"](sec=0, nanosec=0)
+    empty = np.array([], dtype=np.float32)
+    return {
+        "header": header(stamp=stamp, frame_id="base"),
+        "present": True,
+        "cell_voltage": empty,
+        "cell_temperature": empty,
+        "location": "",
+        "serial_number": "",
+    }
+
+
+@pytest.mark.parametrize("plugin", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_a_recording_is_shown(
+    plugin: Any, model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = record(tmp_path / "bag", plugin)
+    assert run(["fleet", str(model), "--follow", str(bag), "--terminal"]) == 0
+    assert capsys.readouterr().out.splitlines() == [
+        "robot[0] there On Visit 50%",
+        "robot[1] lost Off start",
+        "property Stays: false",
+        "alarm: robot[1] is lost",
+        "alarm: property Stays is violated",
+    ]
+
+
+def test_a_damaged_recording_is_told(
+    model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = tmp_path / "bag"
+    bag.mkdir()
+    (bag / "metadata.yaml").write_text("rosbag2_bagfile_information: 3\n", encoding="utf-8")
+    assert run(["fleet", str(model), "--follow", str(bag), "--terminal"]) == 1
+    assert "error[SW1024]: cannot read the recording" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["--host", "0.0.0.0"], "`--host` needs `--token`"),
+        (["--token", ""], "the token is empty"),
+        (["--terminal", "--open"], "`--terminal` serves no page"),
+        (["--follow", "a.jsonl", "--follow", "ros2:"], "one trace or recording"),
+    ],
+)
+def test_options_that_do_not_fit_are_refused(
+    words: list[str], reason: str, model: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["fleet", str(model), *words]) == 2
+    assert reason in capsys.readouterr().err
+
+
+def test_keys_in_a_terminal(model: Path, tmp_path: Path) -> None:
+    trace = tmp_path / "run.jsonl"
+    trace.write_text(f"{line(0, 'robot[0]', None, 'Off')}\n", encoding="utf-8")
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "swarmdsl", "fleet", model, "--follow", trace, "--terminal"],
+        stdin=theirs,
+        stdout=theirs,
+        stderr=theirs,
+        env={**os.environ, "TERM": "xterm", "COLUMNS": "120", "LINES": "30"},
+    )
+    os.close(theirs)
+    seen = ""
+
+    def until(words: str) -> None:
+        nonlocal seen
+        while words not in seen:
+            seen += os.read(ours, 4096).decode(errors="replace")
+
+    try:
+        until("robot[0]")
+        until("1 Abort")
+        os.write(ours, b"1")
+        until("Abort is not sent: robots of a trace hear nothing")
+        os.write(ours, b"q")
+        assert process.wait(20) == 0
+    finally:
+        process.kill()
+        process.wait()
+        os.close(ours)

@@ -1,0 +1,135 @@
+"""`swarmc fleet` in a browser, and nodes that come, are killed, and hear what a person sends."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import click
+import pytest
+
+from ..player.conftest import browser as browser
+from .conftest import load_module, write_package
+from .domains import free_domain
+
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 60.0
+MODEL = """
+package fleet_lab
+
+/// Land at once.
+swarm operator event Abort : std_msgs/Empty { reliable }
+swarm operator event Near  : std_msgs/Float64 { reliable }
+
+endless statemachine Flying {
+  initial Air
+  state Air {
+    on Near [event.data > 2.0] -> Close
+    on Abort -> Landed
+  }
+  state Close { on Abort -> Landed }
+  state Landed { on Near -> Air }
+}
+
+member Drone { behavior Flying }
+
+swarm Crew {
+  drone : Drone[2]
+  heartbeat 200 ms lost after 1 s
+}
+"""
+
+
+@pytest.fixture
+def lab(ros_folder: Path, tmp_path: Path) -> Iterator[Any]:
+    """Processes of ROS, with the package of the model."""
+    folder = tmp_path / "model"
+    folder.mkdir()
+    (folder / "crew.swarm").write_text(MODEL, encoding="utf-8")
+    package = write_package(folder, tmp_path / "ws")
+    with free_domain() as domain:
+        ros = load_module("harness").Ros(ros_folder, [package], domain, tmp_path)
+        yield ros
+        ros.close()
+
+
+def drone(ros: Any, number: int) -> Any:
+    given = {"heartbeat__period": 0.2, "heartbeat__timeout": 1.0}
+    name = f"drone[{number}]"
+    return ros.node("fleet_lab_behavior.flying", f"/crew/drone_{number}", member=name, **given)
+
+
+@contextmanager
+def fleet(ros: Any, *options: str) -> Iterator[subprocess.Popen[str]]:
+    """A fleet that is watched with the Python of ROS, and packages of these tests."""
+    site = str(Path(click.__file__).parents[1])
+    paths = [ros.environment["PYTHONPATH"], str(ROOT / "src"), site]
+    process = subprocess.Popen(
+        [ros.python, "-m", "swarmdsl", "fleet", ros.scratch / "model", *options],
+        env={**ros.environment, "PYTHONPATH": os.pathsep.join(paths)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        stdin=subprocess.DEVNULL,
+        text=True,
+    )
+    assert process.stdout is not None
+    try:
+        yield process
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE) == 0
+        assert "Traceback" not in process.stdout.read()
+    finally:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+
+
+def test_robots_are_seen_and_steered(lab: Any, browser: Any) -> None:
+    first, second = drone(lab, 0), drone(lab, 1)
+    with fleet(lab, "--follow", "ros2:/crew") as process:
+        assert process.stdout is not None
+        said = next((line for line in process.stdout if "http://" in line), "")
+        found = re.search(r"http://\S+", said)
+        assert found, said
+        page = browser.new_page()
+        page.set_default_timeout(PATIENCE * 1000)
+        page.goto(found[0])
+
+        def robot(number: int, status: str, state: str) -> None:
+            row = page.locator(f"tr.{status}[data-robot='drone[{number}]']")
+            row.get_by_text(state, exact=True).wait_for()
+
+        robot(0, "there", "Air")
+        robot(1, "there", "Air")
+        # Each robot is found by the publisher of the page before something can be sent.
+        page.get_by_label("message of Near").fill('{"data": 3}')
+        while "sent to 2 nodes" not in page.locator("#operate").inner_text():
+            page.get_by_role("button", name="Near", exact=True).click()
+            page.locator("#operate [role=status]", has_text=": ").wait_for()
+        robot(0, "there", "Close")
+        robot(1, "there", "Close")
+        second.terminate(signal.SIGKILL)
+        robot(1, "lost", "Close")
+        page.get_by_role("alert").get_by_text("drone[1] is lost").wait_for()
+        page.get_by_role("button", name="Abort", exact=True).click()
+        robot(0, "there", "Landed")
+        page.close()
+    first.wait_in("Landed")
+    first.terminate()
+
+
+def test_robots_are_lines_where_the_output_is_no_terminal(lab: Any) -> None:
+    node = drone(lab, 0)
+    with fleet(lab, "--terminal", "--follow", "ros2:") as process:
+        assert process.stdout is not None
+        lines = iter(process.stdout)
+        assert any(line == "drone[0] there Air start\n" for line in lines)
+        node.terminate(signal.SIGKILL)
+        assert any(line == "drone[0] lost Air start\n" for line in lines)
+        assert next(lines) == "alarm: drone[0] is lost\n"
