@@ -5,16 +5,27 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from swarmdsl.base.errors import UsageError
 from swarmdsl.cli.exit_code import briefly, conclude
-from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH
+from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH, Option
 
 EPILOG = "Example: swarmc check examples/search_and_rescue --format concise"
-OPTIONS = (WATCH, *LEVELS, FORMAT)
+FIXES = (
+    Option("fix", ("--fix",), "Write what the help of diagnostics says, where that is certain."),
+    Option("unsafe_fixes", ("--unsafe-fixes",), "With --fix or --diff: also fix what is a guess."),
+    Option("diff", ("--diff",), "Show the fixes as a diff; write nothing."),
+)
+# Formats that list the fixes of each diagnostic.
+WITH_FIXES = ("json", "sarif")
+OPTIONS = (WATCH, *FIXES, *LEVELS, FORMAT)
 
 
 def check(
     paths: tuple[Path, ...],
     watch: bool,
+    fix: bool,
+    unsafe_fixes: bool,
+    diff: bool,
     allow: tuple[str, ...],
     warn: tuple[str, ...],
     deny: tuple[str, ...],
@@ -23,13 +34,18 @@ def check(
     """Check models.
 
     A FOLDER means all .swarm files below it. Without arguments: the sources of swarm.toml, or
-    the current folder.
+    the current folder. `--fix` writes the fixes of diagnostics, again until nothing changes; a file
+    with syntax errors gets no others. With `--diff`, the exit code is 1 if a file would change.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics, Level
     from swarmdsl.driver import pipeline
     from swarmdsl.driver.config.command_line import run_settings
 
     levels = {Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny}
+    if unsafe_fixes and not (fix or diff):
+        raise UsageError("`--unsafe-fixes` needs `--fix` or `--diff`")
+    if watch and (fix or diff):
+        raise UsageError(f"`--watch` cannot be combined with `--{'fix' if fix else 'diff'}`")
     if watch:
         from swarmdsl.cli.watch import Concluded, watch_files
 
@@ -44,4 +60,13 @@ def check(
     settings = run_settings(paths, levels, report)
     if report.has_errors:
         return conclude(pipeline.Result(report, files=1), format_, sys.stdout)
+    if fix or diff:
+        from swarmdsl.cli.fix_command import show_fixes, write_fixes
+
+        act = show_fixes if diff else write_fixes
+        return act(paths, settings, format_, unsafe=unsafe_fixes)
+    if format_ in WITH_FIXES:
+        from swarmdsl.cli.fix_command import with_fixes
+
+        return conclude(with_fixes(settings), format_, sys.stdout)
     return conclude(pipeline.check(settings.sources, settings), format_, sys.stdout)

@@ -57,12 +57,25 @@ class Label:
 
 
 @dataclass(frozen=True, slots=True)
+class Fix:
+    """Replacements of text that resolve a diagnostic.
+
+    A safe one is the only reading of what the author wrote; others are proposals.
+    """
+
+    title: str
+    edits: tuple[tuple[Span, str], ...]
+    safe: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class Diagnostic:
     """Diagnostic.
 
     `code` and `name` identify its kind (`SW0201`, `unresolved-name`), `message` is the headline,
     `primary` the place (None if it concerns no place in a file, e.g. a missing file), `related`
-    other places that explain it, `help` a hint.
+    other places that explain it, `help` a hint. `fixes` are added by `driver/fixes` on demand, the
+    best one first.
     """
 
     code: str
@@ -73,6 +86,7 @@ class Diagnostic:
     related: tuple[Label, ...] = ()
     notes: tuple[str, ...] = ()
     help: str | None = None
+    fixes: tuple[Fix, ...] = ()
 
 
 def placed(found: Diagnostic, place: Callable[[Span], Span]) -> Diagnostic:
@@ -173,6 +187,10 @@ class Diagnostics:
         tally = self._tallies.setdefault(found.name, Tally())
         tally.count += 1
         tally.messages.add(found.message)
+
+    def change(self, convert: Callable[[Diagnostic], Diagnostic]) -> None:
+        """Replace each diagnostic by a converted one of the same severity."""
+        self._found = dict.fromkeys(map(convert, self._found))
 
     def wants(self, silent: str) -> bool:
         """Return True if a warning that is off by default is enabled."""

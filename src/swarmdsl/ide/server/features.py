@@ -54,7 +54,7 @@ FEATURES: Mapping[str, Mapping[str, Any]] = {
         lsp.TEXT_DOCUMENT_PREPARE_RENAME: None,
         lsp.TEXT_DOCUMENT_RENAME: None,
         lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(
-            code_action_kinds=[lsp.CodeActionKind.QuickFix]
+            code_action_kinds=[lsp.CodeActionKind.QuickFix, "source.fixAll.swarmdsl"]
         ),
     },
     "preview": {"swarmdsl/pictures": None},

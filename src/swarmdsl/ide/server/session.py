@@ -198,6 +198,16 @@ class Session:
             return None
         return lsp.Location(uri=self.uri(whole.source.path), range=self.range(whole))
 
+    def workspace_edit(self, changes: Iterable[tuple[Span, str]]) -> lsp.WorkspaceEdit:
+        """Group replacements by file into a workspace edit."""
+        found: dict[str, list[lsp.TextEdit]] = {}
+        for span, text in changes:
+            location = self.location(span)
+            if location is not None:
+                edit = lsp.TextEdit(range=location.range, new_text=text)
+                found.setdefault(location.uri, []).append(edit)
+        return lsp.WorkspaceEdit(changes=found)
+
     def publish_diagnostics(self) -> None:
         """Publish diagnostics of files that were edited or whose diagnostics changed."""
         self.dirty = False

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable
 from typing import Any, TextIO
 
-from swarmdsl.base.diagnostics.collector import Diagnostic, Label
+from swarmdsl.base.diagnostics.collector import Diagnostic, Fix, Label
 
 
 def render(found: Iterable[Diagnostic], stream: TextIO) -> None:
@@ -26,7 +26,13 @@ def _as_json(diagnostic: Diagnostic) -> dict[str, Any]:
         "help": diagnostic.help,
         "related": [{**_place(label), "message": label.message} for label in diagnostic.related],
         "notes": list(diagnostic.notes),
+        "fixes": [_fix(fix) for fix in diagnostic.fixes],
     }
+
+
+def _fix(fix: Fix) -> dict[str, Any]:
+    edits = [{**_place(Label(span)), "text": text} for span, text in fix.edits]
+    return {"title": fix.title, "safe": fix.safe, "edits": edits}
 
 
 def _place(label: Label | None) -> dict[str, Any]:

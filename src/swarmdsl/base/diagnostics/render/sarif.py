@@ -9,8 +9,9 @@ from typing import Any, TextIO
 from swarmdsl import __version__
 from swarmdsl.base.diagnostics import explain
 from swarmdsl.base.diagnostics.catalog import CODES
-from swarmdsl.base.diagnostics.collector import Diagnostic, Label
+from swarmdsl.base.diagnostics.collector import Diagnostic, Fix, Label
 from swarmdsl.base.diagnostics.render.places import uri
+from swarmdsl.base.source import Span
 
 _SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -74,22 +75,40 @@ def _result(diagnostic: Diagnostic, rule: int) -> dict[str, Any]:
         result["relatedLocations"] = [
             {"id": number, **_location(label)} for number, label in enumerate(diagnostic.related)
         ]
+    if diagnostic.fixes:
+        result["fixes"] = [_fix(fix) for fix in diagnostic.fixes]
     return result
 
 
-def _location(label: Label) -> dict[str, Any]:
-    source, start, end = label.span
+def _fix(fix: Fix) -> dict[str, Any]:
+    replacements: dict[str, list[dict[str, Any]]] = {}
+    for span, text in fix.edits:
+        replacement = {"deletedRegion": _region(span), "insertedContent": {"text": text}}
+        replacements.setdefault(span.source.name, []).append(replacement)
+    changes = [
+        {"artifactLocation": {"uri": uri(name)}, "replacements": made}
+        for name, made in replacements.items()
+    ]
+    return {"description": {"text": fix.title}, "artifactChanges": changes}
+
+
+def _region(span: Span) -> dict[str, int]:
+    source, start, end = span
     line, column = source.line_column(start)
     end_line, end_column = source.line_column(end)
+    return {
+        "startLine": line,
+        "startColumn": column,
+        "endLine": end_line,
+        "endColumn": end_column,
+    }
+
+
+def _location(label: Label) -> dict[str, Any]:
     location: dict[str, Any] = {
         "physicalLocation": {
-            "artifactLocation": {"uri": uri(source.name)},
-            "region": {
-                "startLine": line,
-                "startColumn": column,
-                "endLine": end_line,
-                "endColumn": end_column,
-            },
+            "artifactLocation": {"uri": uri(label.span.source.name)},
+            "region": _region(label.span),
         }
     }
     if label.message:

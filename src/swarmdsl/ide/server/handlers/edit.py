@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from lsprotocol import types as lsp
@@ -11,8 +11,7 @@ from pygls.exceptions import JsonRpcException
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.renaming import RefusedError, renamable, rename
-from swarmdsl.ide.server.diagnostics import to_lsp_diagnostics
-from swarmdsl.ide.server.fixes import quick_fix
+from swarmdsl.ide.server.code_action import code_actions
 from swarmdsl.ide.server.layout import line_changes
 from swarmdsl.ide.server.session import Session
 from swarmdsl.ide.server.signatures import signature
@@ -90,46 +89,16 @@ def _rename(session: Session, params: lsp.RenameParams) -> lsp.WorkspaceEdit | N
         spans = rename(*place, params.new_name)
     except RefusedError as error:
         raise _failed(error) from error
-    return _edits(session, [(span, params.new_name) for span in spans])
+    return session.workspace_edit([(span, params.new_name) for span in spans])
 
 
 def _failed(error: RefusedError) -> JsonRpcException:
     return JsonRpcException(str(error), lsp.LSPErrorCodes.RequestFailed)
 
 
-def _edits(session: Session, changes: Iterable[tuple[Span, str]]) -> lsp.WorkspaceEdit:
-    """Group replacements by file into a workspace edit."""
-    found: dict[str, list[lsp.TextEdit]] = {}
-    for span, text in changes:
-        location = session.location(span)
-        if location is not None:
-            edit = lsp.TextEdit(range=location.range, new_text=text)
-            found.setdefault(location.uri, []).append(edit)
-    return lsp.WorkspaceEdit(changes=found)
-
-
 def _code_actions(session: Session, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
     found = session.file(params.text_document)
-    if found is None:
-        return []
-    workspace, file = found
-    requested = session.span(file, params.range)
-    actions = []
-    for each in workspace.diagnostics().get(file.source.name, []):
-        span = each.primary.span if each.primary is not None else None
-        touched = span is not None and span.start <= requested.end and requested.start <= span.end
-        proposed = quick_fix(each, file.model.declarations) if touched else None
-        if proposed is not None:
-            actions.append(
-                lsp.CodeAction(
-                    title=proposed.title,
-                    kind=lsp.CodeActionKind.QuickFix,
-                    diagnostics=to_lsp_diagnostics([each], session.encoding, session.uri),
-                    edit=_edits(session, [(proposed.span, proposed.text)]),
-                    is_preferred=True,
-                )
-            )
-    return actions
+    return list(code_actions(session, *found, params)) if found is not None else []
 
 
 REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {

@@ -4,11 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.source import Source
-from swarmdsl.driver import pipeline
-from swarmdsl.ide.server.fixes import quick_fix
-from swarmdsl.syntax.parse import parse
+from swarmdsl.driver.fixes import fixes_of
+from swarmdsl.driver.fixes.application import texts_with
+from swarmdsl.driver.workspace import Workspace
 
 MODEL = """\
 /// Robots that count.
@@ -51,22 +49,19 @@ swarm Counters { counter : Counter[2]; other : Looker; environment Field; fitnes
 
 
 def mended(path: Path) -> list[str]:
-    """Apply all fixes, one at a time; return their titles."""
+    """Apply the best fixes, one at a time; return their titles."""
     titles: list[str] = []
+    workspace = Workspace([path])
     while True:
-        checked = pipeline.check([path])
-        source = Source(str(path), path.read_text(encoding="utf-8"))
-        declarations = parse(source, Diagnostics()).model.declarations
-        proposed = (quick_fix(each, declarations) for each in checked.report)
-        fixes = [found for found in proposed if found is not None]
-        if not fixes:
-            assert not checked.report.has_errors
+        fixes = [fixes_of(each, workspace) for each in workspace.report if each.name != "unused"]
+        best = [found[0] for found in fixes if found]
+        if not best:
+            assert not workspace.report.has_errors
             return titles
-        first = fixes[0]
-        titles.append(first.title)
-        text = path.read_text(encoding="utf-8")
-        text = text[: first.span.start] + first.text + text[first.span.end :]
-        path.write_text(text, encoding="utf-8")
+        titles.append(best[0].title)
+        for place, text in texts_with(best[:1]).items():
+            place.write_text(text, encoding="utf-8")
+            workspace.update({place: None})
         assert len(titles) < 50
 
 
