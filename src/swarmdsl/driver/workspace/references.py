@@ -7,11 +7,13 @@ from collections.abc import Iterator
 from swarmdsl.analysis.node_kinds import KINDS
 from swarmdsl.analysis.resolve.identities import role_uses
 from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
 from swarmdsl.analysis.resolve.set_params import set_params
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.field_references import FIELDS, field_references
 from swarmdsl.project.libraries import imported_name, place_of
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
@@ -65,7 +67,10 @@ def occurrence_at(workspace: Workspace, file: File, offset: int) -> Occurrence |
     found = _imported(file)
     if owner is not None:
         found = occurrences(owner, Scopes(workspace.project)[file])
-    inside = (each for each in found if each.span.start <= offset <= each.span.end)
+    inside = [each for each in found if each.span.start <= offset <= each.span.end]
+    if not inside and owner is not None:
+        fields = _fields(owner, Interfaces(workspace.project.declarations()))
+        inside = [each for each in fields if each.span.start <= offset <= each.span.end]
     return min(inside, key=lambda each: each.span.end - each.span.start, default=None)
 
 
@@ -73,6 +78,8 @@ def occurrences_of(node: Node, workspace: Workspace) -> Iterator[Occurrence]:
     """Yield all references to a declaration, in the order of the files."""
     scopes = Scopes(workspace.project)
     name = getattr(node, "name", "")
+    is_field = isinstance(node, FIELDS)
+    interfaces = Interfaces(workspace.project.declarations()) if is_field else None
     for file in workspace.project.files:
         if name not in file.source.text:
             continue
@@ -80,6 +87,8 @@ def occurrences_of(node: Node, workspace: Workspace) -> Iterator[Occurrence]:
         for owner in owners(file):
             if name in owner.span.text:
                 yield from (each for each in occurrences(owner, scopes[file]) if each.node is node)
+                if interfaces is not None:
+                    yield from (each for each in _fields(owner, interfaces) if each.node is node)
 
 
 def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
@@ -109,6 +118,12 @@ def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
                 Span(source, start, start + len(type_.name)), type_.name, found[0][1]
             )
     yield from _values(owner)
+
+
+def _fields(owner: TopLevel, interfaces: Interfaces) -> Iterator[Occurrence]:
+    """Yield the names of fields where they are used."""
+    for span, field in field_references(owner, interfaces):
+        yield Occurrence(span, field)
 
 
 def _imported(file: File) -> Iterator[Occurrence]:

@@ -9,7 +9,7 @@ import re
 from collections import Counter
 from pathlib import Path
 
-from swarmdsl.analysis.node_kinds import KINDS, kind_of
+from swarmdsl.analysis.node_kinds import KINDS
 from swarmdsl.analysis.resolve.identities import role_uses
 from swarmdsl.base.diagnostics.collector import Severity
 from swarmdsl.base.source import Span
@@ -22,12 +22,11 @@ from swarmdsl.driver.workspace.references import (
     occurrences_of,
     owners,
 )
+from swarmdsl.project.libraries import SUFFIX
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
-    Field,
     Fitness,
     Node,
-    Parameter,
     Port,
     Property,
     Role,
@@ -36,8 +35,6 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.parser.keywords import RESERVED
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-# References to these are found by type only.
-_NOT_FOLLOWED = (Field, Parameter)
 
 
 class RefusedError(Exception):
@@ -49,10 +46,10 @@ def renamable(workspace: Workspace, file: File, offset: int) -> Occurrence:
     found = occurrence_at(workspace, file, offset)
     if found is None or type(found.node) not in KINDS:
         raise RefusedError("there is no name declared in the model")
-    if isinstance(found.node, _NOT_FOLLOWED):
-        raise RefusedError(f"{kind_of(found.node)} cannot be renamed")
     home = _home(workspace, found.node)
-    if home is None or home.library:
+    if home is None or not home.source.name.endswith(SUFFIX):
+        raise RefusedError(f"`{found.span.text}` is declared in an interface of ROS")
+    if home.library:
         raise RefusedError(f"`{found.span.text}` is declared in a library")
     return found
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from swarmdsl.analysis.event_topics import is_of_swarm
+from swarmdsl.analysis.event_typing import in_transition
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.set_params import set_params
@@ -18,14 +18,12 @@ from swarmdsl.syntax.ast import (
     Argument,
     Communication,
     Event,
-    EventTrigger,
     Fact,
     Field,
     FieldUse,
     Function,
     Interface,
     MessageType,
-    MonitorTrigger,
     NameUse,
     Node,
     Operation,
@@ -146,22 +144,8 @@ def with_event(use: Node, owner: TopLevel, typing: Typing) -> Typing:
             return typing.in_fact(fact)
     for transition in nodes_of(owner, Transition):
         if any(node is use for node in walk(transition)):
-            triggers = [
-                each
-                for each in transition.triggers
-                if isinstance(each, (EventTrigger, MonitorTrigger))
-            ]
-            types = [_message(each) for each in triggers] or [None]
-            alike = all(each == types[0] for each in types)
-            of_swarm = bool(triggers) and all(map(is_of_swarm, triggers))
-            return typing.on_event(types[0], known=alike, of_swarm=of_swarm)
+            return in_transition(transition, typing)
     return typing
-
-
-def _message(trigger: EventTrigger | MonitorTrigger) -> Type | None:
-    if isinstance(trigger, MonitorTrigger):
-        return trigger.type.type
-    return trigger.event.target.type.type if trigger.event.target is not None else None
 
 
 def _interface(

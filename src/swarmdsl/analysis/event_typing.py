@@ -1,0 +1,25 @@
+"""Types of expressions in a transition, where `event` has the message of its triggers."""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.event_topics import is_of_swarm
+from swarmdsl.analysis.types import Typing
+from swarmdsl.syntax.ast import EventTrigger, MonitorTrigger, Transition
+from swarmdsl.syntax.types import Type
+
+
+def in_transition(transition: Transition, typing: Typing) -> Typing:
+    """Return the typing in a transition: `event` has a type if its events all have the same."""
+    triggers = [
+        each for each in transition.triggers if isinstance(each, (EventTrigger, MonitorTrigger))
+    ]
+    types = [_message(each) for each in triggers] or [None]
+    alike = all(each == types[0] for each in types)
+    of_swarm = bool(triggers) and all(map(is_of_swarm, triggers))
+    return typing.on_event(types[0], known=alike, of_swarm=of_swarm)
+
+
+def _message(trigger: EventTrigger | MonitorTrigger) -> Type | None:
+    if isinstance(trigger, MonitorTrigger):
+        return trigger.type.type
+    return trigger.event.target.type.type if trigger.event.target is not None else None
