@@ -84,7 +84,7 @@ def test_an_unknown_command(swarmc):
         ("build --tagret ros2", "there is no option `--tagret`: did you mean `--target`?"),
         ("check --target ros2", "no option `--target` here: `swarmc build` has `--target`"),
         ("add --kindd x sensor y", "option `--kindd` here: `swarmc add component` has `--kind`"),
-        ("check --fly", "there is no option `--fly`\n"),
+        ("check --qqq", "there is no option `--qqq`\n"),
         ("build --format jsn", "'sarif': did you mean `json`?"),
         ("build --format poetry", "'sarif'."),
         ("new x -t rso2", "did you mean `ros2`?"),

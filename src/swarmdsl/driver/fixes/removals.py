@@ -179,7 +179,10 @@ RULES: tuple[tuple[str, Rule], ...] = (
     (r"add the states, or remove this line", _around(Initial, what="this line")),
     (r"remove it, or give the transition a guard", _around(Defer, what="`defer`")),
     (r"leave one of them out: .*", _setting),
-    (r"declare it as `swarm (?:operator )?event \w+`(?:, or leave the settings out)?", _no_settings),
+    (
+        r"declare it as `swarm (?:operator )?event \w+`(?:, or leave the settings out)?",
+        _no_settings,
+    ),
     (r"delete it, or open it before", _brace),
     (r"move it to the top of the file", _to_the_top),
 )

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from swarmdsl.analysis.called_interface import called_interface
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.property_words import in_words
+from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import BUILT_INS
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.field_references import part_with
 from swarmdsl.driver.workspace.references import occurrence_at, owner_at
 from swarmdsl.ide.server.identity import described_at
 from swarmdsl.ide.server.space_words import described_word
@@ -18,8 +21,12 @@ from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     ActionType,
     Call,
+    Communication,
     Documented,
     EnumType,
+    Field,
+    Function,
+    FunctionPort,
     MessageType,
     Multiplicity,
     Node,
@@ -30,6 +37,7 @@ from swarmdsl.syntax.ast import (
     State,
     StateMachine,
     StructType,
+    TopLevel,
     TypeRef,
     nodes_of,
 )
@@ -50,8 +58,44 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
             own = described_word(owner, offset)
         return own or _built_in(file, offset)
     targets = "\n".join(f"- {line}" for line in support(found.node, workspace.settings))
-    text = described(found.node)
+    text = "\n\n".join([described(found.node), *_context(found.node, workspace)])
     return found.span, f"{text}\n\nIn targets:\n{targets}" if targets else text
+
+
+def _context(node: Node, workspace: Workspace) -> Iterator[str]:
+    """Yield what a declaration is part of, or what a function takes, gives and connects."""
+    if isinstance(node, Field):
+        for owner in _interfaces_at(node, workspace):
+            part = part_with(node, owner)
+            yield f"Of {f'the {part} of ' if part else ''}`{owner.name}`."
+    if not isinstance(node, Function):
+        return
+    call = next((each for each in node.items if isinstance(each, Communication)), None)
+    if call is not None:
+        yield f"Calls {call.paradigm} `{call.name}` : `{call.type.name}`."
+    found = called_interface(node, Interfaces(workspace.project.declarations()))
+    lists: list[tuple[str, list[Field]]] = []
+    match found:
+        case ActionType(goal=goal, result=result):
+            lists = [("Goal", goal), ("Result", result)]
+        case ServiceType(request=request, response=response):
+            lists = [("Request", request), ("Response", response)]
+    for title, fields in lists:
+        shown = ", ".join(f"`{each.name} : {each.type.span.text}`" for each in fields)
+        yield f"{title}: {shown or 'no fields'}."
+    ports = [each for each in node.items if isinstance(each, FunctionPort)]
+    if ports:
+        topics = (f"`{each.direction} {each.topic} : {each.type.name}`" for each in ports)
+        yield f"Topics: {', '.join(topics)}."
+
+
+def _interfaces_at(node: Field, workspace: Workspace) -> Iterator[TopLevel]:
+    """Yield the interface that declares a field; none for the standard ones of ROS."""
+    source, start, _ = node.span.absolute
+    file = workspace.file(source.path) if source.path is not None else None
+    owner = owner_at(file, start) if file is not None else None
+    if isinstance(owner, (StructType, MessageType, ServiceType, ActionType)):
+        yield owner
 
 
 def _built_in(file: File, offset: int) -> tuple[Span, str] | None:

@@ -13,6 +13,7 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
 from swarmdsl.ide.server import symbols
 from swarmdsl.ide.server.call_hierarchy import CALLABLE, incoming_calls, outgoing_calls
+from swarmdsl.ide.server.links import document_links
 from swarmdsl.ide.server.session import Place, Session
 from swarmdsl.ide.server.symbol_kinds import SYMBOL_KINDS
 from swarmdsl.syntax.ast import Node, Optimization
@@ -21,7 +22,13 @@ from swarmdsl.syntax.ast import Node, Optimization
 def _definition(session: Session, params: lsp.DefinitionParams) -> lsp.Location | None:
     place = session.place(params.text_document, params.position)
     found = occurrence_at(*place) if place is not None else None
-    return session.location(found.node.name.span) if found is not None else None  # type: ignore[attr-defined]
+    if found is not None:
+        return session.location(found.node.name.span)  # type: ignore[attr-defined]
+    for span, path in document_links(place[1]) if place is not None else ():
+        if place is not None and span.start <= place[2] <= span.end:
+            start = lsp.Position(line=0, character=0)
+            return lsp.Location(uri=session.uri(path), range=lsp.Range(start=start, end=start))
+    return None
 
 
 def _occurrences(place: Place | None) -> Iterator[Occurrence]:
