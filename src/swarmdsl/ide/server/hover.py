@@ -37,7 +37,6 @@ from swarmdsl.syntax.ast import (
     State,
     StateMachine,
     StructType,
-    TopLevel,
     TypeRef,
     nodes_of,
 )
@@ -89,7 +88,9 @@ def _context(node: Node, workspace: Workspace) -> Iterator[str]:
         yield f"Topics: {', '.join(topics)}."
 
 
-def _interfaces_at(node: Field, workspace: Workspace) -> Iterator[TopLevel]:
+def _interfaces_at(
+    node: Field, workspace: Workspace
+) -> Iterator[StructType | MessageType | ServiceType | ActionType]:
     """Yield the interface that declares a field; none for the standard ones of ROS."""
     source, start, _ = node.span.absolute
     file = workspace.file(source.path) if source.path is not None else None
