@@ -19,6 +19,7 @@ from swarmdsl.codegen.shared import (
 )
 from swarmdsl.ir import Member, Role, Swarm, System
 
+from .command_topics import check_command_topics
 from .names import TARGET
 from .params import given
 
@@ -98,6 +99,7 @@ def launches(system: System, modules: Mapping[str, str], report: Diagnostics) ->
     for member in system.members:
         if member.name in launched:
             check_wiring(member_wiring(member, system), TARGET, report)
+            check_command_topics(member, system, report)
     return found
 
 

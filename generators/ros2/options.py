@@ -26,4 +26,8 @@ class Options(PackageOptions):
     monitors: bool = option(
         False, "a node for each swarm that watches properties and tells measures"
     )
+    systemd: bool = option(False, "a unit for systemd that starts the robot of a computer")
+    compose: bool = option(
+        False, "`compose.yaml` and a container file, with a service for each robot"
+    )
     lifecycle: bool = option(False, "managed nodes: configured and activated from outside")

@@ -115,6 +115,7 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
         for module in _OF_LAUNCHES:
             text = runtime_source(_RUNTIME / f"{module}.py", head)
             yield OutputFile(f"{root}/{root}/{module}.py", text)
+        yield from _started(package, options, values, head)
     monitors = {monitor.launch: monitor.module for monitor in package.monitors}
     for launch in package.launches:
         text = _fill(
@@ -139,6 +140,21 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
                 text = _fill("package/config/instance.yaml", role=role, number=number)
                 own = f"{path}_{number}.yaml"
                 yield OutputFile(own, text, keep=True, owner=role.name, origin=launch.origin)
+
+
+def _started(
+    package: PackageView, options: Options, values: dict[str, object], head: str
+) -> Iterator[OutputFile]:
+    """Yield the files that start robots without a person, as the options say."""
+    root = package.name
+    if options.systemd:
+        text = _fill("package/deploy/robot.service", header=head, **values)
+        yield OutputFile(f"{root}/deploy/{root}@.service", text)
+    if options.compose:
+        text = _fill("package/deploy/compose.yaml", header=head, most=_MOST_FILES, **values)
+        yield OutputFile(f"{root}/deploy/compose.yaml", text)
+        text = _fill("package/deploy/Dockerfile", header=head, **values)
+        yield OutputFile(f"{root}/deploy/Dockerfile", text)
 
 
 def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFile:

@@ -31,7 +31,7 @@ def topics(
         if event.predefined:
             continue  # heartbeats raise it
         assert isinstance(event.type, Named)
-        topic, of_swarm = _place(event, name in is_sent)
+        topic, of_swarm = place(event, name in is_sent)
         if event.type in imports.messages_of_actions:
             topic = feedback_topic(event, name in is_sent, report)
         check_topic(topic, event.origin, report, of_swarm=of_swarm)
@@ -62,7 +62,7 @@ def _delivery(delivery: Delivery) -> Call:
     return Call("Delivery", (), tuple(given))
 
 
-def _place(event: Event, is_sent: bool) -> tuple[str, bool]:
+def place(event: Event, is_sent: bool) -> tuple[str, bool]:
     """Return the topic of an event, and True if it is in the namespace of the swarm."""
     if event.swarm:
         return event.topic.lstrip("/"), True

@@ -35,6 +35,7 @@ from .names import NAMES
 from .options import Options
 from .params import parameters
 from .ported import ported
+from .readme import Rows, tables
 from .told_conditions import conditions, heard_or_sent
 from .topics import topics
 
@@ -57,6 +58,7 @@ class MachineView:
     initial: str
     callbacks: tuple[str, ...]
     follows_members: bool
+    tables: tuple[tuple[str, str, Rows], ...]
     header: str
     origin: Span | None
 
@@ -213,6 +215,7 @@ def _machine_view(
         initial=machine.initial,
         callbacks=tuple(dict.fromkeys(name for name, _, _ in made.callbacks)),
         follows_members=follows_members(machine),
+        tables=tables(machine, system),
         header=header(system, [machine]),
         origin=machine.origin,
     )

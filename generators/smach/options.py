@@ -71,6 +71,12 @@ class Options(PackageOptions):
     monitors: bool = option(
         False, "a node for each swarm that watches properties and tells measures", only="ros=2"
     )
+    systemd: bool = option(
+        False, "a unit for systemd that starts the robot of a computer", only="ros=2"
+    )
+    compose: bool = option(
+        False, "`compose.yaml` and a container file, with a service for each robot", only="ros=2"
+    )
     lifecycle: bool = option(
         False, "managed nodes: configured and activated from outside", only="ros=2"
     )

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import shutil
+import subprocess
+import tempfile
 from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 import pytest
+import yaml
 
 Reported = Callable[..., list[tuple[str, str, str]]]
 
@@ -234,3 +240,63 @@ def test_options_are_checked(reported: Reported, option: str, value: str, part: 
 
     assert [each[0] for each in found] == ["bad-option"]
     assert part in found[0][1]
+
+
+def test_two_nodes_that_command_an_actuator(reported: Reported) -> None:
+    model = (
+        HEAD
+        + """
+message Speed { x : float64 }
+actuator Wheels { in velocity : Speed on "cmd_vel" }
+sensor Stick { out velocity : Speed on "cmd_vel" }
+event Drive : Speed on "cmd_vel"
+statemachine Work {
+  initial A
+  state A { do go; on succeeded, aborted / send Drive(x = 1.0) -> B }
+  final B
+}
+member Rover { behavior Work; wheels : Wheels; stick : Stick }
+swarm Rovers { rover : Rover[2] }
+"""
+    )
+    ((name, message, place),) = reported(model)
+    assert name == "several-publishers"
+    assert message == "several nodes publish commands on `cmd_vel`: `work` and `stick`"
+    assert "velocity" in place
+    # Another topic for each, or one of them alone.
+    assert (
+        reported(
+            model.replace('out velocity : Speed on "cmd_vel"', 'out velocity : Speed on "joy"')
+        )
+        == []
+    )
+    assert reported(model.replace("; stick : Stick", "")) == []
+
+
+def test_files_that_start_robots(generate: Callable[..., Any]) -> None:
+    model = (
+        HEAD
+        + MACHINE
+        + """
+member Rover { behavior Work }
+swarm Rovers { rover : Rover[2..4] }
+swarm Others { rover : Rover }
+"""
+    )
+    files = generate(model, systemd="true", compose="true")
+    robots = yaml.safe_load(files["lab_behavior/deploy/compose.yaml"].text)["services"]
+    assert [*robots] == ["rovers.rover_0", "rovers.rover_1", "others.rover_0"]
+    robot = robots["others.rover_0"]
+    words = ["ros2", "launch", "lab_behavior", "robot.launch.py", "member:=rover_0"]
+    assert robot["command"].split()[:6] == [*words, "swarm:=others"]
+    assert robot["network_mode"] == robot["ipc"] == "host"
+    unit = files["lab_behavior/deploy/lab_behavior@.service"].text
+    assert " robot.launch.py member:=%i " in unit
+    assert "glob('deploy/*')" in files["lab_behavior/setup.py"].text
+    assert not any("/deploy/" in path for path in generate(model))
+    if shutil.which("systemd-analyze") is not None:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "lab_behavior@.service")
+            path.write_text(unit, encoding="utf-8")
+            done = subprocess.run(["systemd-analyze", "verify", path], capture_output=True)
+        assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")

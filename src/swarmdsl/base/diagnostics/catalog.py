@@ -298,6 +298,9 @@ CODES: dict[str, Code] = {
     "other-model": Code(
         "SW0929", "warning", "the build removes {files} of model `{model}` from `{path}`"
     ),
+    "several-publishers": Code(
+        "SW0930", "warning", "several nodes publish commands on `{topic}`: {nodes}"
+    ),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "no state machine to simulate"),
     "unclear-subject": Code("SW1002", "error", "more than one swarm or state machine to simulate"),
