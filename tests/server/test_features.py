@@ -213,3 +213,42 @@ async def test_quick_fixes(client, editor, folder):
     [edit] = action.edit.changes[path.as_uri()]
     assert edit.new_text == 'import "patrol.swarm"\n'
     assert edit.range.start == lsp.Position(line=1, character=0)
+
+
+async def test_imports_follow_a_renamed_file(client, editor, folder):
+    path = folder / "rover.swarm"
+    document = editor.open(path)
+    text = path.read_text()
+
+    async def changes(old, new):
+        move = lsp.FileRename(old_uri=old.as_uri(), new_uri=new.as_uri())
+        return await client.workspace_will_rename_files_async(lsp.RenameFilesParams(files=[move]))
+
+    found = await changes(folder / "patrol.swarm", folder / "machines" / "round.swarm")
+    [edit] = found.changes[document.uri]
+    assert (edit.new_text, named([edit.range], text)) == ("machines/round.swarm", ["patrol.swarm"])
+    found = await changes(path, folder / "deep" / "rover.swarm")
+    [edit] = found.changes[document.uri]
+    assert edit.new_text == "../patrol.swarm"
+    position = at('"patrol.swarm"', text)
+    location = await client.text_document_definition_async(
+        lsp.DefinitionParams(text_document=document, position=position)
+    )
+    assert location.uri == (folder / "patrol.swarm").as_uri()
+
+
+async def test_all_safe_fixes_on_request(client, editor, folder):
+    text = MODEL.replace("[mode == Mode.FAST]", "[mode == FAST]").replace("-> Home", "-> Hone", 1)
+    document = editor.open(folder / "patrol.swarm", text)
+    actions = await client.text_document_code_action_async(
+        lsp.CodeActionParams(
+            text_document=document,
+            range=lsp.Range(start=at("Idle {", text), end=at("Idle {", text)),
+            context=lsp.CodeActionContext(diagnostics=[], only=["source.fixAll"]),
+        )
+    )
+    [action] = actions
+    [edit] = action.edit.changes[document.uri]
+    assert action.kind == "source.fixAll.swarmdsl"
+    assert "[mode == Mode.FAST]" in edit.new_text
+    assert "Hone" not in edit.new_text

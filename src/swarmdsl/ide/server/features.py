@@ -56,6 +56,19 @@ FEATURES: Mapping[str, Mapping[str, Any]] = {
         lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(
             code_action_kinds=[lsp.CodeActionKind.QuickFix, "source.fixAll.swarmdsl"]
         ),
+        lsp.WORKSPACE_WILL_RENAME_FILES: lsp.FileOperationRegistrationOptions(
+            filters=[
+                lsp.FileOperationFilter(
+                    pattern=lsp.FileOperationPattern(glob="**/*.swarm"), scheme="file"
+                ),
+                lsp.FileOperationFilter(
+                    pattern=lsp.FileOperationPattern(
+                        glob="**", matches=lsp.FileOperationPatternKind.Folder
+                    ),
+                    scheme="file",
+                ),
+            ]
+        ),
     },
     "preview": {"swarmdsl/pictures": None},
 }

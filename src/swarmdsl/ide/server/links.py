@@ -19,15 +19,15 @@ def document_links(file: File) -> Iterator[tuple[Span, Path]]:
     for statement, other in file.imports:
         if statement not in seen and other.source.path is not None:
             seen.add(statement)
-            yield _unquoted(place_of(statement).absolute), other.source.path
+            yield unquoted(place_of(statement).absolute), other.source.path
     for owner in owners(file):
         for world in nodes_of(owner, World):
             path = Path(file.source.name).parent / world.file
             if is_file(path):
-                yield _unquoted(world.file.span.absolute), path
+                yield unquoted(world.file.span.absolute), path
 
 
-def _unquoted(span: Span) -> Span:
+def unquoted(span: Span) -> Span:
     """Return the span without its quotes."""
     quoted = span.text.startswith('"') and len(span.text) > 1
     return Span(span.source, span.start + 1, span.end - 1) if quoted else span

@@ -12,6 +12,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.renaming import RefusedError, renamable, rename
 from swarmdsl.ide.server.code_action import code_actions
+from swarmdsl.ide.server.file_renames import import_changes
 from swarmdsl.ide.server.layout import line_changes
 from swarmdsl.ide.server.session import Session
 from swarmdsl.ide.server.signatures import signature
@@ -96,6 +97,15 @@ def _failed(error: RefusedError) -> JsonRpcException:
     return JsonRpcException(str(error), lsp.LSPErrorCodes.RequestFailed)
 
 
+def _will_rename(session: Session, params: lsp.RenameFilesParams) -> lsp.WorkspaceEdit:
+    moves = []
+    for each in params.files:
+        old, new = session.path(each.old_uri), session.path(each.new_uri)
+        if old is not None and new is not None:
+            moves.append((old, new))
+    return session.workspace_edit(import_changes(session.models.all(), moves))
+
+
 def _code_actions(session: Session, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
     found = session.file(params.text_document)
     return list(code_actions(session, *found, params)) if found is not None else []
@@ -108,4 +118,5 @@ REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
     lsp.TEXT_DOCUMENT_PREPARE_RENAME: _prepare_rename,
     lsp.TEXT_DOCUMENT_RENAME: _rename,
     lsp.TEXT_DOCUMENT_CODE_ACTION: _code_actions,
+    lsp.WORKSPACE_WILL_RENAME_FILES: _will_rename,
 }
