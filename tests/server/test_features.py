@@ -42,7 +42,6 @@ async def test_hover(client, editor, folder):
         "Patrol {": "```swarm\nstatemachine Patrol\n```\n\nstate machine, 2 states",
         "rounds = rounds": "```swarm\nvar rounds : int32 = 0\n```\n\nvariable",
         "FAST] /": "```swarm\nFAST\n```\n\nvalue",
-        "initial": None,
         "🤖": None,
     }.items():
         found = await client.text_document_hover_async(

@@ -31,7 +31,7 @@ from swarmdsl.syntax.ast import (
     nodes_of,
     walk,
 )
-from swarmdsl.syntax.types import Named, Type
+from swarmdsl.syntax.types import MEMBER, Named, Type
 
 Slot = Field | Parameter
 FIELDS = (Field, Parameter)
@@ -69,7 +69,8 @@ def _accesses(owner: TopLevel, interfaces: Interfaces) -> Iterator[tuple[Span, S
             typings |= dict.fromkeys(walk(fact.guard), plain.in_fact(fact))
     for use in uses:
         type_ = typings.get(use, plain).quietly(use.base)
-        for field in _fields(type_, interfaces):
+        # What heartbeats raise is declared nowhere.
+        for field in _fields(type_, interfaces) if type_ != MEMBER else ():
             if field.name == use.name:
                 yield use.name.span.absolute, field
 

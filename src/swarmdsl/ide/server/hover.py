@@ -14,6 +14,7 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.field_references import part_with
 from swarmdsl.driver.workspace.references import occurrence_at, owner_at
 from swarmdsl.ide.server.identity import described_at
+from swarmdsl.ide.server.keyword_hover import keyword_at
 from swarmdsl.ide.server.space_words import described_word
 from swarmdsl.ide.server.speculative_parse import declaration_at
 from swarmdsl.ide.server.support import support
@@ -55,7 +56,7 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
         own = described_at(owner, offset, workspace.project) if owner is not None else None
         if own is None and owner is not None:
             own = described_word(owner, offset)
-        return own or _built_in(file, offset)
+        return own or _built_in(file, offset) or keyword_at(file, offset)
     targets = "\n".join(f"- {line}" for line in support(found.node, workspace.settings))
     text = "\n\n".join([described(found.node), *_context(found.node, workspace)])
     return found.span, f"{text}\n\nIn targets:\n{targets}" if targets else text
