@@ -15,6 +15,9 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 from swarmdsl.cli import run
+from swarmdsl.ide.fleet.recorded import BagClock, read_bag
+from swarmdsl.ide.fleet.watch import Watch
+from swarmdsl.tools.player.record import record_nothing
 
 from .test_page import MODEL, line
 
@@ -90,6 +93,38 @@ def test_a_recording_is_shown(
     ]
 
 
+def test_places_of_a_recording_are_on_the_map(model: Path, tmp_path: Path) -> None:
+    types = get_typestore(Stores.ROS2_JAZZY)
+    kind = "geometry_msgs/msg/PoseStamped"
+    kinds = types.types
+    header = kinds["std_msgs/msg/Header"](
+        stamp=kinds["builtin_interfaces/msg/Time"](sec=0, nanosec=0), frame_id="map"
+    )
+    turned = kinds["geometry_msgs/msg/Quaternion"](x=0.0, y=0.0, z=0.0, w=1.0)
+    at = kinds["geometry_msgs/msg/Point"](x=0.0, y=0.0, z=0.0)
+    pose = kinds[kind](
+        header=header, pose=kinds["geometry_msgs/msg/Pose"](position=at, orientation=turned)
+    )
+    with Writer(tmp_path / "bag", version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        lines = writer.add_connection("/crew/robot_0/work/transitions", STRING, typestore=types)
+        poses = writer.add_connection("/crew/robot_0/pose", kind, typestore=types)
+        said = types.types[STRING](data=line(0, "robot[0]", None, "Off", began=1000))
+        writer.write(lines, SECOND, types.serialize_cdr(said, STRING))
+        for number in range(4):
+            at.x = float(number)
+            data = types.serialize_cdr(pose, kind)
+            writer.write(poses, 2 * SECOND + number * SECOND // 2, data)
+    clock = BagClock()
+    watch = Watch("bag", None, record_nothing(None, "bag"), print, clock)
+    read_bag(str(tmp_path / "bag"), watch, clock)
+    (message,) = [each for each in next(watch.feed.follow()) if "lines" in each]
+    moved = [(each["t"], each["moved"]) for each in message["lines"] if "moved" in each]
+    assert moved == [
+        (1000, {"robot[0]": [0.0, 0.0, 0.0]}),
+        (2000, {"robot[0]": [2.0, 0.0, 0.0]}),
+    ]
+
+
 def test_a_damaged_recording_is_told(
     model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -97,6 +132,11 @@ def test_a_damaged_recording_is_told(
     bag.mkdir()
     (bag / "metadata.yaml").write_text("rosbag2_bagfile_information: 3\n", encoding="utf-8")
     assert run(["fleet", str(model), "--follow", str(bag), "--terminal"]) == 1
+    assert "error[SW1024]: cannot read the recording" in capsys.readouterr().err
+    whole = record(tmp_path / "whole", StoragePlugin.MCAP)
+    (file,) = whole.glob("*.mcap")
+    file.write_bytes(file.read_bytes()[:400])
+    assert run(["fleet", str(model), "--follow", str(whole), "--terminal"]) == 1
     assert "error[SW1024]: cannot read the recording" in capsys.readouterr().err
 
 

@@ -20,6 +20,10 @@ from .domains import free_domain
 
 ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 60.0
+PLACED = """(async () => {
+  const place = () => player.moment.members[player.recording.number("drone[1]")].place;
+  while (place()?.[0] !== 4.5) await new Promise(requestAnimationFrame);
+})()"""
 MODEL = """
 package fleet_lab
 
@@ -91,6 +95,9 @@ def fleet(ros: Any, *options: str) -> Iterator[subprocess.Popen[str]]:
 
 
 def test_robots_are_seen_and_steered(lab: Any, browser: Any) -> None:
+    fakes = lab.fakes()
+    fakes.publisher("/crew/drone_0/battery", "sensor_msgs/msg/BatteryState")
+    fakes.publisher("/crew/drone_1/pose", "geometry_msgs/msg/PoseStamped")
     first, second = drone(lab, 0), drone(lab, 1)
     with fleet(lab, "--follow", "ros2:/crew") as process:
         assert process.stdout is not None
@@ -106,7 +113,16 @@ def test_robots_are_seen_and_steered(lab: Any, browser: Any) -> None:
             row.get_by_text(state, exact=True).wait_for()
 
         robot(0, "there", "Air")
+        fakes.listeners("/crew/drone_0/battery", "/crew/drone_1/pose")
         robot(1, "there", "Air")
+        # Both have the model of one build, which they tell.
+        told = page.locator("[data-robot] td:last-child", has_text="fleet_lab")
+        told.nth(1).wait_for()
+        assert len(set(told.all_text_contents())) == 1
+        fakes.publish("/crew/drone_0/battery", percentage=0.5)
+        page.locator("[data-robot='drone[0]']", has_text="50 %").wait_for()
+        fakes.publish("/crew/drone_1/pose", pose={"position": {"x": 4.5, "y": 2.0}})
+        page.evaluate(PLACED)
         # Each robot is found by the publisher of the page before something can be sent.
         page.get_by_label("message of Near").fill('{"data": 3}')
         while "sent to 2 nodes" not in page.locator("#operate").inner_text():

@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.ide.fleet.batteries import BATTERY, share_of
+from swarmdsl.ide.fleet.sensed import BATTERY, TYPES, moved_line, place_of, share_of
 from swarmdsl.ide.fleet.told_lines import LINES, TOPICS, member_in, model_in, time_of
 from swarmdsl.ide.fleet.watch import Watch
 
 _SECOND = 1_000_000_000
+_MILLISECOND = 1_000_000
 _STRING = "std_msgs/msg/String"
 SUFFIXES = (".mcap", ".db3")
 _NEEDED = "`pip install 'swarmdsl[bags]'`"
@@ -47,24 +48,36 @@ def read_bag(name: str, watch: Watch, clock: BagClock) -> None:
     """Add all messages of a bag to a watch. Raises UnreadableBagError."""
     lines: list[str] = []
     robots: dict[str, str] = {}
+    """Robots by their namespaces."""
+    moved: dict[str, int] = {}
+    """Time of the last place of each robot that is shown: one a second."""
     with _opened(Path(name)) as reader:
         wanted = [each for each in reader.connections if _is_wanted(each.topic, each.msgtype)]
         for connection, time, data in reader.messages(wanted):
             clock.now = time / _SECOND
             message = reader.deserialize(data, connection.msgtype)
             space, _, last = connection.topic.rpartition("/")
+            robot = next((name for at, name in robots.items() if f"{space}/".startswith(at)), "")
             if last in LINES and connection.msgtype == _STRING:
                 lines.append(message.data)
                 if member := member_in(message.data):
                     _note_robot(member, space, robots)
-            else:
-                _note(watch, space, last, message, robots)
+            elif connection.msgtype == _STRING:
+                _note(watch, last, message.data)
+            elif robot and connection.msgtype == BATTERY:
+                with watch.noting() as standing:
+                    standing.charge(robot, share_of(message))
+            elif not robot or time - moved.get(robot, 0) < _SECOND:
+                continue
+            elif (place := place_of(message)) is not None:
+                moved[robot] = time
+                lines.append(moved_line({robot: place}, time // _MILLISECOND))
     watch.read(sorted(lines, key=time_of))
 
 
 def _is_wanted(topic: str, type_: str) -> bool:
     last = topic.rpartition("/")[2]
-    return type_ == BATTERY or (type_ == _STRING and last in (*LINES, *TOPICS))
+    return type_ in TYPES or (type_ == _STRING and last in (*LINES, *TOPICS))
 
 
 def _note_robot(member: str, space: str, robots: dict[str, str]) -> None:
@@ -72,26 +85,22 @@ def _note_robot(member: str, space: str, robots: dict[str, str]) -> None:
     name = f"{robot.role}_{robot.index}"
     around, found, _ = f"{space}/".partition(f"/{name}/")
     if robot.role and found:
-        robots[f"{around}/{name}"] = robot.name or member
+        robots[f"{around}/{name}/"] = robot.name or member
 
 
-def _note(watch: Watch, space: str, last: str, message: Any, robots: dict[str, str]) -> None:
+def _note(watch: Watch, last: str, text: str) -> None:
     with watch.noting() as standing:
         if last == "members":
-            standing.beat(message.data)
-        elif last == "models" and (told := model_in(message.data)) is not None:
+            standing.beat(text)
+        elif (told := model_in(text)) is not None:
             standing.tell_model(*told)
-        elif hasattr(message, "percentage"):
-            for at, name in robots.items():
-                if f"{space}/".startswith(f"{at}/"):
-                    standing.charge(name, share_of(message.percentage))
 
 
 @contextmanager
 def _opened(path: Path) -> Iterator[Any]:
     try:
         from rosbags.highlevel import AnyReader, AnyReaderError
-        from rosbags.interfaces import ConnectionExtRosbag2  # noqa: F401 - of the same version
+        from rosbags.serde import SerdeError
         from rosbags.typesys import Stores, get_typestore
     except ImportError as error:
         raise UnreadableBagError(
@@ -101,6 +110,6 @@ def _opened(path: Path) -> Iterator[Any]:
     try:
         with AnyReader([folder], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
             yield reader
-    except (AnyReaderError, OSError) as error:
+    except (AnyReaderError, SerdeError, OSError) as error:
         hint = "name the folder that `ros2 bag record` has written, with its metadata.yaml"
         raise UnreadableBagError(f"{path}: {error}", hint) from None

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from importlib import import_module
+from time import time_ns
 from typing import Any
 
 from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.ide.fleet.batteries import BATTERY, share_of
 from swarmdsl.ide.fleet.operator_events import OperatorEvent
 from swarmdsl.ide.fleet.ros2_messages import fill, message_class
+from swarmdsl.ide.fleet.sensed import BATTERY, TYPES, moved_line, place_of, share_of
 from swarmdsl.ide.fleet.told_lines import TOPICS, member_in, model_in, time_of
 from swarmdsl.ide.fleet.watch import NotSentError, Watch
 from swarmdsl.ide.preview.ros2 import Listen, NodeListener, Ros
 
+_MILLISECOND = 1_000_000
 _STRING = "std_msgs/msg/String"
 _LOOKS = 2
 """Looks for which lines wait after a node was found: others may have older ones."""
@@ -41,6 +43,9 @@ class _Graph:
         self._wait = 0
         self._robots: dict[str, str] = {}
         """Robots by their namespaces."""
+        self._places: dict[str, tuple[float, float, float]] = {}
+        self._moved: dict[str, tuple[float, float, float]] = {}
+        """Places of robots that have moved since the last look."""
         self._swarms: dict[str, None] = {}
         """Namespaces of swarms."""
         self._heard: set[str] = set()
@@ -93,6 +98,9 @@ class _Graph:
         if self._wait:
             self._wait -= 1
             return
+        if self._moved:
+            self._lines.append(moved_line(self._moved, time_ns() // _MILLISECOND))
+            self._moved = {}
         lines, self._lines = self._lines, []
         # Even without lines: a heartbeat may be late.
         self._watch.read(sorted(lines, key=time_of))
@@ -103,7 +111,7 @@ class _Graph:
         return of_swarms or any(topic.startswith(f"{space}/") for space in self._spaces)
 
     def _hear(self, topic: str, types: Sequence[str]) -> None:
-        space, _, last = topic.rpartition("/")
+        last = topic.rpartition("/")[2]
         if _STRING in types and last in TOPICS:
             told = {
                 "verdicts": self._on_verdict,
@@ -111,8 +119,21 @@ class _Graph:
                 "models": self._on_model,
             }
             self._listen(topic, self._ros.string, told[last], latched=last != "members")
-        elif BATTERY in types:
-            self._listen(topic, message_class(BATTERY), lambda each: self._on_battery(space, each))
+        for each in TYPES:
+            if each in types:
+                self._hear_sensor(topic, each)
+
+    def _hear_sensor(self, topic: str, type_: str) -> None:
+        robot = next((name for at, name in self._robots.items() if topic.startswith(f"{at}/")), "")
+        if not robot:
+            return  # its node may be found later
+        self._heard.add(topic)
+        try:
+            kind = message_class(type_)
+        except (ImportError, AttributeError):
+            return  # it is not installed here
+        tell = self._on_battery if type_ == BATTERY else self._on_place
+        self._listen(topic, kind, lambda message: tell(robot, message))
 
     def _listen(
         self, topic: str, kind: Any, tell: Callable[[Any], None], *, latched: bool = False
@@ -140,12 +161,14 @@ class _Graph:
             with self._watch.noting() as standing:
                 standing.tell_model(*told)
 
-    def _on_battery(self, space: str, message: Any) -> None:
-        around = (name for at, name in self._robots.items() if f"{space}/".startswith(f"{at}/"))
-        robot = next(around, None)
-        if robot is not None:
-            with self._watch.noting() as standing:
-                standing.charge(robot, share_of(message.percentage))
+    def _on_battery(self, robot: str, message: Any) -> None:
+        with self._watch.noting() as standing:
+            standing.charge(robot, share_of(message))
+
+    def _on_place(self, robot: str, message: Any) -> None:
+        place = place_of(message)
+        if place is not None and self._places.get(robot) != place:
+            self._places[robot] = self._moved[robot] = place
 
     # ---- what is sent
 
@@ -186,10 +209,11 @@ class _Graph:
             raise NotSentError(f"no node listens to `{event.name}`")
         try:
             messages = [(each, self._message(kind, fields)) for each, kind in publishers]
-        except ValueError as error:
-            raise NotSentError(str(error)) from None
-        for publisher, message in messages:
-            publisher.publish(message)
+            for publisher, message in messages:
+                publisher.publish(message)
+        except (ValueError, TypeError, OverflowError, AssertionError) as error:
+            # Some values do not fit into their types; ROS says it when it writes them.
+            raise NotSentError(f"`{event.name}` has another message: {error}") from None
         return heard
 
     def _message(self, kind: Any, fields: Mapping[str, Any]) -> Any:

@@ -25,7 +25,9 @@ export const view = {
     this.alarms.replaceChildren(...now.alarms.map((each) => el("li", {}, each)));
     this.rows.replaceChildren(...now.robots.map((each) => this.row(each)));
     const verdicts = Object.entries(now.verdicts).map(([name, verdict]) => `${name}: ${verdict}`);
-    this.verdicts.textContent = printable(verdicts.join(", "));
+    const sent = now.sent.map(({ event, heard }) => `${event} (${heard})`);
+    const told = [["verdicts", verdicts], ["sent by persons", sent]].filter(([, each]) => each.length);
+    this.verdicts.textContent = printable(told.map(([word, each]) => `${word}: ${each.join(", ")}`).join("; "));
   },
 
   row({ robot, status, machines, battery, models }) {
