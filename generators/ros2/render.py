@@ -17,6 +17,7 @@ from .imports import WIDTH
 from .launch import configuration
 from .monitors import WatchedSwarm
 from .names import TARGET
+from .network_files import network_files
 from .options import Options
 from .view import MachineView, PackageView, package_view
 
@@ -116,6 +117,7 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
             text = runtime_source(_RUNTIME / f"{module}.py", head)
             yield OutputFile(f"{root}/{root}/{module}.py", text)
         yield from _started(package, options, values, head)
+    yield from _networks(package, options)
     monitors = {monitor.launch: monitor.module for monitor in package.monitors}
     for launch in package.launches:
         text = _fill(
@@ -155,6 +157,14 @@ def _started(
         yield OutputFile(f"{root}/deploy/compose.yaml", text)
         text = _fill("package/deploy/Dockerfile", header=head, **values)
         yield OutputFile(f"{root}/deploy/Dockerfile", text)
+
+
+def _networks(package: PackageView, options: Options) -> Iterator[OutputFile]:
+    origins = {launch.name: launch.origin for launch in package.launches}
+    for network in package.networks:
+        folder = f"{package.name}/config/{network.swarm}/network"
+        for name, text in network_files(network, options, package.header, _fill):
+            yield OutputFile(f"{folder}/{name}", text, origin=origins[network.swarm])
 
 
 def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFile:

@@ -32,6 +32,7 @@ from .module import BOTH, STEP, Function, Module
 from .monitor_source import Entry
 from .monitors import WatchedSwarm, watched_swarms
 from .names import NAMES
+from .networks import Network, networks
 from .options import Options
 from .params import parameters
 from .ported import ported
@@ -94,6 +95,7 @@ class PackageView:
     callbacks: tuple[tuple[str, str], ...]
     launches: tuple[Launch, ...]
     monitors: tuple[WatchedSwarm, ...]
+    networks: tuple[Network, ...]
     interfaces: tuple[InterfacePackage, ...]
     manifest: str
     pictures: tuple[Picture, ...]
@@ -152,6 +154,7 @@ def package_view(
         callbacks=tuple(callbacks.items()),
         launches=tuple(launched),
         monitors=watched_swarms(system, launched, modules, report) if options.monitors else (),
+        networks=tuple(networks(system, launched, options, report)),
         interfaces=interfaces,
         manifest=manifest(name, doc, depends, options, format_=3, build_type="ament_python"),
         pictures=pictures(system, machines),

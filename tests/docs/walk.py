@@ -44,6 +44,8 @@ _NOT_RUN = (
     "colcon build",
     ". install/",
     "ros2 launch",
+    "network=$(ros2 pkg prefix ",
+    "export ",
 )
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,8 @@ from .conftest import load_module
 from .radio import Radio
 
 HERE = Path(__file__).resolve().parent
+PROFILES = ("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE")
+"""Variables with the file of profiles, of today and of earlier versions."""
 
 
 class Fleet:
@@ -27,8 +30,8 @@ class Fleet:
             folder.mkdir()
             made = load_module("harness").Ros(ros_folder, packages, 0, folder)
             made.prefix = self.radio.command(name)
-            for profile in ("FASTRTPS", "FASTDDS"):
-                del made.environment[f"{profile}_DEFAULT_PROFILES_FILE"]
+            for variable in PROFILES:
+                del made.environment[variable]
             self.computers[name] = made
 
     @property
@@ -36,11 +39,19 @@ class Fleet:
         """All nodes that were started."""
         return [node for computer in self.computers.values() for node in computer.nodes]
 
-    def profile(self, file: Path) -> None:
-        """Let all processes use a profile of Fast DDS."""
-        for computer in self.computers.values():
-            computer.environment["FASTDDS_DEFAULT_PROFILES_FILE"] = str(file)
-            computer.environment["FASTRTPS_DEFAULT_PROFILES_FILE"] = str(file)
+    def use_profile(self, file: Path, *names: str) -> None:
+        """Let the processes that start on computers, or on all of them, use a profile of DDS."""
+        for name in names or self.computers:
+            environment = self.computers[name].environment
+            environment.update(dict.fromkeys(PROFILES, str(file)))
+
+    @contextmanager
+    def profile(self, name: str, file: Path) -> Iterator[None]:
+        """Let processes that start meanwhile on a computer use another profile."""
+        before = Path(self.computers[name].environment[PROFILES[0]])
+        self.use_profile(file, name)
+        yield
+        self.use_profile(before, name)
 
     def set_clock_wrong(self, name: str, milliseconds: int) -> None:
         """Let the clock of a computer be ahead of that of the others."""
