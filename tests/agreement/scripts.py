@@ -39,7 +39,10 @@ APART = 50_000_000
 """Minimum time between the ends of delays, in ns; documents use milliseconds."""
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
-MORE = {"agriculture", "cpswarm", "emergency_exit", "flocking", "meadow", "minimal"}
+MORE = {
+    *("agriculture", "cpswarm", "crazyflies", "emergency_exit", "flocking", "meadow", "minimal"),
+    "turtlebots",
+}
 """Examples whose machines use nothing that those of other models do not use."""
 NEVER = {
     ("everything", "Work"): ["on done   -> Stop"],

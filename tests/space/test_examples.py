@@ -22,6 +22,8 @@ FIRST = {
     "agriculture": "8 min",
     "flocking": "6 min",
     "storage": "5 min",
+    "turtlebots": "7 min",
+    "crazyflies": "1 min",
 }
 """Time up to which runs of each example go."""
 NAMES = ("emergency_exit",)
