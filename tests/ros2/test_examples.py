@@ -39,7 +39,7 @@ STEPS = 200
 FAR = 30
 GONE = 3.0
 """After how many seconds without a server a call is aborted."""
-ALIKE = {"emergency_exit", "flocking", "meadow", "minimal"}
+ALIKE = {"crazyflies", "emergency_exit", "flocking", "meadow", "minimal"}
 """Examples whose nodes do nothing that those of others do not do."""
 _ONCE = ("event", "wait", "gone")
 _PATIENCE = {"wait": 0.5, "gone": 12.0}
