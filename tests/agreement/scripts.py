@@ -32,6 +32,8 @@ DRAWS = 10
 """Number of messages tried per event, and of results per activity."""
 SITUATIONS = 400
 """Maximum number of situations of a machine to continue from."""
+DEEP = {"Patrol": 700}
+"""The same for machines whose variables have many values."""
 WALKS, STEPS = 10, 40
 """Number of random walks, and steps in each."""
 
@@ -170,6 +172,7 @@ class Subject:
             note(self.after(steps), steps)
         found.clear()
         known = {Model(self).situation}
+        most = DEEP.get(self.machine.name, SITUATIONS)
         waiting: deque[tuple[Step, ...]] = deque([()])
         while waiting and len(missing) > left:
             before = waiting.popleft()
@@ -182,7 +185,7 @@ class Subject:
                 if model.gave_up:
                     continue
                 note(model, steps)
-                if model.situation not in known and len(known) < SITUATIONS:
+                if model.situation not in known and len(known) < most:
                     known.add(model.situation)
                     waiting.append(steps)
         whole = [s for s in found if not any(o != s and o[: len(s)] == s for o in found)]
