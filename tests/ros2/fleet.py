@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 from collections.abc import Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -39,19 +40,24 @@ class Fleet:
         """All nodes that were started."""
         return [node for computer in self.computers.values() for node in computer.nodes]
 
-    def use_profile(self, file: Path, *names: str) -> None:
-        """Let the processes that start on computers, or on all of them, use a profile of DDS."""
-        for name in names or self.computers:
-            environment = self.computers[name].environment
-            environment.update(dict.fromkeys(PROFILES, str(file)))
+    def fakes(self, *names: str) -> list[Any]:
+        """Start processes with servers on computers, all at the same time."""
+        with ThreadPoolExecutor() as pool:
+            return list(pool.map(lambda name: self.computers[name].fakes(), names))
+
+    def use_profile(self, file: Path) -> None:
+        """Let processes that start from now on use a profile of DDS."""
+        for computer in self.computers.values():
+            computer.environment.update(dict.fromkeys(PROFILES, str(file)))
 
     @contextmanager
-    def profile(self, name: str, file: Path) -> Iterator[None]:
-        """Let processes that start meanwhile on a computer use another profile."""
-        before = Path(self.computers[name].environment[PROFILES[0]])
-        self.use_profile(file, name)
+    def profile(self, file: Path) -> Iterator[None]:
+        """Let processes that start meanwhile use another profile."""
+        before = [dict(computer.environment) for computer in self.computers.values()]
+        self.use_profile(file)
         yield
-        self.use_profile(before, name)
+        for computer, environment in zip(self.computers.values(), before, strict=True):
+            computer.environment = environment
 
     def set_clock_wrong(self, name: str, milliseconds: int) -> None:
         """Let the clock of a computer be ahead of that of the others."""
