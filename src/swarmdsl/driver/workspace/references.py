@@ -17,11 +17,15 @@ from swarmdsl.driver.workspace.field_references import FIELDS, field_references
 from swarmdsl.project.libraries import imported_name, place_of
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
+    Choice,
     EnumType,
     FieldUse,
+    FinalState,
     Fitness,
+    History,
     NameUse,
     Node,
+    Parallel,
     Param,
     Property,
     Region,
@@ -35,6 +39,8 @@ from swarmdsl.syntax.ast import (
     references,
     walk,
 )
+
+_VERTICES = (State, Parallel, Choice, History, FinalState)
 
 
 @dataclass(frozen=True)
@@ -97,13 +103,15 @@ def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
         if kind in KINDS:
             for node in found:
                 yield Occurrence(node.name.span.absolute, node, declares=True)
-    around: dict[Node, Node] = {}
+    around: dict[StateMachine, dict[Node, Node]] = {}
     for _, ref in references(owner):
         if ref.target is not None:
             yield _last_segment(ref.span, ref.name, ref.target)
-            if "." in ref.name and isinstance(owner, StateMachine):
-                around = around or _parent_states(owner)
-                yield from _parent_segments(ref.span, ref.name, ref.target, around)
+            if "." in ref.name and isinstance(ref.target, _VERTICES):
+                machine = _machine_of(ref.target, owner, scope)
+                if machine not in around:
+                    around[machine] = _parent_states(machine)
+                yield from _parent_segments(ref.span, ref.name, ref.target, around[machine])
     for use in nodes_of(owner, NameUse):
         if use.target is not None:
             yield _last_segment(use.span, use.name, use.target)
@@ -175,6 +183,19 @@ def _parent_segments(
         word = names.pop()
         yield Occurrence(Span(source, end - len(word), end), node)
         end -= len(word)
+
+
+def _machine_of(state: Node, owner: TopLevel, scope: FileScope) -> StateMachine:
+    """Return the machine of a state that is named in a declaration, mostly this machine."""
+    if isinstance(owner, StateMachine):
+        return owner
+    source, at, _ = state.span
+    for _, each in scope.project.declarations():
+        span = each.span
+        inside = span.source is source and span.start <= at < span.end
+        if inside and isinstance(each, StateMachine):
+            return each
+    raise AssertionError("a state is in a machine")
 
 
 def _parent_states(machine: StateMachine) -> dict[Node, Node]:

@@ -54,7 +54,14 @@ FEATURES: Mapping[str, Mapping[str, Any]] = {
         lsp.TEXT_DOCUMENT_PREPARE_RENAME: None,
         lsp.TEXT_DOCUMENT_RENAME: None,
         lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(
-            code_action_kinds=[lsp.CodeActionKind.QuickFix, "source.fixAll.swarmdsl"]
+            code_action_kinds=[
+                lsp.CodeActionKind.QuickFix,
+                "source.fixAll.swarmdsl",
+                lsp.CodeActionKind.RefactorExtract,
+                lsp.CodeActionKind.RefactorInline,
+                "refactor.move",
+            ],
+            resolve_provider=True,
         ),
         lsp.WORKSPACE_WILL_RENAME_FILES: lsp.FileOperationRegistrationOptions(
             filters=[
@@ -69,6 +76,7 @@ FEATURES: Mapping[str, Mapping[str, Any]] = {
                 ),
             ]
         ),
+        lsp.CODE_ACTION_RESOLVE: None,
     },
     "preview": {"swarmdsl/pictures": None},
 }

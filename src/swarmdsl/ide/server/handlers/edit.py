@@ -14,6 +14,7 @@ from swarmdsl.driver.workspace.renaming import RefusedError, renamable, rename
 from swarmdsl.ide.server.code_action import code_actions
 from swarmdsl.ide.server.file_renames import import_changes
 from swarmdsl.ide.server.layout import line_changes
+from swarmdsl.ide.server.refactorings import refactorings, resolved
 from swarmdsl.ide.server.session import Session
 from swarmdsl.ide.server.signatures import signature
 from swarmdsl.syntax.formatter import format_source
@@ -108,7 +109,16 @@ def _will_rename(session: Session, params: lsp.RenameFilesParams) -> lsp.Workspa
 
 def _code_actions(session: Session, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
     found = session.file(params.text_document)
-    return list(code_actions(session, *found, params)) if found is not None else []
+    if found is None:
+        return []
+    return [*code_actions(session, *found, params), *refactorings(session, *found, params)]
+
+
+def _resolve_code_action(session: Session, params: lsp.CodeAction) -> lsp.CodeAction:
+    try:
+        return resolved(session, params)
+    except RefusedError as error:
+        raise _failed(error) from error
 
 
 REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
@@ -119,4 +129,5 @@ REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
     lsp.TEXT_DOCUMENT_RENAME: _rename,
     lsp.TEXT_DOCUMENT_CODE_ACTION: _code_actions,
     lsp.WORKSPACE_WILL_RENAME_FILES: _will_rename,
+    lsp.CODE_ACTION_RESOLVE: _resolve_code_action,
 }

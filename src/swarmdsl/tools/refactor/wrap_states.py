@@ -1,0 +1,103 @@
+"""Move states that are beside each other into a new composite state.
+
+The new state has nothing but them, so each step of the machine does what it did. It is refused
+where it would not: a final state would end another state, and a history would restore less.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.references import occurrences_of
+from swarmdsl.driver.workspace.renaming import RefusedError
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import FinalState, History, Initial, State, Vertex
+from swarmdsl.tools.refactor.changed_texts import Change, applied, statement, tried
+from swarmdsl.tools.refactor.selected_states import Selection
+
+_NAME = "Group"
+
+
+def why_not_wrap(selection: Selection) -> str | None:
+    """Return the reason why states cannot be moved into a composite state; None if they can."""
+    for each in selection.states:
+        if isinstance(each, FinalState):
+            return f"the final state `{each.name}` ends what it is in"
+        if isinstance(each, History):
+            return f"the history `{each.name}` restores what it is in"
+    if not any(isinstance(each, State) for each in selection.states) and len(selection.states) < 2:
+        return "it is no state that can be left"
+    if selection.shallow_history is not None:
+        name = selection.shallow_history.name
+        return f"the history `{name}` would restore the new state, but not the states in it"
+    return None
+
+
+def wrap_states(workspace: Workspace, file: File, selection: Selection) -> dict[Path, str]:
+    """Return the texts of files with the states in a new one; raise RefusedError if not."""
+    reason = why_not_wrap(selection)
+    if reason is not None:
+        raise RefusedError(reason)
+    path = file.source.path
+    assert path is not None  # sources of a workspace are files
+    name = _fresh(selection.machine.span.text)
+    changes: dict[Path, list[Change]] = {path: []}
+    entered: list[Vertex] = []
+    inside = [each.span.absolute for each in selection.states]
+    beginning = next((i for i in selection.container.items if isinstance(i, Initial)), None)
+    first = beginning.target.span.absolute if beginning is not None else None
+    begins_here = False
+    for state in selection.states:
+        for each in occurrences_of(state, workspace):
+            source, start, end = each.span
+            assert source.path is not None
+            if each.declares:
+                continue
+            if first is not None and source.path == path and start == first.start:
+                begins_here = True
+                entered.insert(0, state)
+                continue
+            within = source.path == path and any(s.start <= start and end <= s.end for s in inside)
+            if within and not source.text.startswith(".", start - 1):
+                continue  # a name is looked up beside the states first
+            changes.setdefault(source.path, []).append((start, start, f"{name}."))
+            if not within:
+                entered.append(state)
+    if begins_here and first is not None:
+        initial = first.text
+        changes[path].append((first.start, first.end, name))
+    else:
+        states = (each for each in selection.states if isinstance(each, State))
+        initial = str((entered or [next(states, selection.states[0])])[0].name)
+    texts = {
+        each: applied(other.source.text, made)
+        for each, made in changes.items()
+        if (other := workspace.file(each)) is not None
+    }
+    texts[path] = _moved(file.source.text, selection, changes[path], name, initial)
+    return tried(workspace, texts)
+
+
+def _moved(text: str, selection: Selection, changes: list[Change], name: str, initial: str) -> str:
+    """Return the text of the file with the states in the new one, where the first of them was."""
+    bounds = [statement(each.span.absolute) for each in selection.states]
+    states = "\n\n".join(applied(text, changes, *each) for each in bounds)
+    others = [
+        (first, last, new)
+        for first, last, new in changes
+        if not any(start <= first and last <= end for start, end in bounds)
+    ]
+    places = [(*bounds[0], f"state {name} {{\ninitial {initial}\n\n{states}\n}}")]
+    return applied(text, [*others, *places, *((start, end, "") for start, end in bounds[1:])])
+
+
+def _fresh(text: str) -> str:
+    """Return a name that does not occur in a text."""
+    used = set(re.findall(r"\w+", text))
+    number = 2
+    name = _NAME
+    while name in used:
+        name, number = f"{_NAME}{number}", number + 1
+    return name

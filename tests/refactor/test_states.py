@@ -1,0 +1,307 @@
+"""States that are wrapped or dissolved do what they did, in examples and in models by chance."""
+
+import random
+import re
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.renaming import RefusedError, rename, replaced
+from swarmdsl.execution.engine import LoopError
+from swarmdsl.ir import System
+from swarmdsl.ir.dump import dump
+from swarmdsl.lowering import lower
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import State, StateMachine, walk
+from swarmdsl.syntax.formatter import format_source
+from swarmdsl.tools.refactor.inline_state import inline_state, why_not_inline
+from swarmdsl.tools.refactor.selected_states import Selection, selected_states
+from swarmdsl.tools.refactor.wrap_states import wrap_states
+
+from ..agreement.engines import Ours, Step
+from ..agreement.scripts import Model, Subject
+
+ROOT = Path(__file__).resolve().parents[2]
+MODELS = sorted((ROOT / "examples").glob("*/*.swarm"))
+MODELS += sorted((ROOT / "tests" / "golden").glob("*/model.swarm"))
+
+
+def behaviours(before: System, after: System, name: str, gone: str) -> int:
+    """Compare a machine in two systems step by step; `gone` is a state that one has in between."""
+    one, other = (
+        next(each for each in system.machines if each.name == name) for system in (before, after)
+    )
+    first, second = Subject(one, before), Subject(other, after)
+
+    def plain(state: str) -> str:
+        return ".".join(part for part in state.split(".") if part != gone)
+
+    renamed = {plain(state.id): state.id for state in other.walk() if plain(state.id)}
+    compared = 0
+    for steps in map(first.walk, map(random.Random, range(2))):
+        left, right = Model(first), Model(second)
+        for step in steps:
+            assert told(left, plain) == told(right, plain)
+            left.take(step)
+            run = (renamed[plain(step.run[0])], step.run[1]) if step.run is not None else None
+            right.take(Step(step.event, step.data, run, step.time, step.sender, step.sent))
+            compared += 1
+        assert told(left, plain) == told(right, plain)
+    return compared
+
+
+def told(model: Ours, plain) -> object:
+    """All states that are active, but for the one in between, and the values of variables."""
+    active = {plain(state) for state in Ours.active.fget(model)} - {""}
+    return active, repr(model.instance.data).replace("group_", "")
+
+
+def selections(file: File, dice: random.Random) -> Iterator[Selection]:
+    """Two selections of states beside each other in machines of a file."""
+    machines = [each for each in file.model.declarations if isinstance(each, StateMachine)]
+    states = [(one, each) for one in machines for each in walk(one) if isinstance(each, State)]
+    for machine, state in dice.sample(states, min(2, len(states))):
+        span = state.span.absolute
+        end = dice.choice([span.start, span.end + 200, span.end + 2000])
+        within = Span(file.source, span.start, min(end, machine.span.absolute.end))
+        found = selected_states(file, within)
+        if found is not None:
+            yield found
+
+
+def comments(text: str) -> Counter[str]:
+    return Counter(each.strip() for each in re.findall(r"//+(.*)", text))
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_wrapped_and_dissolved_again(path: Path) -> None:
+    workspace = Workspace([path])
+    file = workspace.file(path)
+    if workspace.report.has_errors or file is None:
+        pytest.skip("it is wrong by itself")
+    before = lower(workspace.project)
+    for selection in selections(file, random.Random(path.as_posix()[-30:])):
+        try:
+            texts = wrap_states(workspace, file, selection)
+        except RefusedError:
+            continue
+        check_text(texts[path], file.source.text)
+        name, count = str(selection.machine.name), len(selection.states)
+        with workspace.overriding(texts):
+            after = lower(workspace.project)
+            behaviour(before, after, name, "Group")
+            here = workspace.file(path)
+            assert here is not None
+            at = here.source.text.index("state Group {")
+            wrapped = selected_states(here, Span(here.source, at, at))
+            assert wrapped is not None
+            inner = [each for each in walk(wrapped.states[0]) if isinstance(each, State)]
+            assert len(inner) > count - 1
+            back = inline_state(workspace, here, wrapped)
+            check_text(back[path], file.source.text)
+            with workspace.overriding(back):
+                again = lower(workspace.project)
+        assert dump(again) == dump(before)
+
+
+def behaviour(before: System, after: System, name: str, gone: str) -> None:
+    with suppress(LoopError):  # a machine by chance may not come to rest
+        behaviours(before, after, name, gone)
+
+
+def check_text(text: str, original: str) -> None:
+    assert format_source(Source("", text), Diagnostics()) == text
+    assert comments(text) == comments(original)
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_dissolved(path: Path) -> None:
+    workspace = Workspace([path])
+    file = workspace.file(path)
+    if workspace.report.has_errors or file is None:
+        pytest.skip("it is wrong by itself")
+    before, left = lower(workspace.project), 2
+    for machine in file.model.declarations:
+        for state in walk(machine) if isinstance(machine, StateMachine) else ():
+            if not isinstance(state, State) or not left:
+                continue
+            at = state.span.absolute.start
+            selection = selected_states(file, Span(file.source, at, at))
+            if selection is None or why_not_inline(selection) is not None:
+                continue
+            try:
+                texts = inline_state(workspace, file, selection)
+            except RefusedError:
+                continue
+            left -= 1
+            assert format_source(Source("", texts[path]), Diagnostics()) == texts[path]
+            assert not comments(file.source.text) - comments(texts[path])
+            with workspace.overriding(texts):
+                behaviour(before, lower(workspace.project), str(machine.name), str(state.name))
+
+
+MODEL = """\
+package a
+
+swarm event Go : std_msgs/Empty
+swarm event Stop : std_msgs/Empty
+
+statemachine M {
+  initial A
+  // about A
+  state A { on Go -> B }  // after A
+  /// Documentation of B.
+  state B { on Go -> C }
+  state C {
+    history Back -> D
+    initial D
+    state D { on Go -> E }
+    state E { on Stop -> A }
+    on Stop -> A
+  }
+  /// Ends.
+  state F {
+    initial G
+
+    state G { on Go -> H }
+    final H
+
+    on done -> Z
+  }
+  /// Waits.
+  state W {  // head
+    /// At first.
+    initial X
+
+    state X { on Go -> Y }
+    state Y
+
+    // on a stop
+    on Stop -> A
+  }
+  final Z
+}
+
+member R { behavior M }
+
+property P of M : in W.X leads to in A within 5 s
+"""
+
+
+@pytest.fixture
+def model(tmp_path: Path) -> Workspace:
+    (tmp_path / "model.swarm").write_text(MODEL, encoding="utf-8")
+    return Workspace([tmp_path])
+
+
+def chosen(model: Workspace, first: str, last: str = "") -> tuple[File, Selection]:
+    [file] = [each for each in model.project.files if not each.library]
+    start = file.source.text.index(first)
+    end = file.source.text.index(last, start) + len(last) if last else start
+    found = selected_states(file, Span(file.source, start, end))
+    assert found is not None
+    return file, found
+
+
+def test_wrapped_text(model: Workspace) -> None:
+    [text] = wrap_states(model, *chosen(model, "state A", "state B")).values()
+    assert (
+        """\
+  initial Group
+  state Group {
+    initial A
+
+    // about A
+    state A { on Go -> B }  // after A
+
+    /// Documentation of B.
+    state B { on Go -> C }
+  }
+
+  state C {
+    history Back -> D
+    initial D
+    state D { on Go -> E }
+    state E { on Stop -> Group.A }
+    on Stop -> Group.A
+  }
+"""
+        in text
+    )
+    assert "in W.X leads to in Group.A within" in text
+
+
+def test_state_is_renamed_in_paths_of_properties(model: Workspace) -> None:
+    file, selection = chosen(model, "state W")
+    spans = rename(model, file, selection.states[0].name.span.absolute.start, "Waiting")
+    assert len(spans) == 2
+    [text] = replaced(spans, "Waiting").values()
+    assert "property P of M : in Waiting.X leads" in text
+
+
+def test_dissolved_text(model: Workspace) -> None:
+    [text] = inline_state(model, *chosen(model, "state W")).values()
+    assert (
+        """\
+  // Waits.
+
+  // head
+  // At first.
+
+  state X {
+    on Go   -> Y
+    // on a stop
+    on Stop -> A
+  }
+  state Y {
+    // on a stop
+    on Stop -> A
+  }
+
+  final Z
+"""
+        in text
+    )
+    assert "in X leads to in A within" in text
+
+
+@pytest.mark.parametrize(
+    ("change", "first", "last", "reason"),
+    [
+        (wrap_states, "state D", "", "the history `Back` would restore the new state"),
+        (wrap_states, "final Z", "", "the final state `Z` ends what it is in"),
+        (wrap_states, "history Back", "", "the history `Back` restores what it is in"),
+        (inline_state, "state A", "", "it is no composite state"),
+        (inline_state, "state C", "", "`C` has a history"),
+        (inline_state, "state F", "", "`F` has a final state"),
+    ],
+)
+def test_refused(model: Workspace, change, first: str, last: str, reason: str) -> None:
+    with pytest.raises(RefusedError, match=reason):
+        change(model, *chosen(model, first, last))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("// on a stop", "after 5 s -> A", "a transition of `W` is on more than events"),
+        ("// on a stop", "exit / send Go", "`W` has effects at its exit"),
+        ("// on a stop", "var n : int32 = 0", "`W` has variables"),
+        ("state Y", "state A", "there is another state `A` around `W`"),
+        ("-> B }", "[in(W)] -> B }", "an expression is about `W`"),
+        ("in W.X", "in W", "`W` is named outside of its machine"),
+        ("  state X {", "  state X { defer Stop", "states in `W` defer events"),
+    ],
+)
+def test_not_dissolved(tmp_path: Path, old: str, new: str, reason: str) -> None:
+    text = MODEL.replace(old, new)
+    (tmp_path / "model.swarm").write_text(text, encoding="utf-8")
+    model = Workspace([tmp_path])
+    with pytest.raises(RefusedError, match=reason):
+        inline_state(model, *chosen(model, "state W"))
