@@ -479,3 +479,38 @@ swarm S {
     assert "target walker at random in pasture" in text
     assert "car : Car in pasture" in text
     assert "area meadow" in text.partition("environment Town")[2]
+
+
+def test_fields(swarmc, tmp_path):
+    path = tmp_path / "dive.swarm"
+    path.write_text(
+        """action Dive {
+  goal   { depth : float64 }
+  result { depth : float64 }
+}
+
+function dive : abstraction {
+  action "dive" : dive/Dive
+}
+
+statemachine Diver {
+  var reached : float64 = 0.0
+
+  initial Down
+
+  state Down {
+    do dive(depth = 3.0) gives (depth => reached)
+    on succeeded [reached > 3.0] -> Done
+    on succeeded, aborted -> Done
+  }
+
+  final Done
+}
+"""
+    )
+    assert "did you mean `Dive.goal.depth`" in swarmc("rename", "Dive.depth", "deep", path).err
+    assert "such as `Dive.goal.depth`" in swarmc("rename", "depth", "deep", path).err
+    assert swarmc("rename", "Dive.result.depth", "deep", path).code == 0
+    text = path.read_text()
+    assert "goal { depth :" in " ".join(text.split())
+    assert "do dive(depth = 3.0) gives (deep => reached)" in text

@@ -22,8 +22,8 @@ def rename(old: str, new: str, paths: tuple[Path, ...], dry_run: bool, format_: 
     """Rename an element in the model, its tests and scenarios.
 
     OLD is its name, or its path where the name is ambiguous: `Uav.altitude` is a param of a
-    member, `Search.Rise` a state of a machine. NEW is one word. A new name that would cause an
-    error, or change the meaning of another name, is refused.
+    member, `Search.Rise` a state of a machine, `Dive.goal.depth` a field of an action. NEW is one
+    word. A new name that would cause an error, or change the meaning of another name, is refused.
     """
     from swarmdsl.base.diagnostics.render import counted, render
     from swarmdsl.tools.refactor.rename import rename as renamed

@@ -100,7 +100,7 @@ def _named(
             yield name.span.absolute, known[str(name)]
 
 
-def part_with(field: Field, owner: TopLevel) -> str:
+def part_with(field: Field, owner: Node) -> str:
     """Return the part of an interface that a field is in: "goal", or "" for a message."""
     parts: dict[str, list[Field]] = {}
     match owner:

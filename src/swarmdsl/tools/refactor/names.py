@@ -1,4 +1,4 @@
-"""Find declared elements by qualified name: `Uav.altitude`, `Search.Rise`."""
+"""Find declared elements by qualified name: `Uav.altitude`, `Search.Rise`, `Dive.goal.depth`."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import closest
 from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.field_references import part_with
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Node, Region, children
+from swarmdsl.syntax.ast import Field, Node, Region, children
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,4 +76,5 @@ def _elements_in(file: File, node: Node, around: Sequence[str]) -> Iterator[Name
         yield NamedElement(file, node, own)
         path = path if isinstance(node, Region) else own
     for child in children(node):
-        yield from _elements_in(file, child, path)
+        part = part_with(child, node) if isinstance(child, Field) else ""
+        yield from _elements_in(file, child, (*path, part) if part else path)
