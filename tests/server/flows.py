@@ -6,7 +6,7 @@ import re
 from typing import NamedTuple
 
 FUNCTIONS = """\
-package patrol.functions
+package patrol.flying
 
 /// Rise to a height.
 function take_off : abstraction { action "take_off" : patrol_msgs/TakeOff }
@@ -17,7 +17,7 @@ function tidy : abstraction { service "tidy" : std_srvs/Empty }
 MARKED = """\
 package patrol
 «import cpswarm.e|vents.*»
-«import "f|unctions.swarm»"
+«import "f|lying.swarm»"
 
 enum Mode {
   SLOW

@@ -134,7 +134,7 @@ def test_illegal_is_not_offered(tmp_path):
 @pytest.mark.asyncio(loop_scope="module")
 async def test_names_are_in_the_list_as_they_are_typed(client, editor, tmp_path):
     (tmp_path / "swarm.toml").write_text('[project]\nname = "patrol"\n')
-    (tmp_path / "functions.swarm").write_text(FUNCTIONS)
+    (tmp_path / "flying.swarm").write_text(FUNCTIONS)
     document = editor.open(tmp_path / "patrol.swarm", GIVEN)
     lines = GIVEN.split("\n")
     hidden = {}
@@ -183,7 +183,7 @@ async def test_typed_character_begins_a_list_only_before_a_name(client, editor, 
 @pytest.mark.asyncio(loop_scope="module")
 async def test_name_of_another_file_adds_its_import(client, editor, tmp_path):
     (tmp_path / "swarm.toml").write_text('[project]\nname = "patrol"\n')
-    (tmp_path / "functions.swarm").write_text(FUNCTIONS)
+    (tmp_path / "flying.swarm").write_text(FUNCTIONS)
     for head in (
         "package here\n\nimport cpswarm.events.*\n\n",
         "package here\n\n",
@@ -203,7 +203,7 @@ async def test_name_of_another_file_adds_its_import(client, editor, tmp_path):
         line, column = edit.range.start.line, edit.range.start.character
         lines[line] = lines[line][:column] + edit.new_text + lines[line][column:]
         changed = "\n".join(lines)
-        assert 'import "functions.swarm"' in changed
+        assert 'import "flying.swarm"' in changed
         assert format_source(Source("model.swarm", changed), Diagnostics()) == changed
         editor.type(document, changed)
         assert "SW0202" not in [each.code for each in await editor.told(document)]

@@ -49,6 +49,11 @@ swarm Pair { worker : Worker[2] }
 
 property OneWaits of Pair : never all worker in Waiting
 """
+UNTITLED = "statemachine M { initial Idle state Idle { on Nowhere -> Idle } }"
+# Declared and named states have scopes, and colours, of their own.
+COLOURED = """colour =>
+  [...document.querySelectorAll(".editor-instance .view-line span span")].some(each =>
+    each.textContent.trim() === "Idle" && getComputedStyle(each).color === colour)"""
 PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
 
 
@@ -113,18 +118,30 @@ def test_completion(window: Window) -> None:
 
 
 def test_names_are_in_the_list_while_one_types(window: Window) -> None:
-    folder = window.folder / "typed"
-    folder.mkdir()
-    (folder / "swarm.toml").write_text('[project]\nname = "patrol"\n', encoding="utf-8")
-    (folder / "functions.swarm").write_text(FUNCTIONS, encoding="utf-8")
-    (folder / "patrol.swarm").write_text(GIVEN, encoding="utf-8")
-    try:
-        window.open("patrol.swarm")
-        fill(window)
-        window.saved("typed/patrol.swarm", lambda now: now == MODEL)
+    (window.folder / "flying.swarm").write_text(FUNCTIONS, encoding="utf-8")
+    (window.folder / "patrol.swarm").write_text(GIVEN, encoding="utf-8")
+    files = window.page.locator(".explorer-folders-view .monaco-list-row")
+    files.filter(has_text="patrol.swarm").dblclick()
+    window.at(1, 1)
+    fill(window)
+    window.saved("patrol.swarm", lambda now: now == MODEL)
+
+
+def test_file_without_a_name_has_diagnostics_and_colours_of_the_user(window: Window) -> None:
+    rule = {"scope": "entity.name.type.state.swarm", "settings": {"foreground": "#ff0000"}}
+    with window.settings({"editor.tokenColorCustomizations": {"textMateRules": [rule]}}):
+        window.command("File: New Untitled Text File")
+        window.command("Change Language Mode")
+        window.page.get_by_placeholder("Select Language Mode").fill("Swarm")
+        window.choose("Swarm")
+        window.focus()
+        window.page.keyboard.insert_text(UNTITLED)
+        expect(window.page.locator(".squiggly-error").first).to_be_visible()
+        # The semantic tokens of the server are there, and have the scopes of the grammar.
+        window.page.wait_for_function(COLOURED, arg="rgb(255, 0, 0)")
+        window.focus()
+        window.command("View: Revert and Close Editor")
         window.leave()
-    finally:
-        shutil.rmtree(folder)
 
 
 def test_error_has_a_squiggle_and_a_quick_fix(window: Window) -> None:
