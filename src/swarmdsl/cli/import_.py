@@ -108,8 +108,54 @@ def amf(paths: tuple[Path, ...], out: Path | None, dry_run: bool, force: bool, f
 @options.diagnostics_format
 @options.debug
 def ros(paths: tuple[Path, ...], out: Path | None, dry_run: bool, force: bool, format_: str) -> int:
-    """Import ROS 1 or ROS 2 interfaces and parameters: packages, or folders of packages."""
+    """Import ROS 1 or ROS 2 interfaces and parameters: packages, or folders of packages.
+
+    A FOLDER can be the name of an installed package of ROS 2, whose setup file is sourced.
+    """
     return _run("ros", paths, (), out, dry_run, force, format_)
+
+
+@import_.command(epilog="Example: swarmc import ros2 --from-graph --namespace /uav_0 -o uav.swarm")
+@click.option(
+    "--from-graph",
+    is_flag=True,
+    required=True,
+    help="Read actions, services and topics of nodes that run now.",
+)
+@click.option(
+    "--namespace",
+    metavar="NAME",
+    default="/",
+    show_default=True,
+    help="Only what is in this namespace, with names relative to it.",
+)
+@click.option(
+    "--quiet",
+    metavar="SECONDS",
+    type=click.FloatRange(0.0, 600.0),
+    default=2.0,
+    show_default=True,
+    help="Stop when nothing new was found for so long.",
+)
+@_output
+@_dry_run
+@_force
+@options.diagnostics_format
+@options.debug
+def ros2(
+    from_graph: bool,
+    namespace: str,
+    quiet: float,
+    out: Path | None,
+    dry_run: bool,
+    force: bool,
+    format_: str,
+) -> int:
+    """Import functions and events from a running ROS 2: its servers, and topics with publishers.
+
+    Their interfaces are read from the installed packages.
+    """
+    return _run("ros2", [Path(namespace)], (), out, dry_run, force, format_, quiet)
 
 
 def _run(
@@ -120,21 +166,27 @@ def _run(
     dry_run: bool,
     force: bool,
     format_: str,
+    quiet: float = 0.0,
 ) -> int:
     from swarmdsl.base.diagnostics.render import render, summary
+    from swarmdsl.base.errors import UsageError
     from swarmdsl.cli.exit_code import ERRORS, exit_code
     from swarmdsl.importing.command import run
 
     if dry_run and out is None:
         raise click.UsageError("--dry-run shows changes of a file: name it with -o")
-    imported = run(kind, paths, described, out, force=force, dry_run=dry_run)
+    try:
+        imported = run(kind, paths, described, out, force=force, dry_run=dry_run, quiet=quiet)
+    except UsageError as error:
+        raise click.UsageError(str(error)) from error
     render(imported.report, format_, sys.stderr)
     if imported.text is not None and out is None:
         click.echo(imported.text, nl=False)
     elif dry_run or not imported.is_new:
         for layout in imported.layouts:
             click.echo(layout.diff(), nl=False)
-    click.echo(summary(imported.report, imported.files), err=True)
+    found = f"{imported.files} functions and events were found"
+    click.echo(found if kind == "ros2" else summary(imported.report, imported.files), err=True)
     if not imported.report.has_errors and not dry_run and out is not None:
         if imported.is_new:
             click.echo(f"{out} was written", err=True)

@@ -19,7 +19,7 @@ from swarmdsl.importing.text import check_model, model_text
 from swarmdsl.importing.update import Guess
 from swarmdsl.importing.update.on_disk import read_existing, update_files
 
-Format = Literal["scxml", "adf", "amf", "ros"]
+Format = Literal["scxml", "adf", "amf", "ros", "ros2"]
 # Properties of functions that ROS packages do not contain.
 _GUESSED_OF_FUNCTIONS = ("communication", "category")
 
@@ -46,14 +46,18 @@ def run(
     *,
     force: bool,
     dry_run: bool = False,
+    quiet: float = 0.0,
 ) -> ImportResult:
     """Import files into a new model, or update an existing one.
+
+    For `ros2`, the path is a namespace of the running ROS 2, which is read until nothing new is
+    found for `quiet` seconds.
 
     Nothing is written in a dry run or if the resulting model has errors.
     """
     report = Diagnostics()
     existing = read_existing(out, report) if out is not None else None
-    name = package_of(out or paths[0])
+    name = package_of(out or (Path(paths[0].name or "robot") if format_ == "ros2" else paths[0]))
     guesses: set[Guess] = set()
     if format_ == "ros":
         functions = library_functions() | (existing.functions() if existing is not None else {})
@@ -62,6 +66,11 @@ def run(
             (each.name, what) for each in system.functions for what in _GUESSED_OF_FUNCTIONS
         )
         guesses.update((each.name, "kind") for each in system.components)
+    elif format_ == "ros2":
+        from swarmdsl.importing.ros_graph import import_graph, read_graph
+
+        system, files = import_graph(read_graph(quiet), paths[0].as_posix(), name, report)
+        guesses.update((each.name, "category") for each in system.functions)
     else:
         known = existing.system if existing is not None and format_ == "scxml" else None
         system, files = read_files(format_, paths, described, name, known, guesses, report)

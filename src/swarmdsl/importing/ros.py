@@ -12,7 +12,7 @@ from pathlib import Path
 from swarmdsl.analysis.resolve.type_names import written_type
 from swarmdsl.base import resources
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.read_files import MOST_DATA, is_folder
+from swarmdsl.base.read_files import MOST_DATA, exists, is_folder
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver import pipeline
@@ -33,6 +33,7 @@ from swarmdsl.ir import (
     System,
 )
 from swarmdsl.project.read_source import read_source
+from swarmdsl.project.rosidl.installed import installed_package
 from swarmdsl.project.rosidl.interface_file import InterfaceFile, parse_interface
 from swarmdsl.project.rosidl.package_folder import find_interfaces, find_parameters
 from swarmdsl.project.rosidl.standard import lookup
@@ -51,12 +52,14 @@ def import_ros(
 ) -> tuple[System, int]:
     """Import the packages in the folders; return the system and the number of files.
 
-    `functions` are the functions whose nodes may be among the packages.
+    A folder that does not exist may be the name of an installed package. `functions` are the
+    functions whose nodes may be among the packages.
     """
     interfaces: dict[Named, Interface] = {}
     owners: dict[str, NodeParams] = {}
     files = 0
-    for folder in folders:
+    for named in folders:
+        folder = named if exists(named) else installed_package(str(named)) or named
         parameters = find_parameters(folder) if is_folder(folder) else []
         found = find_interfaces(folder, None, report, required=not parameters)
         files += len(found) + len(parameters)

@@ -29,7 +29,8 @@ def model_text(system: System, path: Path, report: Diagnostics) -> str | None:
 
 
 def _has_content(system: System) -> bool:
-    return bool(system.machines or system.functions or system.components or system.interfaces)
+    found = (system.machines, system.functions, system.components, system.interfaces, system.events)
+    return any(found)
 
 
 def check_model(text: str, path: Path, report: Diagnostics) -> Project | None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.graphs import cycles
-from swarmdsl.base.read_files import is_file, is_folder
+from swarmdsl.base.read_files import exists, is_file, is_folder
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import did_you_mean
@@ -219,7 +219,11 @@ class _Loader:
                 if not self._reader.allows(place, target.span, self._report):
                     return
                 # Most files import no interfaces.
+                from swarmdsl.project.rosidl.installed import installed_package
                 from swarmdsl.project.rosidl.package_folder import find_interfaces
+
+                if not exists(place):
+                    place = installed_package(target) or place
 
                 found = find_interfaces(place, target.span, self._report, look=self._reader.look)
                 for interface in found:

@@ -28,7 +28,8 @@ _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 _PARAMETERS = ("param", "params", "config", "cfg")
 _WANTED = (
     "name the folder of a ROS package with .msg, .srv or .action files, "
-    "or one with several such packages"
+    "or one with several such packages; or the name of a package that is installed, "
+    "with the setup file of ROS 2 sourced"
 )
 
 
@@ -141,7 +142,7 @@ class _Finder:
                 (name.removesuffix(f".{kind}"), kind, folder / name)
                 for name in names
                 for kind in INTERFACE_KINDS
-                if name.endswith(f".{kind}")
+                if name.endswith(f".{kind}") and not _is_derived(name, folder)
             ]
             if not files:
                 continue
@@ -252,6 +253,11 @@ class _Finder:
     def _cannot_read(self, path: str | Path, reason: str) -> None:
         self._report.report("unreadable-file", self._at, path=path, reason=reason)
         self.reported = True
+
+
+def _is_derived(name: str, folder: Path) -> bool:
+    """Return True for a message that builds make of a service: `srv/Add_Request.msg`."""
+    return folder.name in INTERFACE_KINDS[1:] and name.endswith(".msg") and "_" in name
 
 
 def _absolute(path: Path) -> Path:
