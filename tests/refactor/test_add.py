@@ -73,6 +73,13 @@ def model(folder: Path) -> Path:
 
 
 CASES: dict[str, tuple[list[str], str, str]] = {
+    "operator event": (
+        ["event", "Dark", "std_msgs/Empty", "--operator"],
+        "event Bump : std_msgs/Bool   // of the bumper",
+        """
+
+swarm operator event Dark : std_msgs/Empty""",
+    ),
     "event": (
         ["event", "Dark", "std_msgs/Empty", "--doc", "Night falls."],
         "event Bump : std_msgs/Bool   // of the bumper",

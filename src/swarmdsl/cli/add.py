@@ -197,6 +197,7 @@ def function(**given: Any) -> int:
 @_name
 @click.argument("type_", metavar="TYPE")
 @click.option("--swarm", is_flag=True, help="An event between members of the swarm.")
+@click.option("--operator", is_flag=True, help="An event that a person may send to the swarm.")
 @click.option("--on", "topic", metavar="TOPIC", default="", help="Its topic.")
 @_doc
 @_file

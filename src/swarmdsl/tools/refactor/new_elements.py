@@ -79,6 +79,8 @@ def event(options: Options) -> list[FindInsertion]:
     """Return a new event."""
     name = options["name"]
     kind = "swarm event" if options["swarm"] else "event"
+    if options["operator"]:
+        kind = "swarm operator event"
     topic = f' on "{options["topic"]}"' if options["topic"] else ""
     text = f"{_doc(options)}{kind} {name} : {options['type_']}{topic}"
     return [declaration(name, text, options["file"])]
