@@ -335,7 +335,9 @@ def test_a_mistake_that_is_there_already_is_not_told_again(swarmc, model) -> Non
 # ---- random things into random models
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
-FOLDERS = sorted(path.name for path in EXAMPLES.iterdir() if path.is_dir())
+# One imports files from beside it, and members of the other need values of their params.
+_OTHERS = {"meadow", "turtlebots"}
+FOLDERS = sorted({path.name for path in EXAMPLES.iterdir() if path.is_dir()} - _OTHERS)
 names = st.from_regex(r"[A-Z][a-z]{2,5}[A-Z][a-z]{2,5}Zz", fullmatch=True)
 docs = st.sampled_from(["", "One line.", "Two\nlines, and { braces }."])
 types = st.sampled_from(["bool", "float64", "std_msgs/String", "geometry_msgs/Pose[]"])
