@@ -20,6 +20,7 @@ from swarmdsl.lowering import lower
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import State, StateMachine, walk
 from swarmdsl.syntax.formatter import format_source
+from swarmdsl.tools.refactor.extract_machine import extract_machine, why_not_extract
 from swarmdsl.tools.refactor.inline_state import inline_state, why_not_inline
 from swarmdsl.tools.refactor.selected_states import Selection, selected_states
 from swarmdsl.tools.refactor.wrap_states import wrap_states
@@ -146,6 +147,38 @@ def test_dissolved(path: Path) -> None:
                 behaviour(before, lower(workspace.project), str(machine.name), str(state.name))
 
 
+def machine_in(text: str, name: str) -> str:
+    """Return a machine of a dump, without the names of submachines, which are expanded."""
+    found = re.search(rf"^    StateMachine {name}\n(?:     .*\n)*", text, re.MULTILINE)
+    assert found is not None
+    return re.sub(r"^ +submachine: .*\n", "", found[0], flags=re.MULTILINE)
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_machine_extracted(path: Path) -> None:
+    workspace = Workspace([path])
+    file = workspace.file(path)
+    if workspace.report.has_errors or file is None:
+        pytest.skip("it is wrong by itself")
+    before, left = dump(lower(workspace.project)), 2
+    for machine in file.model.declarations:
+        for state in walk(machine) if isinstance(machine, StateMachine) else ():
+            at = state.span.absolute.start
+            selection = selected_states(file, Span(file.source, at, at))
+            if not isinstance(state, State) or not left or selection is None:
+                continue
+            if why_not_extract(selection) is not None:
+                continue
+            texts = extract_machine(workspace, file, selection)
+            left -= 1
+            assert format_source(Source("", texts[path]), Diagnostics()) == texts[path]
+            assert comments(file.source.text) == comments(texts[path])
+            with workspace.overriding(texts):
+                after = dump(lower(workspace.project))
+            name = str(machine.name)
+            assert machine_in(after, name) == machine_in(before, name)
+
+
 MODEL = """\
 package a
 
@@ -243,6 +276,38 @@ def test_state_is_renamed_in_paths_of_properties(model: Workspace) -> None:
     assert len(spans) == 2
     [text] = replaced(spans, "Waiting").values()
     assert "property P of M : in Waiting.X leads" in text
+
+
+def test_extracted_text(model: Workspace) -> None:
+    [text] = extract_machine(model, *chosen(model, "state F")).values()
+    assert "statemachine MF {\n  initial G\n\n  state G { on Go -> H }\n  final H\n}\n" in text
+    assert "  /// Ends.\n  state F = MF {\n    on done -> Z\n  }\n" in text
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ("on Stop -> Y", "on Stop -> A", "`A` is named in `W`, and not inside"),
+        ("on Go -> C }", "on Go -> W.Y }", "`W.Y` is inside, and named outside of `W`"),
+        ("initial A", "var n : int32 = 0; initial A", "`n` is a variable of `M`"),
+        ("// on a stop", "do halt", "`W` has an activity"),
+        ("// on a stop", "var k : int32 = 0", "`W` has variables"),
+        ("in W.X", "in W", ""),
+    ],
+)
+def test_not_extracted(tmp_path: Path, old: str, new: str, reason: str) -> None:
+    text = MODEL.replace("state Y\n", "state Y { on Stop [1 == 1] -> Y; on Stop -> Y }\n")
+    if "n : int32" in new:
+        text = text.replace("[1 == 1]", "[n == 1]")
+    text = text.replace(old, new)
+    text += 'function halt : swarm { service "halt" : std_srvs/Trigger }\n'
+    (tmp_path / "model.swarm").write_text(text, encoding="utf-8")
+    model = Workspace([tmp_path])
+    place = chosen(model, "state W")
+    assert why_not_extract(place[1]) == (reason or None)
+    if reason:
+        with pytest.raises(RefusedError, match=re.escape(reason)):
+            extract_machine(model, *place)
 
 
 def test_dissolved_text(model: Workspace) -> None:

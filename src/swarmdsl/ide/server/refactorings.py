@@ -19,12 +19,14 @@ from swarmdsl.driver.workspace.renaming import RefusedError
 from swarmdsl.ide.server.layout import line_changes
 from swarmdsl.ide.server.session import Session
 from swarmdsl.project.loader import File
+from swarmdsl.tools.refactor.extract_machine import extract_machine, why_not_extract
 from swarmdsl.tools.refactor.inline_state import inline_state, why_not_inline
 from swarmdsl.tools.refactor.move_declaration import movable, move_declaration, new_path
 from swarmdsl.tools.refactor.selected_states import selected_states
 from swarmdsl.tools.refactor.wrap_states import why_not_wrap, wrap_states
 
 WRAP = "refactor.extract.state"
+EXTRACT = "refactor.extract.machine"
 INLINE = "refactor.inline.state"
 MOVE = "refactor.move.file"
 
@@ -104,6 +106,14 @@ def _at(
                 INLINE,
                 f"Dissolve composite state {names}",
                 lambda: inline_state(workspace, file, selection),
+                reason,
+            )
+        reason = why_not_extract(selection)
+        if reason != "":
+            yield Refactoring(
+                EXTRACT,
+                f"Make a machine of {names}",
+                lambda: extract_machine(workspace, file, selection),
                 reason,
             )
     declaration = movable(file, span.start)

@@ -1,0 +1,124 @@
+"""Make a machine of what is in a composite state, which then runs it as its submachine.
+
+Submachines are expanded, so the robot does what it did. Params of the machine that are used inside
+are passed on. It is refused where a transition crosses the border, or variables are shared.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from swarmdsl.analysis.resolve.states import vertices
+from swarmdsl.base.naming import fresh
+from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.renaming import RefusedError
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import (
+    Activity,
+    FinalState,
+    Initial,
+    NameUse,
+    Node,
+    Param,
+    State,
+    StateMachine,
+    Variable,
+    references,
+    walk,
+)
+from swarmdsl.tools.refactor.changed_texts import Change, applied, statement, tried
+from swarmdsl.tools.refactor.selected_states import Selection
+
+_BODY = re.compile(r"\s*\{")
+
+
+def why_not_extract(selection: Selection) -> str | None:
+    """Return the reason why no machine can be made of a state; None if one can.
+
+    "" stands for a selection that is no composite state.
+    """
+    state = selection.states[0]
+    if len(selection.states) != 1 or not isinstance(state, State) or not vertices(state):
+        return ""
+    for item in state.items:
+        if isinstance(item, Variable):
+            return f"`{state.name}` has variables"
+        if isinstance(item, Activity):
+            return f"`{state.name}` has an activity"
+    moved = {node for item in vertices(state) for node in walk(item)}
+    beginning = (item for item in state.items if isinstance(item, Initial))
+    moved.update(node for item in beginning for node in walk(item))
+    states = {node for item in vertices(state) for node in walk(item)}
+    for node, ref in references(selection.machine):
+        if not isinstance(ref.target, Node) or not _is_in(ref.target, selection.machine):
+            continue
+        if (node in moved) and ref.target not in states:
+            return f"`{ref.name}` is named in `{state.name}`, and not inside"
+        if node not in moved and ref.target in states and not _is_end_of(state, ref.target):
+            return f"`{ref.name}` is inside, and named outside of `{state.name}`"
+    for node in moved:
+        variable = node.target if isinstance(node, NameUse) else None
+        if isinstance(variable, Variable) and not _is_in(variable, state):
+            return f"`{variable.name}` is a variable of `{selection.machine.name}`"
+    return None
+
+
+def _is_in(inner: Node, outer: Node) -> bool:
+    one, other = inner.span.absolute, outer.span.absolute
+    return one.source is other.source and other.start <= one.start and one.end <= other.end
+
+
+def _is_end_of(state: State, final: Node) -> bool:
+    """Return True for a final state of a state: `on done.Name` is the same with a machine."""
+    return isinstance(final, FinalState) and final in state.items
+
+
+def extract_machine(workspace: Workspace, file: File, selection: Selection) -> dict[Path, str]:
+    """Return the texts of files with a new machine; raise RefusedError if it cannot be."""
+    reason = why_not_extract(selection)
+    if reason is not None:
+        raise RefusedError(reason or "it is no composite state")
+    state, machine, text = selection.states[0], selection.machine, file.source.text
+    assert isinstance(state, State)
+    path = file.source.path
+    assert path is not None  # sources of a workspace are files
+    name = fresh(f"{machine.name}{state.name}", re.findall(r"\w+", text))
+    params = list(_params(state, machine))
+    kept = [item for item in state.items if not isinstance(item, (Initial, *_vertex_kinds(state)))]
+    bounds = [statement(item.span.absolute) for item in kept]
+    opening = _BODY.match(text, state.name.span.absolute.end)
+    assert opening is not None  # a composite state has a body
+    end = state.span.absolute.end - 1
+    removed: list[Change] = [(*each, "") for each in bounds]
+    body = applied(text, removed, opening.end(), end)
+    ends = any(isinstance(each, FinalState) for each in state.items)
+    head = f"{'' if ends else 'endless '}statemachine {name} {{"
+    declared = [text[one.span.absolute.start : one.type.span.absolute.end] for one in params]
+    whole = "\n".join([head, *declared, body.rstrip(), "}\n\n"])
+    given = ", ".join(f"{one.name} = {one.name}" for one in params)
+    use = f" = {name}" + (f"({given})" if given else "")
+    items = "".join(f"\n{text[start:end]}" for start, end in bounds)
+    rest = f" {{{items}\n}}" if items else ""
+    at, _ = statement(machine.span.absolute)
+    changes = [
+        (at, at, whole),
+        (state.name.span.absolute.end, state.span.absolute.end, f"{use}{rest}"),
+    ]
+    return tried(workspace, {path: applied(text, changes)})
+
+
+def _vertex_kinds(state: State) -> tuple[type[Node], ...]:
+    return tuple({type(each) for each in vertices(state)})
+
+
+def _params(state: State, machine: StateMachine) -> Iterator[Param]:
+    """Yield the params of a machine that are used in a state, in the order of the machine."""
+    used = {
+        node.target
+        for item in vertices(state)
+        for node in walk(item)
+        if isinstance(node, NameUse) and isinstance(node.target, Param)
+    }
+    return (item for item in machine.items if isinstance(item, Param) and item in used)
