@@ -53,14 +53,19 @@ def shipped(library: str) -> Iterator[tuple[str, str, str, AnyInterface]]:
 def record(folder: Path, library: str, package: str, about: Mapping[str, str]) -> str:
     """Return the interfaces of a package that a library declares, as TOML."""
     lines = [f'{key} = "{about[key]}"' for key in ABOUT]
-    for of, kind, name, _ in shipped(library):
+    for of, kind, name, declared in shipped(library):
         if of != package:
             continue
         path = next(iter(folder.rglob(f"{name}.{kind}")))
         source = Source(str(path), path.read_text(encoding="utf-8"), path)
         real = parse_interface(source, package, name, kind, Diagnostics()).declaration
         lines += ["", f"[{kind}.{name}]"]
-        for part, entries in outline(real).items():
+        ours = outline(declared).get("constants", [])
+        wanted = {each.partition(" =")[0] for each in ours}
+        for part, all_entries in outline(real).items():
+            # A package may have hundreds of constants: those that a library declares count.
+            chosen = part != "constants"
+            entries = [e for e in all_entries if chosen or e.partition(" =")[0] in wanted]
             written = "".join(f'\n  "{re.sub(" +", " ", each)}",' for each in entries)
             lines.append(f"{part} = [{written}\n]" if entries else f"{part} = []")
     return "\n".join(lines) + "\n"
