@@ -68,5 +68,5 @@ def machine(states: int) -> str:
     ]
     for number in range(states):
         after = f"on succeeded -> S{(number + 1) % states}; on aborted -> S{number}"
-        lines.append(f"  state S{number} {{ do go(x = {number}.5)  {after} }}")
+        lines.append(f"  state S{number} {{ do go(x = {number}.5); {after} }}")
     return "\n".join([*lines, "}", ""])
