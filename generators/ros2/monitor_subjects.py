@@ -48,7 +48,7 @@ def find_subject(
         machines,
         tuple(
             each
-            for each in system.properties
+            for each in system.judged
             if each.subject == launch.swarm
             and _is_told(
                 f"property `{each.name}`",
@@ -83,7 +83,7 @@ def find_subject(
 
 def _of_machine(machine: StateMachine, system: System, report: Diagnostics) -> Iterator[Property]:
     """Yield the properties of a machine that its nodes can tell."""
-    for each in system.properties:
+    for each in system.judged:
         what = f"property `{each.name}`"
         if each.subject == machine.name and _tells_senders(what, facts_of(each), system, report):
             yield each
@@ -103,7 +103,7 @@ def report_unwatched(
         for node in role.nodes
     }
     watched = {*launched, *run}
-    for each in system.properties:
+    for each in system.judged:
         if each.subject not in watched:
             what = f"property `{each.name}`: monitors watch swarms with nodes, and their machines"
             report.report("no-place", each.origin, target=TARGET, what=what)
@@ -118,7 +118,7 @@ def report_unwatched(
         if name not in used:
             what = f"measure `{input_.name}`: monitors measure the fitness of swarms with nodes"
             report.report("no-place", input_.origin, target=TARGET, what=what)
-    if not system.properties and not measured:
+    if not system.judged and not measured:
         what = "option `monitors`, because the model has no property and no measure"
         report.report("no-place", target=TARGET, what=what)
 

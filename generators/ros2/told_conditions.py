@@ -43,7 +43,7 @@ def conditions(machine: StateMachine, system: System) -> dict[str, Fact]:
                     found.append(fact)
     found += [
         fact
-        for property_ in system.properties
+        for property_ in system.judged
         if property_.subject == machine.name
         for fact in facts_of(property_)
         if isinstance(fact, Fact)
@@ -71,7 +71,7 @@ def heard_or_sent(fact: Fact) -> str:
 
 def _facts_about(swarm: str, system: System) -> Iterator[tuple[str | None, Fact | Count]]:
     """Yield the facts in properties and measures of a swarm, each with the role of `each`."""
-    for property_ in system.properties:
+    for property_ in system.judged:
         if property_.subject == swarm:
             for fact in facts_of(property_):
                 yield property_.each, fact

@@ -30,7 +30,8 @@ _REASONS: dict[str, dict[str, str]] = {
         "comments are not drawn": (
             "Action.doc Communication.doc CommunicationSettings.doc "
             "CommunicationSettings.docs Component.doc Component.docs Connector.doc "
-            "Constant.doc Constraint.doc CountRange.doc Environment.doc Environment.docs "
+            "Constant.doc Constraint.doc Contract.doc CountRange.doc Environment.doc "
+            "Environment.docs "
             "Event.doc Field.doc "
             "Fitness.doc Fitness.docs Function.doc FunctionPort.doc Heartbeat.doc "
             "Member.doc Member.docs "
@@ -99,6 +100,8 @@ _REASONS: dict[str, dict[str, str]] = {
             "Component.behavior Component.doc Component.docs Component.kind Component.name "
             "Component.operations Component.params Component.ports Connector.doc "
             "Constraint.doc Constraint.property "
+            "Contract.doc Contract.events Contract.function Contract.guard Contract.name "
+            "Contract.states Contract.within Member.contracts "
             "Connector.source Connector.target CountRange.doc CountRange.lower "
             "CountRange.role CountRange.upper Environment.doc Environment.docs "
             "Environment.name Environment.size Environment.world Fitness.doc Fitness.docs "

@@ -41,11 +41,14 @@ syn match swarmStatement #\<best\>\ze[ \t]*\%(effort\)\>#
 syn match swarmDeclaration #\<between\>\ze[ \t]*[*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<body\>\ze[ \t]*[{]#
 syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<call\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<cancel\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<cancels\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<clear\>\ze[ \t]*[A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<contract\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<count\>\ze[ \t]*\%(\%(of\)\>\|[(]\)#
 syn match swarmDeclaration #\<covered\>\ze[ \t]*[(]#
+syn match swarmDeclaration #\<dead\>\ze[ \t]*\%(call\)\>#
 syn match swarmStatement #\<deadline\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#
 syn match swarmDeclaration #\<defer\>\ze[ \t]*[A-Za-z_]#
@@ -91,6 +94,7 @@ syn match swarmDeclaration #\<radio\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<radius\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<rain\>\ze[ \t]*\%(from\|until\)\>#
 syn match swarmDeclaration #\<random\>\ze[ \t]*\%(in\)\>#
+syn match swarmDeclaration #\<reach\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<reliable\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmDeclaration #\<remove\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<request\>\ze[ \t]*[{]#
@@ -115,6 +119,7 @@ syn match swarmStatement #\<to\>\ze[ \t]*[*A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<total\>\ze[ \t]*[(]#
 syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<wall\>\ze[ \t]*[:]#
+syn match swarmDeclaration #\<when\>\ze[ \t]*\%(dead\)\>#
 syn match swarmDeclaration #\<where\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<wind\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<within\>\ze[ \t]*[A-Za-z_0-9"-]#

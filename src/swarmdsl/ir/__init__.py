@@ -10,6 +10,7 @@ if TYPE_CHECKING:
         CommunicationSettings,
         Component,
         Connector,
+        Contract,
         Direction,
         Environment,
         Heartbeat,
@@ -149,8 +150,8 @@ else:
         globals(),
         {
             "swarmdsl.ir.architecture": (
-                "CommunicationSettings Component Connector Direction Environment Heartbeat Member "
-                "Multiplicity Part Port PortGroup PortRef RobotValues Role Swarm"
+                "CommunicationSettings Component Connector Contract Direction Environment "
+                "Heartbeat Member Multiplicity Part Port PortGroup PortRef RobotValues Role Swarm"
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
             "swarmdsl.ir.expressions": (
@@ -216,6 +217,7 @@ __all__ = [
     "Constant",
     "Constraint",
     "Construction",
+    "Contract",
     "Count",
     "CountRange",
     "Delivery",

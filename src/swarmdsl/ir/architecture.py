@@ -117,6 +117,23 @@ class PortGroup:
 
 
 @dataclass(frozen=True, slots=True)
+class Contract:
+    """`on` events, with a guard on their message, a robot is in one of some states in time.
+
+    With a `function`, nothing else is given: it is called where the node of the robot has died.
+    """
+
+    name: str
+    events: tuple[str, ...] = ()
+    guard: Expression | None = None
+    within: Expression | None = None
+    states: tuple[str, ...] = ()
+    function: str | None = None
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Member:
     """Type of robot, with all that it inherits; `behavior` names its state machine.
 
@@ -139,6 +156,7 @@ class Member:
     body: Values = ()
     battery: Values = ()
     radio: Values = ()
+    contracts: tuple[Contract, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

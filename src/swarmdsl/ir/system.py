@@ -9,6 +9,7 @@ from typing import Protocol, TypeVar
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.ir.architecture import Component, Environment, Member, Swarm
+from swarmdsl.ir.contracts import promised
 from swarmdsl.ir.derived import DERIVED
 from swarmdsl.ir.interfaces import Action, Event, Field, Function, Interface, Message
 from swarmdsl.ir.optimization import Fitness, Optimization
@@ -43,6 +44,11 @@ class System:
     origin: Span | None = field(default=None, compare=False, repr=False)
     standard: tuple[Interface, ...] = field(default=(), compare=False, metadata=DERIVED)
     ros_packages: tuple[str, ...] = field(default=(), compare=False, metadata=DERIVED)
+
+    @cached_property
+    def judged(self) -> tuple[Property, ...]:
+        """The properties, and those that the contracts of members promise."""
+        return (*self.properties, *promised(self.members, self.swarms, self.properties))
 
     def event(self, name: str) -> Event:
         """Return the event of that name."""

@@ -12,6 +12,7 @@ from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import replace
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.docs import lower_docs
+from swarmdsl.lowering.expressions import lower_optional
 from swarmdsl.lowering.interfaces import lower_params, lower_values
 from swarmdsl.lowering.space import (
     lower_equipment,
@@ -24,6 +25,7 @@ from swarmdsl.syntax.ast import (
     CommunicationSettings,
     Component,
     Connector,
+    Contract,
     Environment,
     EnvironmentUse,
     FitnessUse,
@@ -84,7 +86,26 @@ def lower_member(member: Member, context: Context) -> ir.Member:
         docs=tuple(sorted((*lower_docs(all_items(member, BehaviorUse)), *docs))),
         origin=member.name.span,
         port_groups=tuple(_port_groups(member, ports, connectors, context)),
+        contracts=tuple(_contract(item, context) for item in all_items(member, Contract)),
         **{kind: values for kind, (values, _) in equipment.items()},
+    )
+
+
+def _contract(contract: Contract, context: Context) -> ir.Contract:
+    types = [each.event.target.type.type for each in contract.triggers if each.event.target]
+    hearing = context
+    if types:
+        of_swarm = all(each.event.target and each.event.target.swarm for each in contract.triggers)
+        hearing = context.with_event([each for each in types if each], of_swarm=of_swarm)
+    return ir.Contract(
+        str(contract.name),
+        tuple(dict.fromkeys(context.name(each.event) for each in contract.triggers)),
+        lower_optional(contract.guard, hearing),
+        lower_optional(contract.within, context),
+        tuple(each.state.name for each in contract.states),
+        context.name(contract.function) if contract.function is not None else None,
+        contract.doc,
+        contract.name.span,
     )
 
 

@@ -15,6 +15,7 @@ from swarmdsl.analysis.checks.architecture import check_component, check_inherit
 from swarmdsl.analysis.checks.composition import check_environment, check_swarm
 from swarmdsl.analysis.checks.conflicts import check_conflicts
 from swarmdsl.analysis.checks.context import Context, make_context
+from swarmdsl.analysis.checks.contracts import check_contracts
 from swarmdsl.analysis.checks.dataflow import check_variables
 from swarmdsl.analysis.checks.delays import check_undelayed_sends
 from swarmdsl.analysis.checks.delivery import check_delivery, check_lossy_events, check_operator
@@ -130,7 +131,7 @@ PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
     Event: (check_event, check_delivery, check_operator),
     Function: (check_function, check_model),
     Component: (check_component, check_sights),
-    Member: (check_member, check_equipment),
+    Member: (check_member, check_equipment, check_contracts),
     StateMachine: STATE_MACHINE_PASSES,
     Constant: (check_constant,),
     EnumType: (check_enum,),

@@ -14,6 +14,7 @@ from swarmdsl.syntax.ast import (
     Choice,
     Component,
     Constant,
+    Contract,
     Declaration,
     EnumType,
     EnumValue,
@@ -69,7 +70,9 @@ _UPPER: _Style = _is_upper_case, "UPPER_CASE", _upper_case
 
 _STYLES = {
     **dict.fromkeys((StructType, EnumType, AliasType, Event, Component), _CAMEL),
-    **dict.fromkeys((Member, StateMachine, Swarm, Environment, Fitness, Property), _CAMEL),
+    **dict.fromkeys(
+        (Contract, Member, StateMachine, Swarm, Environment, Fitness, Property), _CAMEL
+    ),
     **dict.fromkeys((State, Parallel, Region, Choice, History, FinalState), _CAMEL),
     **dict.fromkeys((Function, Operation, Parameter, Param, Variable, Part, Port, Role), _SNAKE),
     **dict.fromkeys((Constant, EnumValue), _UPPER),

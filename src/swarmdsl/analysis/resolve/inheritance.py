@@ -9,6 +9,7 @@ from swarmdsl.syntax.ast import (
     CommunicationSettings,
     Component,
     Connector,
+    Contract,
     Equipment,
     Member,
     Operation,
@@ -24,6 +25,7 @@ Item = (
     | Operation
     | Part
     | Connector
+    | Contract
     | BehaviorUse
     | CommunicationSettings
     | Equipment
@@ -31,7 +33,7 @@ Item = (
 )
 Kind = TypeVar("Kind", bound=Item)
 # Own items of these kinds replace inherited ones.
-_REPLACED = (Param, BehaviorUse, CommunicationSettings, Equipment, Sight)
+_REPLACED = (Param, Contract, BehaviorUse, CommunicationSettings, Equipment, Sight)
 
 
 # More than real models have.
@@ -68,8 +70,8 @@ def all_items(owner: Component | Member, kind: type[Kind]) -> list[Kind]:
 
 def _place(item: Item) -> str:
     match item:
-        case Param():
-            return str(item.name)
+        case Param() | Contract():
+            return f"{type(item).__name__} {item.name}"
         case Equipment():
             return item.kind
         case Sight():

@@ -14,7 +14,11 @@ from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.machines import link_machine
-from swarmdsl.analysis.resolve.properties import link_fitness, link_property
+from swarmdsl.analysis.resolve.properties import (
+    link_fitness,
+    link_property,
+    link_safe_states,
+)
 from swarmdsl.analysis.resolve.report_unresolved import (
     report_activity,
     report_missing_inside,
@@ -37,6 +41,7 @@ from swarmdsl.syntax.ast import (
     BehaviorUse,
     Component,
     Connector,
+    Contract,
     CountRange,
     EnumType,
     Environment,
@@ -320,10 +325,12 @@ def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostic
 
 
 def _link_member(member: Member, scope: FileScope, report: Diagnostics) -> None:
-    """Resolve the two ends of each connector."""
+    """Resolve the two ends of each connector, and the states of contracts."""
     parts = _named(all_items(member, Part), Part)
     ports = cache(_ports)
     for item in member.items:
+        if isinstance(item, Contract):
+            link_safe_states(item, member, scope, report)
         if isinstance(item, Connector):
             for end in (item.source, item.target):
                 _link_port(end, member, parts, ports, scope, report)

@@ -24,6 +24,7 @@ from swarmdsl.syntax.ast import (
     Choice,
     Component,
     Container,
+    Contract,
     Expression,
     Fact,
     Fitness,
@@ -195,6 +196,15 @@ def _link_facts(
     return guards
 
 
+def link_safe_states(
+    contract: Contract, member: Member, scope: FileScope, report: Diagnostics
+) -> None:
+    """Resolve the states that a contract of a member leads to."""
+    machines = machines_of_member(member)
+    for each in contract.states if machines else ():
+        _link_state(each.state, machines, scope, report)
+
+
 def is_from_outside(fact: Fact) -> bool:
     """Return True for the fact that an event arrives from outside, which is about no robot."""
     return fact.event is not None and not fact.act
@@ -239,8 +249,11 @@ def machines_of_fact(fact: Fact, owner: Sentence) -> list[StateMachine]:
 
 def _machines_of_role(role: Role | None) -> list[StateMachine]:
     member = role.member.target if role is not None else None
-    if member is None:
-        return []
+    return machines_of_member(member) if member is not None else []
+
+
+def machines_of_member(member: Member) -> list[StateMachine]:
+    """Return the machines that a member and its parts run."""
     components = [part.component.target for part in all_items(member, Part)]
     runners: list[Member | Component] = [member, *(each for each in components if each is not None)]
     uses = [use.machine.target for each in runners for use in all_items(each, BehaviorUse)]

@@ -397,6 +397,14 @@ CODES: dict[str, Code] = {
     "failed-runs": Code("SW1611", "error", "{count} of {runs} runs have no result: {reason}"),
     "lost-worker": Code("SW1612", "error", "a process ended by itself, after {runs} runs"),
     "no-histogram": Code("SW1613", "warning", "`{path}` is not written: no measure has a value"),
+    "ignored-contract": Code("SW1614", "error", "contract `{contract}`: {states} {verb} `{event}`"),
+    "unsafe-path": Code(
+        "SW1615", "error", "contract `{contract}`: in `{state}`, `{event}` {fault}"
+    ),
+    "left-safe-state": Code(
+        "SW1616", "warning", "contract `{contract}`: a robot leaves `{state}` by itself"
+    ),
+    "idle-contract": Code("SW1617", "warning", "contract `{name}` promises nothing: {reason}"),
     # ---- verification
     "refuted-property": Code("SW1701", "error", "property `{name}` does not hold{who}"),
     "stuck-swarm": Code("SW1702", "warning", "the swarm can get stuck: nothing goes on by itself"),

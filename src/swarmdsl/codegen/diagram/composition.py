@@ -10,6 +10,7 @@ from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
 from swarmdsl.codegen.shared.property_texts import measure_text
 from swarmdsl.codegen.swarm_printer.composition import heartbeat
+from swarmdsl.codegen.swarm_printer.contracts import contract_text
 from swarmdsl.codegen.swarm_printer.expressions import expression, with_names
 from swarmdsl.codegen.swarm_printer.layout import quoted
 from swarmdsl.codegen.swarm_printer.space import space_items, space_measure, start, text
@@ -100,6 +101,8 @@ class _Role:
             lines = [*filter(None, [start(robot.start).strip()]), *value_lines(robot.values)]
             groups.append(tuple(f"{self.role.name}[{robot.index}] {line}" for line in lines))
         groups.append(tuple(f"{part.name} : {part.component}" for part in member.parts))
+        promises = (f"contract {each.name} : {contract_text(each)}" for each in member.contracts)
+        groups.append(tuple(promises))
         groups.append(tuple(f"«{each.category}» {each.name}" for each in self.uses.functions))
         return Node(
             self.id,

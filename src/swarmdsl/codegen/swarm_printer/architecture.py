@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TypeVar
 
+from swarmdsl.codegen.swarm_printer.contracts import print_contracts
 from swarmdsl.codegen.swarm_printer.expressions import expression
 from swarmdsl.codegen.swarm_printer.interfaces import on_topic, print_params
 from swarmdsl.codegen.swarm_printer.layout import UnprintableError, block, documented, indented
@@ -52,7 +53,7 @@ def print_component(component: Component, system: System, names: Names) -> list[
 
 
 def print_member(member: Member, system: System, names: Names) -> list[str]:
-    """Print a member with its parts and connectors."""
+    """Print a member with its parts, connectors and contracts."""
     base = system.members_by_name.get(member.base or "")
     return documented(
         member.doc,
@@ -71,6 +72,7 @@ def print_member(member: Member, system: System, names: Names) -> list[str]:
                 for line in _part(part)
             ],
             _connectors(own(member.connectors, base.connectors if base else (), member)),
+            print_contracts(member, base),
         ),
     )
 

@@ -45,7 +45,7 @@ def measured_fitness(subject: Subject, report: Diagnostics) -> Fitness | None:
 def check_properties(names: Sequence[str], subject: Subject, report: Diagnostics) -> None:
     """Report names of properties that a run cannot keep."""
     assert subject.system is not None
-    about = [each for each in subject.system.properties if each.subject == subject.name]
+    about = [each for each in subject.system.judged if each.subject == subject.name]
     known = [each.name for each in about if each.chance is None]
     for name in names:
         if name not in known:

@@ -20,7 +20,7 @@ Data = Callable[[Actor], Mapping[str, Any]]
 def watchable(subject: Subject) -> list[ir.Property]:
     """Return the properties that are about the subject of a run."""
     system = subject.system
-    found = system.properties if system is not None and subject.document is None else ()
+    found = system.judged if system is not None and subject.document is None else ()
     return [each for each in found if each.subject == subject.name]
 
 

@@ -178,7 +178,7 @@ def _about(
     names: Sequence[str], named: str | None, system: System | None, report: Diagnostics
 ) -> str | None:
     """Return what properties are about: one subject, and the named one if there is one."""
-    known = {each.name: each for each in system.properties} if system is not None else {}
+    known = {each.name: each for each in system.judged} if system is not None else {}
     unknown = [name for name in names if name not in known]
     for name in unknown:
         _unknown("property", name, known, report)

@@ -160,7 +160,7 @@ class _Reader:
         system = subject.system
         if holder is self._top and system is not None:
             named = _named_properties(
-                holder, "properties", {each.name: each for each in system.properties}
+                holder, "properties", {each.name: each for each in system.judged}
             )
             return tuple(each for each in named if each[0].name in known), violated
         return _named_properties(holder, "properties", known), violated

@@ -34,7 +34,7 @@ def subjects(system: ir.System) -> Iterator[Subject]:
     """Yield the swarms, and the machines with properties; without swarms, all machines."""
     for swarm in system.swarms:
         yield Subject(swarm.name, system, swarm)
-    about = {each.subject for each in system.properties}
+    about = {each.subject for each in system.judged}
     for machine in system.machines:
         if not system.swarms or machine.name in about:
             yield Subject(machine.name, system, machine=machine)

@@ -12,6 +12,7 @@ from swarmdsl.analysis.resolve.properties import (
     Sentence,
     facts_in,
     machines_of_fact,
+    machines_of_member,
     matches,
     state_paths,
     subjects_of,
@@ -61,6 +62,7 @@ from swarmdsl.syntax.ast import (
     Ref,
     Region,
     Role,
+    SafeState,
     State,
     StateMachine,
     Swarm,
@@ -135,6 +137,8 @@ class Candidates:
                     return regions(inner)
                 inside = content(inner)
                 return [v for v in vertices(inside) if isinstance(v, FinalState)] if inside else ()
+            case SafeState(), Member():
+                return _states_of(machines_of_member(around), path)
             case Activity(owner=Component() | Part() | None as of), _:
                 return self._callables(path, of)
         kind = NODES.get(ref.kind)
@@ -193,13 +197,7 @@ class Candidates:
             return list(roles.values())
         sentence = self._sentence(holder, owner)
         machines = machines_of_fact(holder, sentence) if sentence is not None else []
-        paths = [found for machine in machines for found in state_paths(machine)]
-        states = {names for names, _ in paths}
-        return [
-            v
-            for names, v in paths
-            if path == [""] or any(matches(around, path) for around in _around(names, states))
-        ]
+        return _states_of(machines, path)
 
     def _of_robots(self, use: NameUse, owner: Property | Fitness) -> list[Node] | None:
         """Return the values of robots that a condition of a fact can read; None elsewhere."""
@@ -299,6 +297,17 @@ def _substates(state: Node) -> list[Node]:
     if isinstance(state, Parallel):
         return [each for region in regions(state) for each in vertices(region)]
     return list(vertices(state)) if isinstance(state, (State, Region, StateMachine)) else []
+
+
+def _states_of(machines: Iterable[StateMachine], path: list[str]) -> list[Node]:
+    """Return the states of machines; after the path of a state, those inside it."""
+    paths = [found for machine in machines for found in state_paths(machine)]
+    states = {names for names, _ in paths}
+    return [
+        v
+        for names, v in paths
+        if path == [""] or any(matches(around, path) for around in _around(names, states))
+    ]
 
 
 def _around(path: Path, states: set[Path]) -> list[Path]:

@@ -17,6 +17,7 @@ from swarmdsl.syntax.ast import (
     Activity,
     Argument,
     Communication,
+    Contract,
     Event,
     Fact,
     Field,
@@ -142,7 +143,9 @@ def with_event(use: Node, owner: TopLevel, typing: Typing) -> Typing:
     for fact in nodes_of(owner, Fact):
         if fact.guard is not None and any(node is use for node in walk(fact.guard)):
             return typing.in_fact(fact)
-    for transition in nodes_of(owner, Transition):
+    reacting: list[Transition | Contract] = [*nodes_of(owner, Transition)]
+    reacting += nodes_of(owner, Contract)
+    for transition in reacting:
         if any(node is use for node in walk(transition)):
             return in_transition(transition, typing)
     return typing

@@ -23,6 +23,7 @@ SYMBOL_KINDS: dict[type[Node], lsp.SymbolKind] = {
     ast.Component: lsp.SymbolKind.Class,
     ast.Member: lsp.SymbolKind.Class,
     ast.Part: lsp.SymbolKind.Field,
+    ast.Contract: lsp.SymbolKind.Boolean,
     ast.Port: lsp.SymbolKind.Property,
     ast.Param: lsp.SymbolKind.Property,
     ast.Variable: lsp.SymbolKind.Variable,

@@ -43,6 +43,7 @@ _KINDS: dict[type[Node], str] = {
     ast.Function: "function",
     ast.Fitness: "function",
     ast.Property: "property",
+    ast.Contract: "property",
     ast.Operation: "method",
     ast.Component: "class",
     ast.Member: "class",

@@ -10,10 +10,12 @@ from swarmdsl.syntax.ast.architecture import (
     CommunicationSettings,
     Component,
     Connector,
+    Contract,
     Member,
     Part,
     Port,
     PortRef,
+    SafeState,
 )
 from swarmdsl.syntax.ast.behaviour import (
     Activity,
@@ -202,6 +204,7 @@ __all__ = [
     "Constant",
     "Construction",
     "Container",
+    "Contract",
     "CountRange",
     "Declaration",
     "Defer",
@@ -283,6 +286,7 @@ __all__ = [
     "RobotValues",
     "Role",
     "RoleUse",
+    "SafeState",
     "Send",
     "ServiceType",
     "Setting",

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Literal
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.ast.behaviour import StateMachine
-from swarmdsl.syntax.ast.interfaces import Operation
+from swarmdsl.syntax.ast.behaviour import EventTrigger, StateMachine, Vertex
+from swarmdsl.syntax.ast.interfaces import Function, Operation
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, TypeRef, Word
 from swarmdsl.syntax.ast.space import Equipment, Sight
-from swarmdsl.syntax.ast.values import Param, PartValue
+from swarmdsl.syntax.ast.values import Expression, Param, PartValue
 
 
 @dataclass(slots=True, eq=False)
@@ -73,9 +73,30 @@ class Connector(Documented):
 
 
 @dataclass(slots=True, eq=False)
+class SafeState(Node):
+    """State that a contract leads to."""
+
+    state: Ref[Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class Contract(Documented):
+    """`contract Name : on Abort within 2 s reach Landed`, or `... : when dead call land`."""
+
+    name: Word
+    triggers: list[EventTrigger]
+    guard: Expression | None
+    within: Expression | None
+    states: list[SafeState]
+    function: Ref[Function] | None
+
+
+@dataclass(slots=True, eq=False)
 class Member(TopLevel):
     """`member Name { ... }`."""
 
     name: Word
     base: Ref[Member] | None
-    items: list[BehaviorUse | CommunicationSettings | Equipment | Port | Param | Connector | Part]
+    items: list[
+        BehaviorUse | CommunicationSettings | Equipment | Port | Param | Connector | Contract | Part
+    ]

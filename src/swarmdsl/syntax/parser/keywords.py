@@ -20,11 +20,14 @@ CONTEXTUAL = {
     'between': '[*A-Za-z_0-9"]',
     'body': '[{]',
     'by': '[A-Za-z_0-9"-]',
+    'call': '[A-Za-z_]',
     'cancel': '[A-Za-z_]',
     'cancels': '[A-Za-z_]',
     'clear': '[A-Za-z_0-9"-]',
+    'contract': '[A-Za-z_]',
     'count': '(?:(?:of)\\b|[(])',
     'covered': '[(]',
+    'dead': '(?:call)\\b',
     'deadline': '[A-Za-z_0-9"-]',
     'deep': '(?:history)\\b',
     'defer': '[A-Za-z_]',
@@ -70,6 +73,7 @@ CONTEXTUAL = {
     'radius': '[A-Za-z_0-9"-]',
     'rain': '(?:from|until)\\b',
     'random': '(?:in)\\b',
+    'reach': '[A-Za-z_]',
     'reliable': '(?:[,;}]|$)',
     'remove': '[A-Za-z_0-9"-]',
     'request': '[{]',
@@ -94,6 +98,7 @@ CONTEXTUAL = {
     'total': '[(]',
     'until': '[*A-Za-z_0-9"-]',
     'wall': '[:]',
+    'when': '(?:dead)\\b',
     'where': '[A-Za-z_0-9"-]',
     'wind': '[A-Za-z_0-9"-]',
     'within': '[A-Za-z_0-9"-]',
@@ -111,7 +116,7 @@ FIRST = {
     'FunctionItem': frozenset(['action', 'in', 'model', 'out', 'param', 'service']),
     'Import': frozenset(['import']),
     'MachineItem': frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'param', 'state', 'var']),
-    'MemberItem': frozenset(['battery', 'behavior', 'body', 'communication', 'connect', 'in', 'inout', 'out', 'param', 'radio']),
+    'MemberItem': frozenset(['battery', 'behavior', 'body', 'communication', 'connect', 'contract', 'in', 'inout', 'out', 'param', 'radio']),
     'Optimization': frozenset(['optimize']),
     'OptimizationItem': frozenset(['count', 'evaluations', 'seed', 'steps', 'subject']),
     'Package': frozenset(['package']),
@@ -157,4 +162,4 @@ GROUPS = {
 # Keywords of declarations that can follow `:`, as categories.
 CATEGORIES = frozenset(['swarm'])
 # Keywords that a name can follow.
-BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'area', 'as', 'before', 'behavior', 'between', 'by', 'cancel', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'controller', 'deadline', 'defer', 'do', 'each', 'ends', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'from', 'function', 'hears', 'heartbeat', 'height', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'model', 'never', 'no', 'not', 'obstacle', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'radius', 'region', 'remove', 'seed', 'send', 'sends', 'senses', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'target', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'wind', 'within', 'zone'])
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'again', 'all', 'and', 'append', 'area', 'as', 'before', 'behavior', 'between', 'by', 'call', 'cancel', 'cancels', 'choice', 'clear', 'communication', 'connect', 'const', 'contract', 'controller', 'deadline', 'defer', 'do', 'each', 'ends', 'enum', 'environment', 'evaluations', 'event', 'eventually', 'extends', 'final', 'fitness', 'from', 'function', 'hears', 'heartbeat', 'height', 'history', 'import', 'in', 'initial', 'inout', 'keep', 'lifespan', 'maximize', 'member', 'message', 'minimize', 'model', 'never', 'no', 'not', 'obstacle', 'of', 'on', 'operation', 'optimize', 'or', 'other', 'out', 'package', 'param', 'possible', 'property', 'radius', 'reach', 'region', 'remove', 'seed', 'send', 'sends', 'senses', 'sensor', 'service', 'some', 'starts', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'target', 'then', 'to', 'type', 'until', 'var', 'virtual', 'where', 'wind', 'within', 'zone'])

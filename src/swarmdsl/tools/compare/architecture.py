@@ -13,6 +13,7 @@ from swarmdsl.codegen.swarm_printer.space import model, start
 from swarmdsl.ir import (
     Action,
     Component,
+    Contract,
     Docs,
     Event,
     Expression,
@@ -228,6 +229,10 @@ def _members(system: System) -> Iterator[Element]:
                 )
                 for line in _own(each.connectors, base.connectors if base else ())
             ),
+            *(
+                _contract(one, each, system)
+                for one in _own(each.contracts, base.contracts if base else ())
+            ),
         )
         ref = Ref("member", each.name)
         yield with_doc(
@@ -235,6 +240,21 @@ def _members(system: System) -> Iterator[Element]:
             each.doc,
             tuple(_own(_member_docs(each), _member_docs(base) if base else ())),
         )
+
+
+def _contract(contract: Contract, member: Member, system: System) -> Element:
+    machines = _machines_of([member], system)
+    states: list[Value] = [(_state(name, machines),) for name in contract.states]
+    events: list[Value] = [(Ref("event", name),) for name in contract.events]
+    values = properties(
+        on=join_values(events, ", "),
+        guard=expression_value(contract.guard),
+        within=expression_value(contract.within),
+        reach=join_values(states, ", "),
+        call=_named(contract.function, "function"),
+    )
+    element = Element("contract", (contract.name,), values, origin=contract.origin)
+    return with_doc(element, contract.doc)
 
 
 def _member_docs(member: Member) -> Docs:
@@ -367,14 +387,19 @@ def _said(part: sentences.Part, each: str | None, subject: str, system: System) 
 
 def _machines(role: str | None, subject: str, system: System) -> list[StateMachine]:
     """Return the machine of a property, or those that a robot of a role runs, its own first."""
-    names: list[str | None] = [subject]
     for swarm in system.swarms:
         if swarm.name == subject:
             robots = [each.member for each in swarm.roles if each.name == role]
-            members = [system.members_by_name[name] for name in robots]
-            parts = [part.component for member in members for part in member.parts]
-            names = [each.behavior for each in members]
-            names += [system.components_by_name[name].behavior for name in parts]
+            return _machines_of([system.members_by_name[name] for name in robots], system)
+    known = system.machines_by_name
+    return [known[subject]] if subject in known else []
+
+
+def _machines_of(members: Sequence[Member], system: System) -> list[StateMachine]:
+    """Return the machines that members and their parts run, their own first."""
+    parts = [part.component for member in members for part in member.parts]
+    names = [each.behavior for each in members]
+    names += [system.components_by_name[name].behavior for name in parts]
     known = system.machines_by_name
     return [known[name] for name in dict.fromkeys(names) if name is not None and name in known]
 

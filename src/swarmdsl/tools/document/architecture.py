@@ -7,11 +7,13 @@ from collections.abc import Iterable
 from swarmdsl.analysis.property_words import in_words
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
 from swarmdsl.base.naming import snake_case
+from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
     BehaviorUse,
     CommunicationSettings,
     Component,
     Connector,
+    Contract,
     CountRange,
     Environment,
     EnvironmentUse,
@@ -96,6 +98,7 @@ def member(element: Element, builder: EntryBuilder) -> Entry:
         _ports(element, node, builder),
         builder.params(element, all_items(node, Param)),
         equipment_table(element, node, builder),
+        _contracts(element, node, builder),
     )
     facts = [
         *_heritage(element, node, builder),
@@ -243,6 +246,22 @@ def _connectors(element: Element, node: Member, builder: EntryBuilder) -> Table:
         )
         rows.append(Row(cells))
     return Table("Connectors", ("from", "to", "type", "description"), tuple(rows))
+
+
+def _contracts(element: Element, node: Member, builder: EntryBuilder) -> Table:
+    rows = []
+    for item in all_items(node, Contract):
+        inner = builder.elements.of(item)
+        if inner is None:
+            continue
+        if item.function is not None:
+            says: Cell = ("when dead call ", builder.names.code(item.function.span, inner))
+        else:
+            first, last = item.triggers[0].span, item.states[-1].span
+            promise = Span(first.source, first.start, last.end)
+            says = ("on ", builder.names.code(promise, inner))
+        rows.append(builder.row(inner, (says,), element))
+    return Table("Contracts", ("contract", "promise", "description"), tuple(rows))
 
 
 def _heritage(

@@ -1,0 +1,332 @@
+"""Checks of contracts: every state takes the event, and a path leads on to a safe state in time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from swarmdsl.analysis.called_interface import called_interface
+from swarmdsl.analysis.checks.conjunctions import negate, satisfiable
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.facts import Condition
+from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
+from swarmdsl.analysis.checks.safe_paths import SafePaths
+from swarmdsl.analysis.checks.state_places import Place, places_of
+from swarmdsl.analysis.event_topics import event_of, received_topic
+from swarmdsl.analysis.resolve.properties import machines_of_member
+from swarmdsl.analysis.resolve.states import all_resolved
+from swarmdsl.analysis.types import Typing
+from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.ast import (
+    ActionType,
+    Choice,
+    Contract,
+    Defer,
+    Event,
+    EventTrigger,
+    History,
+    Member,
+    Parallel,
+    Region,
+    Send,
+    ServiceType,
+    State,
+    StateMachine,
+    Transition,
+    nodes_of,
+)
+from swarmdsl.syntax.types import BOOL, DURATION
+
+_MOST_LABELS = 3
+
+
+def check_contracts(member: Member, context: Context) -> None:
+    """Check the contracts of a member against the machines that it runs."""
+    contracts = [item for item in member.items if isinstance(item, Contract)]
+    context.check_repeated((each.name for each in contracts), "contract")
+    machines = machines_of_member(member) if contracts else []
+    for contract in contracts:
+        if contract.function is not None:
+            _check_call(contract, context)
+            continue
+        typing = context.with_event([*contract.triggers])
+        context.expect(contract.guard, BOOL, typing)
+        within = _check_time(contract, context)
+        if not machines:
+            context.report.report(
+                "idle-contract",
+                contract.name.span,
+                name=contract.name,
+                reason=f"member `{member.name}` runs no state machine",
+                help="add `behavior` with the name of its state machine",
+            )
+        targets = [each.state.target for each in contract.states]
+        complete = all(all_resolved(each) for each in machines) and None not in targets
+        if (
+            not complete
+            or context.incomplete
+            or any(t.event.target is None for t in contract.triggers)
+        ):
+            continue
+        for machine in machines:
+            _MachineCheck(contract, machine, within, typing, context).run()
+
+
+def _check_time(contract: Contract, context: Context) -> int | None:
+    """Check the time of a contract; return it in nanoseconds if it is known."""
+    assert contract.within is not None
+    context.check_constant(contract.within, DURATION)
+    tree = contract.within.tree
+    value = context.typing.folding.value(tree) if tree is not None else None
+    if not isinstance(value, (int, float)):
+        return None
+    if value < 0:
+        context.report.report("negative-delay", contract.within.span)
+    return round(value)
+
+
+def _check_call(contract: Contract, context: Context) -> None:
+    """Check that a function that is called by a watchdog needs no values."""
+    assert contract.function is not None
+    function = contract.function.target
+    match called_interface(function, context.interfaces):
+        case ActionType(goal=fields) | ServiceType(request=fields) if fields and function:
+            context.report.report(
+                "missing-field",
+                contract.function.span,
+                fields=listed([f"`{each.name}`" for each in fields]),
+                owner=f"function `{function.name}`",
+                help="call a function without values: who calls it knows none when a node has died",
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class _Answer:
+    """What a robot in a state does with an event: transitions that it may take.
+
+    `covers` is True if it takes one of them for sure; `deferring` is the state that puts it off.
+    """
+
+    taken: tuple[tuple[Place, Transition], ...]
+    covers: bool
+    deferring: Place | None = None
+
+
+class _MachineCheck:
+    """Check of one contract in one machine."""
+
+    def __init__(
+        self,
+        contract: Contract,
+        machine: StateMachine,
+        within: int | None,
+        typing: Typing,
+        context: Context,
+    ) -> None:
+        self._contract = contract
+        self._within = within
+        self._typing = typing
+        self._context = context
+        self._places = places_of(machine)
+        wanted = {each.state.target for each in contract.states}
+        safe = [each for each in _inside(self._places) if each.node in wanted]
+        sends = nodes_of(machine, Send)
+        sent = {s.event.target for s in sends if s.event.target and not s.event.target.swarm}
+        self._safe = safe
+        self._paths = SafePaths(safe, sent, context.typing.folding)
+
+    def run(self) -> None:
+        """Report states that ignore the event, and paths that miss the safe states."""
+        if not self._safe:
+            return
+        for trigger in self._contract.triggers:
+            event = trigger.event.target
+            assert event is not None
+            self._check_event(trigger, event)
+        self._check_kept()
+
+    def _check_event(self, trigger: EventTrigger, event: Event) -> None:
+        ignoring: list[tuple[Place, _Answer]] = []
+        missing: dict[Transition, tuple[Place, str]] = {}
+        for leaf in (each for place in self._places for each in place.leaves()):
+            if self._paths.is_safe(leaf) or isinstance(leaf.node, (Choice, History)):
+                continue
+            if leaf.is_final and (leaf.around is None or self._paths.settles(leaf)):
+                continue
+            answer = self._answer(leaf, event, None)
+            if not (answer.covers or self._other_region(leaf, event) or self._on_its_way(leaf)):
+                ignoring.append((leaf, answer))
+            for owner, transition in answer.taken:
+                fault = self._fault(leaf, owner, transition)
+                if fault is not None:
+                    missing.setdefault(transition, (leaf, fault))
+        if ignoring:
+            self._report_ignored(trigger, event, ignoring)
+        for transition, (leaf, fault) in missing.items():
+            self._context.report.report(
+                "unsafe-path",
+                trigger.span,
+                contract=self._contract.name,
+                event=event.name,
+                state=leaf.name,
+                fault=fault,
+                related=(Label(transition.span, "this is taken"),),
+                help=f"let it lead to {self._targets()}, or to a state from where a robot gets "
+                "there by itself",
+            )
+
+    def _answer(self, leaf: Place, event: Event, limit: Place | None) -> _Answer:
+        """Return what a robot in a state does with an event, up to a place around it."""
+        taken: list[tuple[Place, Transition]] = []
+        guards: list[Condition] = []
+        for owner in leaf.chain():
+            if owner is limit:
+                break
+            for transition in owner.transitions():
+                if not any(_is_same(event, each) for each in map(event_of, transition.triggers)):
+                    continue
+                taken.append((owner, transition))
+                if transition.guard is None or self._holds(transition, guards):
+                    return _Answer(tuple(taken), covers=True)
+            if _defers(owner, event):
+                return _Answer(tuple(taken), covers=False, deferring=owner)
+        return _Answer(tuple(taken), covers=False)
+
+    def _holds(self, transition: Transition, guards: list[Condition]) -> bool:
+        """Return True if one of the guards so far holds whenever that of the contract does."""
+        own, guard = self._contract.guard, transition.guard
+        assert guard is not None
+        if own is not None and own.span.text.split() == guard.span.text.split():
+            return True
+        if guard.tree is None or (own is not None and own.tree is None):
+            return True  # reported elsewhere
+        guards.append(negate(guard_condition(guard.tree, self._typing)))
+        assumed = [guard_condition(own.tree, self._typing)] if own is not None and own.tree else []
+        return not satisfiable(*assumed, *guards)
+
+    def _on_its_way(self, leaf: Place) -> bool:
+        """Return True if a robot in a state gets to a safe one in time anyway."""
+        time = self._paths.longest(leaf)
+        return time is not None and (self._within is None or time <= self._within)
+
+    def _other_region(self, leaf: Place, event: Event) -> bool:
+        """Return True if another region of a parallel state takes the event in all its states."""
+        chain = list(leaf.chain())
+        for inner, outer in pairwise(chain):
+            if isinstance(outer.node, Parallel):
+                for region in outer.inside:
+                    if region is not inner and self._region_takes(region, event):
+                        return True
+        return False
+
+    def _region_takes(self, region: Place, event: Event) -> bool:
+        leaves = [each for each in region.leaves() if not isinstance(each.node, (Choice, History))]
+        answers = [
+            (each, self._answer(each, event, region)) for each in leaves if not each.is_final
+        ]
+        return bool(answers) and all(
+            answer.covers
+            and not any(self._fault(leaf, owner, taken) for owner, taken in answer.taken)
+            for leaf, answer in answers
+        )
+
+    def _fault(self, leaf: Place, owner: Place, transition: Transition) -> str | None:
+        """Describe why a transition does not lead to a safe state in time; None if it does."""
+        target = owner.target(transition.target)
+        if target is None:
+            return "leaves the robot where it is"
+        stays = set(leaf.chain()).intersection(target.chain())
+        time = self._paths.time(target, {each for each in stays if each is not target})
+        if time is None:
+            return f"leads to `{target.name}`, from where no path leads to a safe state"
+        if self._within is not None and time > self._within:
+            return f"leads to a safe state after {time / 1e9:g} s at the earliest"
+        return None
+
+    def _report_ignored(
+        self, trigger: EventTrigger, event: Event, found: Sequence[tuple[Place, _Answer]]
+    ) -> None:
+        names = [f"`{leaf.name}`" for leaf, _ in found]
+        shown = (
+            names
+            if len(names) <= _MOST_LABELS
+            else [*names[:_MOST_LABELS], f"{len(names) - _MOST_LABELS} other states"]
+        )
+        labels = [_label(leaf, answer) for leaf, answer in found[:_MOST_LABELS]]
+        around = _common(found)
+        where = (
+            f"state `{around.name}`"
+            if around is not None
+            else "each of them, or put them into a state that has it"
+        )
+        first = self._contract.states[0].state.name
+        guard = self._contract.guard
+        condition = f" [{guard.span.text}]" if guard is not None else ""
+        self._context.report.report(
+            "ignored-contract",
+            trigger.span,
+            contract=self._contract.name,
+            states=" and ".join([", ".join(shown[:-1]), shown[-1]] if len(shown) > 1 else shown),
+            verb="ignores" if len(found) == 1 else "ignore",
+            event=event.name,
+            related=tuple(labels),
+            help=f"add `on {event.name}{condition} -> {first}` to {where}",
+        )
+
+    def _check_kept(self) -> None:
+        """Report transitions that leave the safe states though nothing has come."""
+        for place, transition in self._paths.leaving():
+            self._context.report.report(
+                "left-safe-state",
+                self._contract.name.span,
+                contract=self._contract.name,
+                state=place.name,
+                related=(Label(transition.span, "by this transition"),),
+                help="let it wait for an event, or name the state that it leads to as safe, too",
+            )
+
+    def _targets(self) -> str:
+        return " or ".join(f"`{each.state.name}`" for each in self._contract.states)
+
+
+def _inside(places: Sequence[Place]) -> Iterator[Place]:
+    for place in places:
+        yield place
+        yield from _inside(place.inside)
+
+
+def _is_same(event: Event, other: object) -> bool:
+    if other is None or other is event:
+        return other is event
+    topic = getattr(other, "topic", None)
+    return (
+        topic is not None and not isinstance(other, Event) and str(topic) == received_topic(event)
+    )
+
+
+def _defers(place: Place, event: Event) -> bool:
+    items = place.node.items if isinstance(place.node, (State, Parallel)) else []
+    return any(
+        each.event.target is event
+        for item in items
+        if isinstance(item, Defer)
+        for each in item.events
+    )
+
+
+def _label(leaf: Place, answer: _Answer) -> Label:
+    if answer.deferring is not None:
+        return Label(answer.deferring.node.name.span, "this state puts it off")
+    if answer.taken:
+        return Label(answer.taken[0][1].span, "no guard holds for sure")
+    return Label(leaf.node.name.span, "no transition takes it here")
+
+
+def _common(found: Sequence[tuple[Place, _Answer]]) -> Place | None:
+    """Return the innermost state around all states, or the only one."""
+    chains = [list(leaf.chain()) for leaf, _ in found]
+    for place in chains[0]:
+        if not isinstance(place.node, Region) and all(place in chain for chain in chains):
+            return place
+    return None

@@ -1,0 +1,174 @@
+"""Paths to safe states: what robots do by themselves after an event.
+
+By itself, a robot completes activities, states and regions, waits for times, and takes guards and
+its own events: all of them are assumed to be possible, and to take no time but for delays that
+are constants. Events of others are no part of a path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence, Set
+from heapq import heappop, heappush
+from itertools import count
+
+from swarmdsl.analysis.checks.state_places import Place
+from swarmdsl.analysis.types.constant_folding import Folding
+from swarmdsl.syntax.ast import (
+    Activity,
+    Choice,
+    DoneTrigger,
+    Event,
+    EventTrigger,
+    History,
+    OutcomeTrigger,
+    Parallel,
+    Region,
+    State,
+    TimeTrigger,
+    Transition,
+    Trigger,
+)
+
+Step = tuple[Place, int, Transition | None]
+"""Next place, the time until then in nanoseconds at least, and the transition that leads there."""
+
+
+class SafePaths:
+    """Paths of one machine to `safe` places; `sent` are the events that the machine sends."""
+
+    def __init__(self, safe: Sequence[Place], sent: Set[Event], folding: Folding) -> None:
+        self._safe = set(safe)
+        self._sent = sent
+        self._folding = folding
+
+    def is_safe(self, place: Place) -> bool:
+        """Return True for a safe place, or one inside it."""
+        return any(each in self._safe for each in place.chain())
+
+    def settles(self, place: Place, seen: frozenset[Place] = frozenset()) -> bool:
+        """Return True if the robot is in a safe place as soon as it is in this one."""
+        if self.is_safe(place):
+            return True
+        after = [each for each, _, _ in self._inner(place)]
+        if isinstance(place.node, Parallel):
+            return any(self.settles(each, seen | {place}) for each in after if each not in seen)
+        return bool(after) and all(
+            each not in seen and self.settles(each, seen | {place}) for each in after
+        )
+
+    def time(self, origin: Place, running: Set[Place]) -> int | None:
+        """Return the least time to a safe place; None if no path leads there.
+
+        The delays of places that were `running` before may be over at once.
+        """
+        order = count()
+        ahead = [(0, next(order), origin)]
+        done: set[Place] = set()
+        while ahead:
+            time, _, place = heappop(ahead)
+            if self.is_safe(place):
+                return time
+            if place in done:
+                continue
+            done.add(place)
+            for following, delay, transition in self.steps(place):
+                waits = delay if transition is None or not self._is_of(transition, running) else 0
+                heappush(ahead, (time + waits, next(order), following))
+        return None
+
+    def longest(self, place: Place, seen: frozenset[Place] = frozenset()) -> int | None:
+        """Return the sum of delays after which a robot is in a safe place, whatever happens.
+
+        None if it may stay where it is, or go elsewhere.
+        """
+        if self.is_safe(place):
+            return 0
+        if place in seen:
+            return None
+        steps = [*self.steps(place)]
+        own = {transition for _, _, transition in steps}
+        for owner in place.chain():
+            for transition in owner.transitions():
+                target = owner.target(transition.target)
+                if transition not in own and target is not None:
+                    steps.append((target, 0, transition))
+        if not any(t is None or (t in own and t.guard is None) for _, _, t in steps):
+            return None
+        times = [(delay, self.longest(each, seen | {place})) for each, delay, _ in steps]
+        known = [delay + time for delay, time in times if time is not None]
+        return max(known) if len(known) == len(times) else None
+
+    def leaving(self) -> Iterator[tuple[Place, Transition]]:
+        """Yield transitions that a robot in a safe place takes by itself to one that is not."""
+        for safe in self._safe:
+            for leaf in safe.leaves():
+                for target, _, transition in self.steps(leaf):
+                    if transition is not None and not self.settles(target):
+                        yield leaf, transition
+
+    def steps(self, place: Place) -> Iterator[Step]:
+        """Yield what a robot in a place, and in those around it, does by itself."""
+        yield from self._inner(place)
+        for owner in place.chain():
+            for transition in owner.transitions():
+                target = owner.target(transition.target)
+                if target is None:
+                    continue
+                triggers = transition.triggers
+                if not triggers:
+                    yield target, 0, transition
+                for trigger in triggers:
+                    if self._comes(trigger, owner, place):
+                        yield target, self._delay(trigger), transition
+
+    def _inner(self, place: Place) -> Iterator[Step]:
+        """Yield the places that are entered with a place, or follow at once."""
+        found: list[Place | None]
+        match place.node:
+            case Choice(branches=branches):
+                found = [place.target(branch.target) for branch in branches]
+            case History() as history:
+                siblings = place.around.inside if place.around is not None else []
+                others = [each for each in siblings if not isinstance(each.node, (Choice, History))]
+                found = [*others] if history.target is None else [place.target(history.target)]
+            case _:
+                found = [*place.first()]
+        for each in found:
+            if each is not None:
+                yield each, 0, None
+
+    def _comes(self, trigger: Trigger, owner: Place, place: Place) -> bool:
+        """Return True if a trigger comes by itself while a robot is in a place."""
+        match trigger:
+            case OutcomeTrigger():
+                items = owner.node.items if isinstance(owner.node, State) else []
+                return any(isinstance(item, Activity) for item in items)
+            case DoneTrigger():
+                return _completes(trigger, owner, place)
+            case TimeTrigger():
+                return True
+            case EventTrigger(event=event):
+                return event.target in self._sent
+        return False
+
+    def _delay(self, trigger: Trigger) -> int:
+        tree = trigger.delay.tree if isinstance(trigger, TimeTrigger) else None
+        value = self._folding.value(tree) if tree is not None else None
+        return round(value) if isinstance(value, (int, float)) else 0
+
+    @staticmethod
+    def _is_of(transition: Transition, places: Set[Place]) -> bool:
+        return any(transition in place.transitions() for place in places)
+
+
+def _completes(trigger: DoneTrigger, owner: Place, place: Place) -> bool:
+    """Return True if a robot in a place may complete its state, or a region of it."""
+    if not place.is_final or place.around is None:
+        return False
+    if trigger.final is not None and trigger.final.target is not place.node:
+        return False
+    around = place.around
+    if not isinstance(around.node, Region):
+        return around is owner
+    of_region = trigger.region is None or trigger.region.target is around.node
+    return around.around is owner and of_region
