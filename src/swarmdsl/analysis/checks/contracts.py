@@ -206,8 +206,10 @@ class _MachineCheck:
         return not satisfiable(*assumed, *guards)
 
     def _on_its_way(self, leaf: Place) -> bool:
-        """Return True if a robot in a state gets to a safe one in time anyway."""
-        time = self._paths.longest(leaf)
+        """Return True if a robot in a state is going to a safe one already, perhaps in time."""
+        if not self._paths.leads(leaf):
+            return False
+        time = self._paths.time(leaf, set())
         return time is not None and (self._within is None or time <= self._within)
 
     def _other_region(self, leaf: Place, event: Event) -> bool:

@@ -76,27 +76,22 @@ class SafePaths:
                 heappush(ahead, (time + waits, next(order), following))
         return None
 
-    def longest(self, place: Place, seen: frozenset[Place] = frozenset()) -> int | None:
-        """Return the sum of delays after which a robot is in a safe place, whatever happens.
+    def leads(self, place: Place, seen: frozenset[Place] = frozenset()) -> bool:
+        """Return True if a robot goes on by itself, to safe places only, whatever happens.
 
-        None if it may stay where it is, or go elsewhere.
+        It may take a while, and come by a place several times.
         """
-        if self.is_safe(place):
-            return 0
-        if place in seen:
-            return None
+        if self.is_safe(place) or place in seen:
+            return True
         steps = [*self.steps(place)]
         own = {transition for _, _, transition in steps}
+        if not any(each is None or each.guard is None for each in own):
+            return False
+        after = [each for each, _, _ in steps]
         for owner in place.chain():
-            for transition in owner.transitions():
-                target = owner.target(transition.target)
-                if transition not in own and target is not None:
-                    steps.append((target, 0, transition))
-        if not any(t is None or (t in own and t.guard is None) for _, _, t in steps):
-            return None
-        times = [(delay, self.longest(each, seen | {place})) for each, delay, _ in steps]
-        known = [delay + time for delay, time in times if time is not None]
-        return max(known) if len(known) == len(times) else None
+            targets = (owner.target(each.target) for each in owner.transitions() if each not in own)
+            after += [each for each in targets if each is not None]
+        return all(self.leads(each, seen | {place}) for each in after)
 
     def leaving(self) -> Iterator[tuple[Place, Transition]]:
         """Yield transitions that a robot in a safe place takes by itself to one that is not."""

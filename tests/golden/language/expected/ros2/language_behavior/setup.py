@@ -28,6 +28,7 @@ setup(
         'console_scripts': [
             'b = language_behavior.b:main',
             'market = language_behavior.market:main',
+            'guarding = language_behavior.guarding:main',
         ],
     },
 )

@@ -28,6 +28,7 @@ setup(
         'console_scripts': [
             'b = language_behavior.b_smach:main',
             'market = language_behavior.market_smach:main',
+            'guarding = language_behavior.guarding_smach:main',
         ],
     },
 )

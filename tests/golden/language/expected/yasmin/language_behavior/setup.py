@@ -29,6 +29,7 @@ setup(
         'console_scripts': [
             'b = language_behavior.b_fsm:main',
             'market = language_behavior.market_fsm:main',
+            'guarding = language_behavior.guarding_fsm:main',
         ],
     },
 )

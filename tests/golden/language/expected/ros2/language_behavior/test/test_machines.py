@@ -6,6 +6,7 @@ from types import SimpleNamespace
 from language_behavior import (
     b,
     engine,
+    guarding,
     market,
 )
 import pytest
@@ -13,6 +14,7 @@ import pytest
 BEHAVIORS = [
     b.BEHAVIOR,
     market.BEHAVIOR,
+    guarding.BEHAVIOR,
 ]
 WORDS = {'bool': True, 'string': '', 'wstring': ''}
 

@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from language_behavior import b_fsm, market_fsm
+from language_behavior import b_fsm, guarding_fsm, market_fsm
 import pytest
 import yasmin
 import yasmin_factory
@@ -12,6 +12,7 @@ FOLDER = Path(__file__).resolve().parents[1] / 'state_machines'
 MACHINES = {
     'b': b_fsm.build,
     'market': market_fsm.build,
+    'guarding': guarding_fsm.build,
 }
 
 

@@ -1,0 +1,119 @@
+"""Contracts: states that ignore the event, paths that miss the safe states, safe states left."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.driver import pipeline
+
+MODEL = """
+swarm event Go : std_msgs/Empty
+swarm event Halt : std_msgs/Empty
+event Level : std_msgs/Float64
+event Own : std_msgs/Empty
+function land : abstraction {{ service "land" : std_srvs/Empty }}
+member Uav {{
+  behavior Fly
+  contract Safe : {contract}
+}}
+endless statemachine Fly {{
+  initial {initial}
+  {states}
+  state Down {{ on Go -> {initial} }}
+}}
+"""
+HALT = "on Halt within 2 s reach Down"
+LEVEL = "on Level [event.data < 10] within 2 s reach Down"
+WORK = """state Work {
+  initial A
+  state A { on Go -> B }
+  state B { on Go -> A }
+  %s
+}"""
+REGIONS = """parallel state Work {
+  region One { initial A; state A { on Go -> B }; state B { on Go -> A } }
+  region Two { initial C; %s }
+  on Two.done -> Down
+}"""
+
+
+def found(folder: Path, contract: str, states: str, initial: str = "Work") -> list[str]:
+    """Return the messages about a contract of a model."""
+    model = folder / "model.swarm"
+    text = MODEL.format(contract=contract, states=states, initial=initial)
+    model.write_text(text, encoding="utf-8")
+    report = pipeline.check([model]).report
+    return [each.message for each in report if each.code.startswith("SW16")]
+
+
+@pytest.mark.parametrize(
+    ("contract", "states"),
+    [
+        (HALT, WORK % "on Halt -> Down"),
+        (HALT, "state Work { on Halt -> Brake }; state Brake { after 1 s -> Down }"),
+        (HALT, "state Work { on Halt -> Pick }; choice Pick { [1 < 2] -> Down; else -> Down }"),
+        (
+            HALT,
+            "state Work { on Halt -> L }; state L { do land; on succeeded, aborted -> Down }",
+        ),
+        (HALT, "state Work { on Halt -> Tell }; state Tell { entry / send Own; on Own -> Down }"),
+        (HALT, REGIONS % "state C { on Halt -> D }; final D"),
+        (HALT, "state Work = Inner { on Halt -> Down }"),
+        (LEVEL, "state Work { on Level [event.data < 20] -> Down }"),
+        (LEVEL, "state Work { on Level [event.data < 5] -> Down; on Level -> Down }"),
+    ],
+    ids=["around", "delay", "choice", "function", "own", "region", "reused", "implied", "both"],
+)
+def test_kept(contract: str, states: str, tmp_path: Path) -> None:
+    inner = (
+        "endless statemachine Inner { initial X; state X { on Go -> Y }; state Y { on Go -> X } }"
+    )
+
+    assert found(tmp_path, contract, f"{states}\n}}\n{inner.removesuffix('}')}") == []
+
+
+@pytest.mark.parametrize(
+    ("contract", "states", "message"),
+    [
+        (HALT, WORK % "on Go -> Down", "`Work.A` and `Work.B` ignore `Halt`"),
+        (HALT, WORK % "on Halt -> Work", "in `Work.A`, `Halt` leads to a safe"),
+        (HALT, "state Work { defer Halt; on Go -> Down }", "`Work` ignores `Halt`"),
+        (
+            HALT,
+            "state Work { on Halt / send Own }",
+            "in `Work`, `Halt` leaves the robot where it is",
+        ),
+        (
+            HALT,
+            "state Work { on Halt -> Wait }; state Wait { on Go -> Down; on Halt -> Down }",
+            "in `Work`, `Halt` leads to `Wait`, from where no path leads to a safe state",
+        ),
+        (
+            HALT,
+            "state Work { on Halt -> Brake }; state Brake { after 3 s -> Down; on Halt -> Down }",
+            "in `Work`, `Halt` leads to a safe state after 3 s at the earliest",
+        ),
+        (HALT, REGIONS % "state C { on Go -> D }; final D", "ignore `Halt`"),
+        (LEVEL, "state Work { on Level [event.data < 5] -> Down }", "`Work` ignores `Level`"),
+    ],
+    ids=["all", "back", "deferred", "stays", "waits", "late", "region", "guard"],
+)
+def test_broken(contract: str, states: str, message: str, tmp_path: Path) -> None:
+    if "Halt -> Work" in states:  # a way round that is too long
+        states = states.replace("on Halt -> Work", "on Halt -> Work; after 1 min -> Down")
+        message = "in `Work.A`, `Halt` leads to a safe state after 60 s at the earliest"
+    first, *_ = found(tmp_path, contract, states)
+
+    assert first.startswith("contract `Safe`: ")
+    assert message in first
+
+
+def test_a_safe_state_is_left_only_for_another_one_or_on_an_event(tmp_path: Path) -> None:
+    states = "state Work { on Halt -> Land }; state Land { after 1 s -> Work; on Go -> Work }"
+    left = found(tmp_path, "on Halt within 2 s reach Land, Down", states)
+    named = found(tmp_path, "on Halt within 2 s reach Land, Work, Down", states)
+
+    assert left == ["contract `Safe`: a robot leaves `Land` by itself"]
+    assert named == []

@@ -1,0 +1,63 @@
+"""Contracts of members: properties of swarms and machines that are proved and judged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from swarmdsl.execution.verify.model import Model
+
+from .conftest import verdicts_of
+
+MODEL = """
+package field
+
+event Low : std_msgs/Float64
+swarm event Halt : std_msgs/Empty
+function land : abstraction { service "land" : std_srvs/Empty }
+
+endless statemachine Fly {
+  var tired : bool = false
+  initial Air
+  state Air {
+    on Low [event.data < 5] / tired = true -> Ground
+    on Low / tired = true
+    on Halt [tired] -> Ground
+    on Halt -> Pause
+  }
+  choice Pause {
+    [tired] -> Ground
+    else -> Hover
+  }
+  state Hover { [tired] -> Ground; on Halt, Low -> Ground }
+  state Ground { on Halt -> Ground }
+}
+member Uav {
+  behavior Fly
+  contract Stops : on Halt within 2 s reach Ground
+  contract Empty : on Low [event.data < 5] within 2 s reach Ground
+}
+member Big extends Uav { contract Stops : on Halt within 2 s reach Ground, Hover }
+member Spare extends Uav { contract Dies : when dead call land }
+swarm Field { uav : Uav[2]; big : Big }
+"""
+
+
+def test_contracts_are_proved_for_each_role(modelled: Callable[..., Model]) -> None:
+    verdicts = verdicts_of(modelled(MODEL))
+
+    # A path leads on from `Hover`, but only a robot that is tired takes it.
+    assert {name: each.outcome for name, each in verdicts.items()} == {
+        "uav_Stops": "fails",
+        "uav_Empty": "holds",
+        "big_Stops": "holds",
+        "big_Empty": "holds",
+    }
+
+
+def test_a_member_of_no_swarm_has_them_in_its_machine(modelled: Callable[..., Model]) -> None:
+    system = modelled(MODEL).subject.system
+    assert system is not None
+
+    alone = {each.name: each for each in system.judged if each.subject == "Fly"}
+    assert list(alone) == ["Spare_Stops", "Spare_Empty"]
+    assert {each.each for each in alone.values()} == {None}
