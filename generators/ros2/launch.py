@@ -17,15 +17,26 @@ from swarmdsl.codegen.shared import (
     member_functions,
     member_wiring,
 )
-from swarmdsl.ir import Member, Role, Swarm, System
+from swarmdsl.ir import Member, Role, StateMachine, Swarm, System
 
 from .command_topics import check_command_topics
 from .names import TARGET
+from .package import called_functions
 from .params import given
 
 _ROBOT = "robot"
 """Launch file of one robot."""
 _SECOND = 1_000_000_000
+
+
+@dataclass(frozen=True)
+class Watchdog:
+    """Server that is called when a node has died; goals of the actions `cancels` end before."""
+
+    function: str
+    paradigm: str
+    type: str
+    cancels: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -37,6 +48,7 @@ class LaunchedNode:
     part: str | None
     values: Mapping[str, Value]
     remaps: Remaps = ()
+    watchdog: Watchdog | None = None
 
 
 @dataclass(frozen=True)
@@ -141,7 +153,24 @@ def _nodes(
     for node in behavior_nodes(member, system):
         module = modules[node.machine.name]
         name = node.name if node.part is not None else module
-        yield LaunchedNode(module, name, node.part, given(node, report), node.remaps)
+        watchdog = _watchdog(member, node.machine, system) if node.part is None else None
+        yield LaunchedNode(module, name, node.part, given(node, report), node.remaps, watchdog)
+
+
+def _watchdog(member: Member, machine: StateMachine, system: System) -> Watchdog | None:
+    """Return what is called when the node of a member dies, as its contracts say."""
+    called = [each.function for each in member.contracts if each.function is not None]
+    if not called:
+        return None
+    server = system.function(called[0]).communication
+    kind = "action" if server.paradigm == "action" else "srv"
+    used = [system.function(name).communication for name in called_functions(machine)]
+    return Watchdog(
+        server.name,
+        server.paradigm,
+        f"{server.type.package}/{kind}/{server.type.name}",
+        tuple(each.name for each in used if each.paradigm == "action"),
+    )
 
 
 def configuration(nodes: Iterable[LaunchedNode], head: Iterable[str]) -> str:

@@ -11,7 +11,16 @@ from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 TARGET = "ros2"
 _MODULES = (
     *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "identity", "members"),
-    *("launching", "model", "models", "node", "parameters", "property_monitors", "robot_lines"),
+    *(
+        "launching",
+        "lease",
+        "model",
+        "models",
+        "node",
+        "parameters",
+        "property_monitors",
+        "robot_lines",
+    ),
     *(
         "robots",
         "swarm_measures",
@@ -21,6 +30,7 @@ _MODULES = (
         "topics",
         "tracing",
         "values",
+        "watchdog",
     ),
 )
 # A package with such a name would hide a module that the nodes import.

@@ -43,6 +43,10 @@ def dependencies(system: System, machines: Iterable[StateMachine]) -> list[str]:
     found = {"action_msgs", "builtin_interfaces", "diagnostic_msgs", "rcl_interfaces", "rclpy"}
     found.add("std_msgs")
     around = envelopes_of(system)
+    promises = (each.function for member in system.members for each in member.contracts)
+    for called in promises:
+        if called is not None:
+            found.add(system.function(called).communication.type.package)
     for machine in machines:
         for variable in machine.variables:
             element = variable.type.element if isinstance(variable.type, Array) else variable.type

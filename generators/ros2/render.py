@@ -36,6 +36,7 @@ _MODULES = (
     "values",
 )
 _OF_LAUNCHES = ("launching", "robots")
+_OF_WATCHDOGS = ("lease", "watchdog")
 _OF_MONITORS = (
     *("robot_lines", "swarm_measures", "swarm_monitor", "swarm_verdicts", "swarm_watch"),
 )
@@ -113,7 +114,8 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
     if package.launches:
         text = _fill("package/launch/robot.launch.py", header=head, **values)
         yield OutputFile(f"{root}/launch/robot.launch.py", text)
-        for module in _OF_LAUNCHES:
+        more = _OF_WATCHDOGS if package.has_watchdogs else ()
+        for module in (*_OF_LAUNCHES, *more):
             text = runtime_source(_RUNTIME / f"{module}.py", head)
             yield OutputFile(f"{root}/{root}/{module}.py", text)
         yield from _started(package, options, values, head)

@@ -102,6 +102,12 @@ class PackageView:
     missing_values: str
     variant: Variant
 
+    @property
+    def has_watchdogs(self) -> bool:
+        """True if the death of a node has consequences."""
+        roles = (role for launch in self.launches for role in launch.roles)
+        return any(node.watchdog is not None for role in roles for node in role.nodes)
+
 
 def package_view(
     system: System, options: Options, report: Diagnostics, variant: Variant = PLAIN

@@ -1,6 +1,8 @@
 """Launch a swarm, some of its robots, or one of them on its own computer."""
 
+import os
 from pathlib import Path
+from tempfile import gettempdir
 from typing import Any, NamedTuple
 
 from ament_index_python.packages import get_package_share_directory, PackageNotFoundError
@@ -21,12 +23,17 @@ _SPACE = 'the namespace of the swarm'
 
 
 class Behavior(NamedTuple):
-    """Node of a robot, for its own behaviour or that of a part, with its remapped topics."""
+    """
+    Node of a robot, for its own behaviour or that of a part, with its remapped topics.
+
+    `watchdog` are the parameters of the node that calls a function when this one has died.
+    """
 
     executable: str
     name: str
     part: str = ''
     remappings: Any = None
+    watchdog: Any = None
 
 
 class Swarm(NamedTuple):
@@ -145,6 +152,7 @@ class _Launch:
                 PushRosNamespace(LaunchConfiguration('namespace')),
                 PushRosNamespace(f'{role}_{number}'),
                 *(self._behavior(role, number, node) for node in nodes),
+                *(self._watchdog(role, number, node) for node in nodes if node.watchdog),
                 *self._bringup(role, number),
             ]
         )
@@ -161,6 +169,8 @@ class _Launch:
             **self._heartbeat(),
             **self._trace(member),
         }
+        if node.watchdog:
+            parameters['lease.file'] = self._lease(role, number, node)
         if self._swarm.is_managed:
             parameters['lifecycle.autostart'] = self._is_on('autostart')
         if self._is_on('world'):
@@ -182,6 +192,24 @@ class _Launch:
             **({'namespace': ''} if self._swarm.is_managed else {}),
             **self._common(),
         )
+
+    def _watchdog(self, role, number, node):
+        lease = {'lease.file': self._lease(role, number, node)}
+        return Node(
+            package=self._swarm.package,
+            executable='watchdog',
+            name='watchdog',
+            parameters=[{**node.watchdog, **lease}],
+            respawn=True,
+            **self._common(),
+        )
+
+    def _lease(self, role, number, node):
+        """Return the file that a node locks while it lives; each user has own ones."""
+        folder = Path(gettempdir(), f'swarm_leases_{os.getuid()}')
+        domain = os.environ.get('ROS_DOMAIN_ID', '0')
+        space = self._namespace.replace('/', '.')
+        return str(folder / f'{domain}.{space}.{role}_{number}.{node.name}')
 
     def _monitor(self):
         parameters = {
