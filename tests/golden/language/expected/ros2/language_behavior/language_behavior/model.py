@@ -3,4 +3,4 @@
 
 NAME = 'language'
 VERSION = '0.1.0'
-DIGEST = '945f04334f5f'
+DIGEST = '89584b40690e'

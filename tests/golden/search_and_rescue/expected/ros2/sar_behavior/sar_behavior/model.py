@@ -3,4 +3,4 @@
 
 NAME = 'sar'
 VERSION = '0.1.0'
-DIGEST = 'f27d460c5932'
+DIGEST = '881e0f6831d6'
