@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from swarmdsl.analysis.event_topics import is_of_swarm
 from swarmdsl.analysis.types import Typing
-from swarmdsl.syntax.ast import EventTrigger, MonitorTrigger, Transition
+from swarmdsl.syntax.ast import Contract, EventTrigger, MonitorTrigger, Transition
 from swarmdsl.syntax.types import Type
 
 
-def in_transition(transition: Transition, typing: Typing) -> Typing:
-    """Return the typing in a transition: `event` has a type if its events all have the same."""
+def in_transition(transition: Transition | Contract, typing: Typing) -> Typing:
+    """Return the typing in a transition or contract: `event` has a type if its events all have the same."""
     triggers = [
         each for each in transition.triggers if isinstance(each, (EventTrigger, MonitorTrigger))
     ]
