@@ -9,7 +9,7 @@ from swarmdsl.syntax.types import Type
 
 
 def in_transition(transition: Transition | Contract, typing: Typing) -> Typing:
-    """Return the typing in a transition or contract: `event` has a type if its events all have the same."""
+    """Return the typing in a transition or contract: `event` has the type of all its events."""
     triggers = [
         each for each in transition.triggers if isinstance(each, (EventTrigger, MonitorTrigger))
     ]
