@@ -12,6 +12,7 @@ import json
 import os
 import shutil
 import subprocess
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,6 +21,7 @@ _NETWORK = "10.77.0"
 _DEVICE = "air0"
 _DROP, _PASS = 2, 2**32 - 1
 """Verdicts of a traffic filter: drop the packet, and leave it to the next filter."""
+_PATIENCE = 60.0
 _RANDOM = 2**32 - 0x1000 + 56
 """Address at which classic BPF reads a random number."""
 
@@ -85,15 +87,26 @@ class Radio:
             self._tc("qdisc", "replace", *port, "clsact")
             self._tc("filter", "add", *port, "ingress", "bpf", "da", "bytecode", program)
 
+    def wait_for_losses(self, count: int) -> None:
+        """Wait until so many packets were lost."""
+        end = time.monotonic() + _PATIENCE
+        while (lost := self._lost()) < count:
+            assert time.monotonic() < end, f"only {lost} packets were lost"
+            time.sleep(0.05)
+
     def lose_nothing(self) -> int:
         """Lose no packets any more; return how many were lost."""
+        lost = self._lost()
+        for address in self.addresses.values():
+            self._tc("qdisc", "del", "dev", _port(address), "clsact")
+        return lost
+
+    def _lost(self) -> int:
         lost = 0
         for address in self.addresses.values():
-            port = ("dev", _port(address))
-            told = self._tc("-s", "-j", "qdisc", "show", *port)
+            told = self._tc("-s", "-j", "qdisc", "show", "dev", _port(address))
             (filter_,) = (each for each in json.loads(told) if each["kind"] == "clsact")
             lost += filter_["drops"]
-            self._tc("qdisc", "del", *port, "clsact")
         return lost
 
     def close(self) -> None:

@@ -141,8 +141,9 @@ def test_the_farm_is_partitioned_and_a_scout_is_killed(fleet: Callable[..., Flee
     farm.fakes.publish("/field/base_0/rain", data=False)
     for node in (first, second):
         node.wait_in("Work.Survey")
+    made.radio.wait_for_losses(20)
     assert [count(node, "member_lost") for node in (base, first, second)] == before
-    assert made.radio.lose_nothing() > 0
+    made.radio.lose_nothing()
 
     killed = time.time()
     second.process.send_signal(signal.SIGKILL)
@@ -194,7 +195,8 @@ def test_an_abort_lands_all_that_can_hear_and_later_the_others(
 
     made.radio.heal("uav_0")
     uavs[0].wait_in("Mission.Idle")
-    assert made.radio.lose_nothing() > 0
+    made.radio.wait_for_losses(1)
+    made.radio.lose_nothing()
     for uav in uavs:
         assert uav.terminate() == 0
 
