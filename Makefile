@@ -21,6 +21,7 @@ MUTANTS_OF :=
 SWARMS ?= 500
 CASES ?= 20000
 PAIRS ?= 10000
+TREE_SITTER ?= tree-sitter
 BENCH_READY := benchmarks/node_modules/.ready
 EXTENSION := editors/vscode
 EXTENSION_READY := $(EXTENSION)/node_modules/.package-lock.json
@@ -31,7 +32,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-xmpp test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-xmpp test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser tree-sitter dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o build/demo
@@ -127,6 +128,9 @@ mutants: $(READY) ## Put mistakes into the examples, and show which of them `swa
 
 parser: $(READY) ## Make the parser from the grammar.
 	$(BIN)/python -m swarmdsl.syntax.pegen
+
+tree-sitter: parser ## Make the parser for tree-sitter from its grammar: TREE_SITTER=path/of/tree-sitter.
+	cd editors/tree-sitter && $(TREE_SITTER) generate --abi 14 src/grammar.json
 
 bless: $(READY) ## Take today's output as what the golden tests expect.
 	$(BIN)/pytest --bless

@@ -17,6 +17,8 @@ import pytest
 from pygments.lexers import get_lexer_by_name, get_lexer_for_filename
 from pygments.token import Keyword, Name, Operator, String
 
+from .tree_sitter import QUERIES, language
+
 ROOT = Path(__file__).resolve().parents[2]
 MODE = ROOT / "editors" / "emacs" / "swarm-mode.el"
 RUNTIME = f"set rtp^={ROOT / 'editors' / 'vim'}"
@@ -27,7 +29,7 @@ FILES = [
 ]
 WORD = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/|([A-Za-z_]\w*)')
 
-Coloured = Callable[[str], set[int]]
+Coloured = Callable[[list[str]], set[int]]
 
 
 # Kinds of words that are keywords, and those of escapes, in Vim and Emacs.
@@ -124,12 +126,35 @@ def of_emacs(text: str, folder: Path, kinds: Collection[str] = EMACS) -> set[int
     return {at for at, face in json.loads(ran.stdout) if face in kinds}
 
 
-@pytest.fixture(params=["pygments", "vim", "emacs"])
+def of_tree_sitter(texts: list[str]) -> set[int]:
+    """Return the keywords of each text by itself: it is a tree, which begins with its package."""
+    starts = [sum(map(len, texts[:number])) for number in range(len(texts))]
+    return {s + at for s, text in zip(starts, texts, strict=True) for at in of_a_tree(text)}
+
+
+def of_a_tree(text: str) -> set[int]:
+    """Of two captures of a node, the later one counts."""
+    from tree_sitter import Parser, Query, QueryCursor
+
+    query = Query(language(), (QUERIES / "highlights.scm").read_text(encoding="utf-8"))
+    data = text.encode()
+    found: dict[int, tuple[int, str]] = {}
+    for pattern, captures in QueryCursor(query).matches(Parser(language()).parse(data).root_node):
+        for name, nodes in captures.items():
+            for node in nodes:
+                found[node.start_byte] = max(found.get(node.start_byte, (0, "")), (pattern, name))
+    kinds = ("keyword", "keyword.import", "constant.builtin", "boolean", "variable.builtin")
+    return {len(data[:at].decode()) for at, (_, name) in found.items() if name in kinds}
+
+
+@pytest.fixture(params=["pygments", "vim", "emacs", "tree-sitter"])
 def coloured(request: Any, tmp_path: Path) -> Coloured:
+    if request.param == "tree-sitter":
+        return of_tree_sitter
     if request.param == "pygments":
-        return of_pygments
+        return lambda texts: of_pygments("".join(texts))
     of = {"vim": of_vim, "emacs": of_emacs}[request.param]
-    return lambda text: of(text, tmp_path)
+    return lambda texts: of("".join(texts), tmp_path)
 
 
 def test_only_keywords_are_highlighted_as_keywords(language: Any, coloured: Coloured) -> None:
@@ -137,7 +162,7 @@ def test_only_keywords_are_highlighted_as_keywords(language: Any, coloured: Colo
     wrong: list[str] = []
     texts = [file.read_text(encoding="utf-8") for file in FILES]
     # All texts in one process: the start of an editor takes longer than highlighting them all.
-    everywhere = coloured("".join(texts))
+    everywhere = coloured(texts)
     end = 0
     for file, text in zip(FILES, texts, strict=True):
         start, end = end, end + len(text)

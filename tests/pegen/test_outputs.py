@@ -93,7 +93,8 @@ def test_a_statement_without_a_snippet_is_named(changed: Any) -> None:
     path.write_text(text.replace("'behavior' machine", "('behavior' | 'behaves') machine"))
     files, missing = outputs()
     assert missing == ["src/swarmdsl/ide/server/snippets.json: no snippet for `behaves`"]
-    assert all("behaves" in text for text in files.values())
+    units = ROOT / editors.SCANNER
+    assert all("behaves" in text for path, text in files.items() if path != units)
 
 
 def test_a_keyword_before_a_string_is_coloured_and_written_once() -> None:

@@ -1,6 +1,6 @@
-"""Keyword lists in the grammars of editors: Vim, Emacs, TextMate (VS Code).
+"""Keyword lists in the grammars of editors: Vim, Emacs, tree-sitter, TextMate (VS Code).
 
-Vim and Emacs have them between two marked lines. JSON has no comments: in the TextMate grammar
+All but the last have them between two marked lines. JSON has no comments: in the TextMate grammar
 the alternations of reserved words and of first words of items are replaced wherever they are.
 """
 
@@ -15,13 +15,16 @@ from typing import Any
 
 from swarmdsl.syntax.pegen.keywords import EMACS_REGEX, PYTHON_REGEX, VIM_REGEX, Keywords
 from swarmdsl.syntax.types import PRIMITIVES
+from swarmdsl.syntax.units import PERCENT, UNITS
 
 VIM = Path("editors/vim/syntax/swarm.vim")
 EMACS = Path("editors/emacs/swarm-mode.el")
+CAPTURES = Path("editors/tree-sitter/queries/highlights.scm")
+SCANNER = Path("editors/tree-sitter/src/scanner.c")
 TEXTMATE = Path("editors/vscode/syntaxes/swarm.tmLanguage.json")
 SNIPPETS = Path("src/swarmdsl/ide/server/snippets.json")
 
-_MARKED = re.compile(r"(?<=made by `make parser`\n).*?(?=^[\";]+ end$)", re.DOTALL | re.MULTILINE)
+_MARKED = re.compile(r"(?<=made by `make parser`\n).*?(?=^[\";/]+ end$)", re.DOTALL | re.MULTILINE)
 _DECLARATION = "declaration"
 # In the TextMate grammar: the words that begin an item of a state machine, and what ends the
 # parameters of an operation.
@@ -38,7 +41,8 @@ class MarksMissingError(Exception):
 
 def editor_files(root: Path, keywords: Keywords) -> Iterator[tuple[Path, str]]:
     """Files of editors with the keywords of today."""
-    for path, lines in ((VIM, _vim), (EMACS, _emacs)):
+    marked = {VIM: _vim, EMACS: _emacs, CAPTURES: _captures, SCANNER: _units}
+    for path, lines in marked.items():
         text = (root / path).read_text(encoding="utf-8")
         generated = "".join(f"{line}\n" for line in lines(keywords))
         replaced, count = _MARKED.subn(lambda _, new=generated: new, text)  # type: ignore[misc]
@@ -126,13 +130,29 @@ def _emacs(keywords: Keywords) -> Iterator[str]:
     yield '  "Words that are keywords only before certain others.")'
 
 
+def _captures(keywords: Keywords) -> Iterator[str]:
+    names = {"include": "keyword.import", "outcome": "constant.builtin", "boolean": "boolean"}
+    for group in (_DECLARATION, *keywords.groups):
+        words = [w for w in keywords.reserved | keywords.contextual if _group(keywords, w) == group]
+        yield from _quoted(sorted(words), "[", f"] @{names.get(group, 'keyword')}")
+    yield "((identifier) @type.builtin"
+    yield from _quoted(PRIMITIVES, "  (#any-of? @type.builtin ", "))")
+
+
+def _units(_: Keywords) -> Iterator[str]:
+    units = ", ".join(f'"{unit}"' for unit in UNITS if unit != PERCENT.name)
+    yield "static const char *const UNITS[] = {"
+    yield from textwrap.wrap(f"{units}, NULL,", 98, initial_indent="  ", subsequent_indent="  ")
+    yield "};"
+
+
 def _wrapped(words: Iterable[str], prefix: str) -> list[str]:
     return textwrap.wrap(" ".join(words), 100, initial_indent=prefix, subsequent_indent=prefix)
 
 
-def _quoted(words: Iterable[str], end: str = ")") -> list[str]:
+def _quoted(words: Iterable[str], begin: str = "  '(", end: str = ")") -> list[str]:
     text = " ".join(f'"{word}"' for word in words)
-    lines = textwrap.wrap(text, 98, initial_indent="  '(", subsequent_indent="    ")
+    lines = textwrap.wrap(text, 98, initial_indent=begin, subsequent_indent="    ")
     return [*lines[:-1], lines[-1] + end]
 
 

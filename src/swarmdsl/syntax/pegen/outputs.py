@@ -17,6 +17,7 @@ from swarmdsl.syntax.pegen.grammar import Grammar, UnsupportedError, read
 from swarmdsl.syntax.pegen.keywords import Keywords, read_annotations
 from swarmdsl.syntax.pegen.metamodel import metamodel
 from swarmdsl.syntax.pegen.swarm_actions import TARGET, parser
+from swarmdsl.syntax.pegen.tree_sitter import GRAMMAR, tree_sitter
 
 _PARSER = Path(__file__).parents[1] / "parser"
 PARSER = _PARSER / "generated.py"
@@ -43,6 +44,7 @@ def outputs() -> tuple[dict[Path, str], list[str]]:
         if root is None:
             return files, []
         files.update(editor_files(root, keywords))
+        files[root / GRAMMAR] = tree_sitter(model, keywords)
         return files, list(missing_words(root, keywords))
     except TextXError as error:
         raise GrammarError(_undefined_rule(str(error)) or str(error)) from error
