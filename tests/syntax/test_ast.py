@@ -31,6 +31,7 @@ INLINE = {
         "Measure",
         "Pattern",
         "PropertyScope",
+        "SafeState",
         "Term",
         "Who",
     ),
