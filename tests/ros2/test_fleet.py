@@ -17,6 +17,8 @@ from .radio import missing
 PERIOD, TIMEOUT = 0.2, 2.5
 SLACK = 2.0
 """What a machine that does much else may add to a timeout, in seconds."""
+_FOUND = 10.0
+"""What DDS may take to find a new process on a busy machine, in seconds."""
 _ROUNDED = 0.002
 """Error of times that are rounded to milliseconds, in seconds."""
 
@@ -119,7 +121,7 @@ def test_the_farm_is_partitioned_and_a_scout_is_killed(fleet: Callable[..., Flee
     second = farm.scout(1)  # late
     second.wait_in("Work.Survey")
     for node in (base, first):
-        assert heard_of(node, "member_joined", "scout[1]", begun(second) - 1) < SLACK
+        assert heard_of(node, "member_joined", "scout[1]", begun(second) - 1) < _FOUND
     farm.fakes.listeners("/field/base_0/rain")
 
     cut = time.time()
