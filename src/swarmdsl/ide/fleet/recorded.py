@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from swarmdsl.base.read_files import is_file, is_folder
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ide.fleet.sensed import BATTERY, TYPES, moved_line, place_of, share_of
 from swarmdsl.ide.fleet.told_lines import LINES, TOPICS, member_in, model_in, time_of
@@ -30,7 +31,7 @@ class UnreadableBagError(Exception):
 def is_bag(name: str) -> bool:
     """Return True for a bag, or for the folder of one."""
     path = Path(name)
-    return path.suffix in SUFFIXES or (path / "metadata.yaml").is_file()
+    return path.suffix in SUFFIXES or is_file(path / "metadata.yaml")
 
 
 class BagClock:
@@ -106,7 +107,7 @@ def _opened(path: Path) -> Iterator[Any]:
         raise UnreadableBagError(
             f"bags need the Python package rosbags: {error}", _NEEDED
         ) from None
-    folder = path if path.is_dir() else path.parent
+    folder = path if is_folder(path) else path.parent
     try:
         with AnyReader([folder], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
             yield reader

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from swarmdsl.analysis.resolve.scopes import Scopes
 from swarmdsl.base.naming import snake_case
+from swarmdsl.base.read_files import exists
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import occurrences, occurrences_of, owner_at
 from swarmdsl.driver.workspace.renaming import RefusedError
@@ -40,7 +41,7 @@ def move_declaration(workspace: Workspace, file: File, declaration: TopLevel) ->
     """Return the texts of files, one of them new; raise RefusedError if not possible."""
     here, there = file.source.path, new_path(file, declaration)
     assert here is not None
-    if there.exists():
+    if exists(there):
         raise RefusedError(f"there is a file `{there.name}`")
     used = _used_files(workspace, file, declaration)
     users = {
