@@ -222,6 +222,7 @@ def _relocate(python: Path) -> None:
         if "tracetools" in file.parts:
             made = made.replace("lttng-ust;", "")
         if made != text:
+            file.unlink()  # it may be a link to the cache of the installer, which stays as it is
             file.write_text(made)
 
 
