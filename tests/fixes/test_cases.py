@@ -35,6 +35,7 @@ HOLES = {
     "add `maximize ...`": "what is better is unknown",
     "add `role.param in": "what varies is unknown",
     "add `fitness Name`": "the model has no fitness",
+    "add `behavior` with": "which machine it runs is unknown",
     "add `connect ...": "the source is unknown",
     "add `on ": "where to react, and what comes then, is a decision",
     "add `send ": "when to send is a decision",
