@@ -117,3 +117,56 @@ def test_a_safe_state_is_left_only_for_another_one_or_on_an_event(tmp_path: Path
 
     assert left == ["contract `Safe`: a robot leaves `Land` by itself"]
     assert named == []
+
+
+def test_states_count_as_on_the_way_only_after_the_event(tmp_path: Path) -> None:
+    states = """state Work { do land; on succeeded, aborted -> Halting }
+    state Halting { on Halt -> Brake; after 1 s -> Brake }
+    state Brake { after 1 s -> Down }"""
+
+    assert found(tmp_path, HALT, states) == ["contract `Safe`: `Work` ignores `Halt`"]
+
+
+def test_a_region_that_has_ended_takes_nothing(tmp_path: Path) -> None:
+    regions = """parallel state Work {{
+      region One {{ initial A; state A {{ on Go -> A }} }}
+      region Two {{ initial C; state C {{ on Halt -> D; on Own -> E }}; final D; final E }}
+      on Two.{} -> Down
+    }}"""
+    (ignored,) = found(tmp_path, HALT, regions.format("done.D"))
+
+    assert "`Work.A` and `Work.E` ignore `Halt`" in ignored
+    assert found(tmp_path, HALT, regions.format("done")) == []
+
+
+def test_guards_of_one_text_may_mean_other_values(tmp_path: Path) -> None:
+    contract = "on Level [event.data < limit] within 2 s reach Down"
+    states = "state Work { on Level [event.data < limit] -> Down }"
+    param = "param limit : float64 = 10.0"
+
+    def with_limits(machine: str) -> list[str]:
+        return found(tmp_path, f"{contract}\n  {param}", f"{machine}\n  {states}")
+
+    assert with_limits("param limit : float64") == []
+    assert with_limits("var limit : float64 = 3.0") == ["contract `Safe`: `Work` ignores `Level`"]
+
+
+def test_many_ways_are_followed_once(tmp_path: Path) -> None:
+    steps = [
+        f"state S{n} {{ after 1 ms -> S{n + 1}; after 2 ms -> S{n + 1}; on Go -> S60 }}"
+        for n in range(60)
+    ]
+    states = "\n".join(["state Work { on Halt -> S0 }", *steps, "state S60 { after 1 ms -> Down }"])
+
+    assert found(tmp_path, HALT.replace("2 s", "3 s"), states) == []
+
+
+def test_one_function_is_called_for_a_dead_node(tmp_path: Path) -> None:
+    model = tmp_path / "model.swarm"
+    one, two = (f"contract {name} : when dead call land" for name in ("Dies", "Falls"))
+    base = MODEL.format(contract=HALT, states="state Work { on Halt -> Down }", initial="Work")
+    more = f"member Base {{ {one} }}\nmember Other extends Base {{ {two} }}\n"
+    model.write_text(base + more, encoding="utf-8")
+    (second,) = pipeline.check([model]).report
+
+    assert (second.code, second.message) == ("SW0404", "the call of a watchdog is given twice")

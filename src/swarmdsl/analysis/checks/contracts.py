@@ -6,32 +6,29 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from swarmdsl.analysis.called_interface import called_interface
-from swarmdsl.analysis.checks.conjunctions import negate, satisfiable
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.facts import Condition
-from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
-from swarmdsl.analysis.checks.safe_paths import SafePaths
+from swarmdsl.analysis.checks.contract_answers import Answer, Answers
+from swarmdsl.analysis.checks.safe_paths import SafePaths, is_left_at_once
 from swarmdsl.analysis.checks.state_places import Place, places_of
-from swarmdsl.analysis.event_topics import event_of, received_topic
+from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.properties import machines_of_member
 from swarmdsl.analysis.resolve.states import all_resolved
 from swarmdsl.analysis.types import Typing
 from swarmdsl.base.diagnostics.collector import Label, listed
-from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import (
     ActionType,
+    BehaviorUse,
     Choice,
     Contract,
-    Defer,
     Event,
     EventTrigger,
     History,
     Member,
+    Node,
     Parallel,
     Region,
     Send,
     ServiceType,
-    State,
     StateMachine,
     Transition,
     nodes_of,
@@ -45,6 +42,8 @@ def check_contracts(member: Member, context: Context) -> None:
     """Check the contracts of a member against the machines that it runs."""
     contracts = [item for item in member.items if isinstance(item, Contract)]
     context.check_repeated((each.name for each in contracts), "contract")
+    if any(each.function is not None for each in contracts):
+        _check_single_call(member, context)
     machines = machines_of_member(member) if contracts else []
     for contract in contracts:
         if contract.function is not None:
@@ -69,8 +68,16 @@ def check_contracts(member: Member, context: Context) -> None:
             or any(t.event.target is None for t in contract.triggers)
         ):
             continue
+        own = {use.machine.target for use in all_items(member, BehaviorUse)}
         for machine in machines:
-            _MachineCheck(contract, machine, within, typing, context).run()
+            params = [*machine.items] if machine in own else []
+            _MachineCheck(contract, machine, within, typing, context, params).run()
+
+
+def _check_single_call(member: Member, context: Context) -> None:
+    """Check that one function at most is called when the node of a robot has died."""
+    calls = [each for each in all_items(member, Contract) if each.function is not None]
+    context.check_single([each.name.span for each in calls], "the call of a watchdog")
 
 
 def _check_time(contract: Contract, context: Context) -> int | None:
@@ -101,20 +108,8 @@ def _check_call(contract: Contract, context: Context) -> None:
             )
 
 
-@dataclass(frozen=True, slots=True)
-class _Answer:
-    """What a robot in a state does with an event: transitions that it may take.
-
-    `covers` is True if it takes one of them for sure; `deferring` is the state that puts it off.
-    """
-
-    taken: tuple[tuple[Place, Transition], ...]
-    covers: bool
-    deferring: Place | None = None
-
-
 class _MachineCheck:
-    """Check of one contract in one machine."""
+    """Check of one contract in one machine; `given` are its items with values of the member."""
 
     def __init__(
         self,
@@ -123,10 +118,11 @@ class _MachineCheck:
         within: int | None,
         typing: Typing,
         context: Context,
+        given: Sequence[Node],
     ) -> None:
         self._contract = contract
+        self._answers = Answers(contract.guard, typing, given)
         self._within = within
-        self._typing = typing
         self._context = context
         self._places = places_of(machine)
         wanted = {each.state.target for each in contract.states}
@@ -147,15 +143,15 @@ class _MachineCheck:
         self._check_kept()
 
     def _check_event(self, trigger: EventTrigger, event: Event) -> None:
-        ignoring: list[tuple[Place, _Answer]] = []
+        ignoring: list[tuple[Place, Answer]] = []
         missing: dict[Transition, tuple[Place, str]] = {}
-        for leaf in (each for place in self._places for each in place.leaves()):
-            if self._paths.is_safe(leaf) or isinstance(leaf.node, (Choice, History)):
-                continue
-            if leaf.is_final and (leaf.around is None or self._paths.settles(leaf)):
-                continue
-            answer = self._answer(leaf, event, None)
-            if not (answer.covers or self._other_region(leaf, event) or self._on_its_way(leaf)):
+        answers = [(leaf, self._answers.answer(leaf, event)) for leaf in self._unsafe_leaves()]
+        taken = [each for _, answer in answers for each in answer.taken]
+        targets = (owner.target(transition.target) for owner, transition in taken)
+        reached = self._paths.reached(each for each in targets if each is not None)
+        for leaf, answer in answers:
+            on_its_way = leaf in reached and self._on_its_way(leaf)
+            if not (answer.covers or on_its_way or self._other_region(leaf, event)):
                 ignoring.append((leaf, answer))
             for owner, transition in answer.taken:
                 fault = self._fault(leaf, owner, transition)
@@ -176,34 +172,15 @@ class _MachineCheck:
                 "there by itself",
             )
 
-    def _answer(self, leaf: Place, event: Event, limit: Place | None) -> _Answer:
-        """Return what a robot in a state does with an event, up to a place around it."""
-        taken: list[tuple[Place, Transition]] = []
-        guards: list[Condition] = []
-        for owner in leaf.chain():
-            if owner is limit:
-                break
-            for transition in owner.transitions():
-                if not any(_is_same(event, each) for each in map(event_of, transition.triggers)):
-                    continue
-                taken.append((owner, transition))
-                if transition.guard is None or self._holds(transition, guards):
-                    return _Answer(tuple(taken), covers=True)
-            if _defers(owner, event):
-                return _Answer(tuple(taken), covers=False, deferring=owner)
-        return _Answer(tuple(taken), covers=False)
-
-    def _holds(self, transition: Transition, guards: list[Condition]) -> bool:
-        """Return True if one of the guards so far holds whenever that of the contract does."""
-        own, guard = self._contract.guard, transition.guard
-        assert guard is not None
-        if own is not None and own.span.text.split() == guard.span.text.split():
-            return True
-        if guard.tree is None or (own is not None and own.tree is None):
-            return True  # reported elsewhere
-        guards.append(negate(guard_condition(guard.tree, self._typing)))
-        assumed = [guard_condition(own.tree, self._typing)] if own is not None and own.tree else []
-        return not satisfiable(*assumed, *guards)
+    def _unsafe_leaves(self) -> Iterator[Place]:
+        """Yield the states without others inside in which a robot may wait, and is not safe."""
+        for leaf in (each for place in self._places for each in place.leaves()):
+            if self._paths.is_safe(leaf) or isinstance(leaf.node, (Choice, History)):
+                continue
+            if leaf.is_final and (leaf.around is None or self._paths.settles(leaf)):
+                continue
+            if not is_left_at_once(leaf):
+                yield leaf
 
     def _on_its_way(self, leaf: Place) -> bool:
         """Return True if a robot in a state is going to a safe one already, perhaps in time."""
@@ -224,10 +201,13 @@ class _MachineCheck:
 
     def _region_takes(self, region: Place, event: Event) -> bool:
         leaves = [each for each in region.leaves() if not isinstance(each.node, (Choice, History))]
+        # A region that stays in a final state takes nothing.
         answers = [
-            (each, self._answer(each, event, region)) for each in leaves if not each.is_final
+            (each, self._answers.answer(each, event, region))
+            for each in leaves
+            if not (self._paths.is_safe(each) or is_left_at_once(each))
         ]
-        return bool(answers) and all(
+        return bool(leaves) and all(
             answer.covers
             and not any(self._fault(leaf, owner, taken) for owner, taken in answer.taken)
             for leaf, answer in answers
@@ -247,7 +227,7 @@ class _MachineCheck:
         return None
 
     def _report_ignored(
-        self, trigger: EventTrigger, event: Event, found: Sequence[tuple[Place, _Answer]]
+        self, trigger: EventTrigger, event: Event, found: Sequence[tuple[Place, Answer]]
     ) -> None:
         names = [f"`{leaf.name}`" for leaf, _ in found]
         shown = (
@@ -298,26 +278,7 @@ def _inside(places: Sequence[Place]) -> Iterator[Place]:
         yield from _inside(place.inside)
 
 
-def _is_same(event: Event, other: object) -> bool:
-    if other is None or other is event:
-        return other is event
-    topic = getattr(other, "topic", None)
-    return (
-        topic is not None and not isinstance(other, Event) and str(topic) == received_topic(event)
-    )
-
-
-def _defers(place: Place, event: Event) -> bool:
-    items = place.node.items if isinstance(place.node, (State, Parallel)) else []
-    return any(
-        each.event.target is event
-        for item in items
-        if isinstance(item, Defer)
-        for each in item.events
-    )
-
-
-def _label(leaf: Place, answer: _Answer) -> Label:
+def _label(leaf: Place, answer: Answer) -> Label:
     if answer.deferring is not None:
         return Label(answer.deferring.node.name.span, "this state puts it off")
     if answer.taken:
@@ -325,7 +286,7 @@ def _label(leaf: Place, answer: _Answer) -> Label:
     return Label(leaf.node.name.span, "no transition takes it here")
 
 
-def _common(found: Sequence[tuple[Place, _Answer]]) -> Place | None:
+def _common(found: Sequence[tuple[Place, Answer]]) -> Place | None:
     """Return the innermost state around all states, or the only one."""
     chains = [list(leaf.chain()) for leaf, _ in found]
     for place in chains[0]:

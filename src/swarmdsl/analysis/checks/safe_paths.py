@@ -7,7 +7,7 @@ are constants. Events of others are no part of a path.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from heapq import heappop, heappush
 from itertools import count
 
@@ -76,22 +76,38 @@ class SafePaths:
                 heappush(ahead, (time + waits, next(order), following))
         return None
 
-    def leads(self, place: Place, seen: frozenset[Place] = frozenset()) -> bool:
+    def reached(self, origins: Iterable[Place]) -> set[Place]:
+        """Return the places in which a robot may be on its way from others, up to safe ones."""
+        ahead, found = [*origins], set[Place]()
+        while ahead:
+            place = ahead.pop()
+            if place not in found:
+                found.add(place)
+                if not self.is_safe(place):
+                    ahead += [each for each, _, _ in self.steps(place)]
+        return found
+
+    def leads(self, origin: Place) -> bool:
         """Return True if a robot goes on by itself, to safe places only, whatever happens.
 
         It may take a while, and come by a place several times.
         """
-        if self.is_safe(place) or place in seen:
-            return True
-        steps = [*self.steps(place)]
-        own = {transition for _, _, transition in steps}
-        if not any(each is None or each.guard is None for each in own):
-            return False
-        after = [each for each, _, _ in steps]
-        for owner in place.chain():
-            targets = (owner.target(each.target) for each in owner.transitions() if each not in own)
-            after += [each for each in targets if each is not None]
-        return all(self.leads(each, seen | {place}) for each in after)
+        ahead, done = [origin], set[Place]()
+        while ahead:
+            place = ahead.pop()
+            if place in done or self.is_safe(place):
+                continue
+            done.add(place)
+            steps = [*self.steps(place)]
+            own = {transition for _, _, transition in steps}
+            if not any(each is None or each.guard is None for each in own):
+                return False
+            ahead += [each for each, _, _ in steps]
+            for owner in place.chain():
+                others = (each for each in owner.transitions() if each not in own)
+                targets = (owner.target(each.target) for each in others)
+                ahead += [each for each in targets if each is not None]
+        return True
 
     def leaving(self) -> Iterator[tuple[Place, Transition]]:
         """Yield transitions that a robot in a safe place takes by itself to one that is not."""
@@ -167,3 +183,23 @@ def _completes(trigger: DoneTrigger, owner: Place, place: Place) -> bool:
         return around is owner
     of_region = trigger.region is None or trigger.region.target is around.node
     return around.around is owner and of_region
+
+
+def is_left_at_once(place: Place) -> bool:
+    """Return True for a place in which no event finds a robot: it goes on without one, for sure."""
+    for owner in place.chain():
+        for transition in owner.transitions():
+            triggers = transition.triggers
+            if transition.guard is None and (
+                not triggers or any(_ends(each, owner, place) for each in triggers)
+            ):
+                return True
+    return False
+
+
+def _ends(trigger: Trigger, owner: Place, place: Place) -> bool:
+    """Return True if a place completes its state, or the region that the trigger names."""
+    if not isinstance(trigger, DoneTrigger) or not _completes(trigger, owner, place):
+        return False
+    is_region = place.around is not None and isinstance(place.around.node, Region)
+    return not is_region or trigger.region is not None
