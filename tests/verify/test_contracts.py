@@ -39,6 +39,19 @@ member Uav {
 member Big extends Uav { contract Stops : on Halt within 2 s reach Ground, Hover }
 member Spare extends Uav { contract Dies : when dead call land }
 swarm Field { uav : Uav[2]; big : Big }
+endless statemachine Look {
+  initial Open
+  state Open { on Halt -> Shut }
+  state Shut { on Halt -> Open }
+}
+sensor Camera { behavior Look }
+member Seeing {
+  behavior Fly
+  param least : float64 = 4.0
+  eye : Camera
+  contract Blind : on Halt within 2 s reach Shut
+  contract Least : on Low [event.data < least] within 2 s reach Ground, Air
+}
 """
 
 
@@ -59,5 +72,6 @@ def test_a_member_of_no_swarm_has_them_in_its_machine(modelled: Callable[..., Mo
     assert system is not None
 
     alone = {each.name: each for each in system.judged if each.subject == "Fly"}
+    # A machine alone has no part with state `Shut`, and no param `least`.
     assert list(alone) == ["Spare_Stops", "Spare_Empty"]
     assert {each.each for each in alone.values()} == {None}

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+from swarmdsl.base.naming import fresh
 from swarmdsl.ir.architecture import Contract, Member, Swarm
+from swarmdsl.ir.expressions import ParamRef, subexpressions
 from swarmdsl.ir.properties import Claim, Fact, Junction, Property
+from swarmdsl.ir.statemachine import StateMachine
 
 
 def promised(
-    members: Sequence[Member], swarms: Sequence[Swarm], properties: Sequence[Property]
+    members: Sequence[Member],
+    swarms: Sequence[Swarm],
+    properties: Sequence[Property],
+    machines: Mapping[str, StateMachine],
 ) -> tuple[Property, ...]:
     """Return what contracts promise, as properties: one for each role, or for a machine alone.
 
@@ -24,16 +30,27 @@ def promised(
         places: list[tuple[str, str | None]] = [
             (swarm.name, role.name) for swarm, role in roles if role.member == member.name
         ]
-        if not places and member.behavior is not None:
-            places.append((member.behavior, None))
+        alone = machines.get(member.behavior or "") if not places else None
         for contract in contracts:
+            if alone is not None and _is_about(contract, alone):
+                places = [(alone.name, None)]
             for subject, role in places:
                 name = f"{role or member.name}_{contract.name}"
-                if name in taken:
-                    name = f"{subject}_{name}"
+                name = fresh(f"{subject}_{name}" if name in taken else name, taken)
                 taken.add(name)
                 found.append(_property(contract, name, subject, role))
     return tuple(found)
+
+
+def _is_about(contract: Contract, machine: StateMachine) -> bool:
+    """Return True if a machine has the states of a contract, and the params in its guard."""
+    ends = {state.id.rpartition(".")[2] for state in machine.walk()}
+    given = {each.name for each in machine.params}
+    values = [each for each in (contract.guard, contract.within) if each is not None]
+    read = (part for value in values for part in subexpressions(value))
+    return all(each.rpartition(".")[2] in ends for each in contract.states) and all(
+        each.name in given for each in read if isinstance(each, ParamRef)
+    )
 
 
 def _property(contract: Contract, name: str, subject: str, role: str | None) -> Property:

@@ -48,7 +48,10 @@ class System:
     @cached_property
     def judged(self) -> tuple[Property, ...]:
         """The properties, and those that the contracts of members promise."""
-        return (*self.properties, *promised(self.members, self.swarms, self.properties))
+        return (
+            *self.properties,
+            *promised(self.members, self.swarms, self.properties, self.machines_by_name),
+        )
 
     def event(self, name: str) -> Event:
         """Return the event of that name."""
