@@ -170,3 +170,26 @@ def test_one_function_is_called_for_a_dead_node(tmp_path: Path) -> None:
     (second,) = pipeline.check([model]).report
 
     assert (second.code, second.message) == ("SW0404", "the call of a watchdog is given twice")
+
+
+def test_inherited_contracts_hold_in_another_machine(tmp_path: Path) -> None:
+    other = """
+endless statemachine Other {{
+  initial Work
+  state Work {{ on {event} -> {target} }}
+  state {target} {{ on Go -> Work }}
+}}
+member Tug extends Uav {{ behavior Other }}
+"""
+
+    def of(event: str, target: str) -> list[str]:
+        inside = "state Work { on Halt -> Down }"
+        base = MODEL.format(contract=HALT, states=inside, initial="Work")
+        path = tmp_path / "model.swarm"
+        path.write_text(base + other.format(event=event, target=target), encoding="utf-8")
+        return [each.message for each in pipeline.check([path]).report if each.code[:4] == "SW16"]
+
+    assert of("Halt", "Down") == []
+    assert of("Go", "Down") == ["contract `Safe`: `Work` ignores `Halt`"]
+    nothing = "contract `Safe` promises nothing: no state of `Other` is called `Down`"
+    assert of("Halt", "Hover") == [nothing]

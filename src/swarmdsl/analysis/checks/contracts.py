@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
+from functools import partial
 from itertools import pairwise
 
 from swarmdsl.analysis.called_interface import called_interface
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.contract_answers import Answer, Answers
 from swarmdsl.analysis.checks.safe_paths import SafePaths, is_left_at_once
-from swarmdsl.analysis.checks.state_places import Place, places_of
+from swarmdsl.analysis.checks.state_places import Place, inside, places_of
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.properties import machines_of_member
 from swarmdsl.analysis.resolve.states import all_resolved
-from swarmdsl.analysis.types import Typing
 from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
     ActionType,
     BehaviorUse,
@@ -31,6 +32,7 @@ from swarmdsl.syntax.ast import (
     ServiceType,
     StateMachine,
     Transition,
+    Vertex,
     nodes_of,
 )
 from swarmdsl.syntax.types import BOOL, DURATION
@@ -49,29 +51,62 @@ def check_contracts(member: Member, context: Context) -> None:
         if contract.function is not None:
             _check_call(contract, context)
             continue
-        typing = context.with_event([*contract.triggers])
-        context.expect(contract.guard, BOOL, typing)
-        within = _check_time(contract, context)
+        context.expect(contract.guard, BOOL, context.with_event([*contract.triggers]))
+        _check_time(contract, context)
         if not machines:
-            context.report.report(
-                "idle-contract",
-                contract.name.span,
-                name=contract.name,
-                reason=f"member `{member.name}` runs no state machine",
-                help="add `behavior` with the name of its state machine",
-            )
-        targets = [each.state.target for each in contract.states]
-        complete = all(all_resolved(each) for each in machines) and None not in targets
-        if (
-            not complete
-            or context.incomplete
-            or any(t.event.target is None for t in contract.triggers)
-        ):
-            continue
-        own = {use.machine.target for use in all_items(member, BehaviorUse)}
-        for machine in machines:
-            params = [*machine.items] if machine in own else []
-            _MachineCheck(contract, machine, within, typing, context, params).run()
+            reason = f"member `{member.name}` runs no state machine"
+            help_ = "add `behavior` with the name of its state machine"
+            _report_idle(contract, contract.name.span, reason, help_, context)
+        targets = {each.state.target for each in contract.states}
+        if None not in targets:
+            _check_machines(contract, member, partial(_is_among, targets), context)
+    if any(isinstance(item, BehaviorUse) for item in member.items):
+        for contract in all_items(member, Contract):
+            if contract.function is None and contract not in contracts:
+                _check_inherited(contract, member, context)
+
+
+def _is_among(targets: Set[Vertex | None], place: Place) -> bool:
+    return place.node in targets
+
+
+def _check_inherited(contract: Contract, member: Member, context: Context) -> None:
+    """Check an inherited contract in another state machine, where its states have these names."""
+    names = [str(each.state.name) for each in contract.states]
+    machines = machines_of_member(member)
+    places = [place for machine in machines for place in inside(places_of(machine))]
+    missing = [name for name in names if not any(place.is_called(name) for place in places)]
+    if not missing:
+
+        def is_safe(place: Place) -> bool:
+            return any(place.is_called(name) for name in names)
+
+        _check_machines(contract, member, is_safe, context)
+    elif not context.incomplete and machines:
+        reason = f"no state of `{machines[0].name}` is called `{missing[0]}`"
+        help_ = f"declare it in `{member.name}` again, with the states of its state machine"
+        _report_idle(contract, member.name.span, reason, help_, context)
+
+
+def _report_idle(
+    contract: Contract, place: Span, reason: str, help_: str, context: Context
+) -> None:
+    context.report.report("idle-contract", place, name=contract.name, reason=reason, help=help_)
+
+
+def _check_machines(
+    contract: Contract, member: Member, is_safe: Callable[[Place], bool], context: Context
+) -> None:
+    """Check a contract in the machines of a member, if all names are resolved."""
+    machines = machines_of_member(member)
+    complete = all(all_resolved(each) for each in machines) and not context.incomplete
+    if not complete or any(each.event.target is None for each in contract.triggers):
+        return
+    within = _time(contract, context)
+    own = {use.machine.target for use in all_items(member, BehaviorUse)}
+    for machine in machines:
+        params = [*machine.items] if machine in own else []
+        _MachineCheck(contract, machine, is_safe, within, context, params).run()
 
 
 def _check_single_call(member: Member, context: Context) -> None:
@@ -80,17 +115,20 @@ def _check_single_call(member: Member, context: Context) -> None:
     context.check_single([each.name.span for each in calls], "the call of a watchdog")
 
 
-def _check_time(contract: Contract, context: Context) -> int | None:
-    """Check the time of a contract; return it in nanoseconds if it is known."""
+def _check_time(contract: Contract, context: Context) -> None:
+    """Check the time of a contract."""
     assert contract.within is not None
     context.check_constant(contract.within, DURATION)
-    tree = contract.within.tree
-    value = context.typing.folding.value(tree) if tree is not None else None
-    if not isinstance(value, (int, float)):
-        return None
-    if value < 0:
+    value = _time(contract, context)
+    if value is not None and value < 0:
         context.report.report("negative-delay", contract.within.span)
-    return round(value)
+
+
+def _time(contract: Contract, context: Context) -> int | None:
+    """Return the time of a contract in nanoseconds if it is known."""
+    tree = contract.within.tree if contract.within is not None else None
+    value = context.typing.folding.value(tree) if tree is not None else None
+    return round(value) if isinstance(value, (int, float)) else None
 
 
 def _check_call(contract: Contract, context: Context) -> None:
@@ -115,18 +153,17 @@ class _MachineCheck:
         self,
         contract: Contract,
         machine: StateMachine,
+        is_safe: Callable[[Place], bool],
         within: int | None,
-        typing: Typing,
         context: Context,
         given: Sequence[Node],
     ) -> None:
         self._contract = contract
-        self._answers = Answers(contract.guard, typing, given)
+        self._answers = Answers(contract.guard, context.with_event([*contract.triggers]), given)
         self._within = within
         self._context = context
         self._places = places_of(machine)
-        wanted = {each.state.target for each in contract.states}
-        safe = [each for each in _inside(self._places) if each.node in wanted]
+        safe = [each for each in inside(self._places) if is_safe(each)]
         sends = nodes_of(machine, Send)
         sent = {s.event.target for s in sends if s.event.target and not s.event.target.swarm}
         self._safe = safe
@@ -270,12 +307,6 @@ class _MachineCheck:
 
     def _targets(self) -> str:
         return " or ".join(f"`{each.state.name}`" for each in self._contract.states)
-
-
-def _inside(places: Sequence[Place]) -> Iterator[Place]:
-    for place in places:
-        yield place
-        yield from _inside(place.inside)
 
 
 def _label(leaf: Place, answer: Answer) -> Label:

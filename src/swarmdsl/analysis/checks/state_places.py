@@ -6,7 +6,7 @@ in the same use.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.analysis.resolve.states import content, regions, vertices
 from swarmdsl.base.records import dataclass, field
@@ -42,6 +42,13 @@ class Place:
         """Path of the state, without regions and reused machines."""
         names = [str(each.node.name) for each in self.chain() if not isinstance(each.node, Region)]
         return ".".join(reversed(names))
+
+    def is_called(self, path: str) -> bool:
+        """Return True for a place of this path, in which places around may be left out."""
+        *around, name = path.split(".")
+        own, *others = [str(each.node.name) for each in self.chain()]
+        left = iter(others)
+        return own == name and all(each in left for each in reversed(around))
 
     def chain(self) -> Iterator[Place]:
         """Yield the place and those around it, the innermost first."""
@@ -86,6 +93,13 @@ class Place:
 def places_of(machine: StateMachine) -> list[Place]:
     """Return the outermost places of a machine."""
     return _grow(machine, None, {}, frozenset((machine,)))
+
+
+def inside(places: Iterable[Place]) -> Iterator[Place]:
+    """Yield places with all places inside them."""
+    for place in places:
+        yield place
+        yield from inside(place.inside)
 
 
 def _grow(
