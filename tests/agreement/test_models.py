@@ -16,7 +16,7 @@ from ..exchange.scxml_machines import with_documents
 from .engines import ENGINES, with_values
 from .known import MODELS
 from .replay import difference, engines
-from .scripts import NEVER, Script, Subject, titled
+from .scripts import NEVER, Script, Subject, params, titled
 
 ROOT = Path(__file__).resolve().parents[2]
 MEMBERS = ROOT / "tests" / "golden" / "members" / "model.swarm"
@@ -46,7 +46,7 @@ def scripts(path: Path, name: str) -> tuple[list[Script], list[str]]:
     return found, [each.origin.text for each in missing if each.origin is not None]
 
 
-MACHINES = [pytest.param(path, id=titled(path)) for path in FILES]
+MACHINES = params(FILES)
 
 
 @pytest.mark.parametrize("path", MACHINES)

@@ -10,6 +10,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 HERE = Path(__file__).resolve().parent
 Variant = Callable[..., Path]
 WORK = ("/lab/work", "lab_msgs/action/Work")
@@ -188,6 +190,7 @@ def test_a_callback_that_is_missing(ros: Any, variant: Variant) -> None:
     assert "the module `callbacks` has no next_goal, read_result" in node.log
 
 
+@pytest.mark.thorough
 def test_twenty_robots_on_one_machine(ros: Any) -> None:
     """All hear an event, and each calls a server of its own."""
     count = 20
