@@ -186,6 +186,7 @@ def test_json():
             }
         ],
         "notes": ["n"],
+        "fixes": [],
     }
 
 

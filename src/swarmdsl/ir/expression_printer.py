@@ -159,6 +159,10 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             if not isinstance(written, str):
                 return written(values), _PRIMARY
             return f"{written}({', '.join(values)})", _PRIMARY
+        case Unary(operator="not", operand=Call(function=function, arguments=arguments)) if (
+            callable(negated := dialect.functions.get(f"not {function}"))
+        ):
+            return negated([_operand(each, 0, dialect) for each in arguments]), _PRIMARY
         case Unary(operator="not", operand=operand):
             level = _PRECEDENCE["not"]
             word = dialect.operators.get("not", "not ")
@@ -221,6 +225,7 @@ PYTHON_FUNCTIONS: Mapping[str, str | Callable[[Sequence[str]], str]] = {
     **PYTHON_ARRAY_FUNCTIONS,
     "clamp": lambda values: "min(max({}, {}), {})".format(*values),
     "contains": lambda values: "({1} in {0})".format(*values),
+    "not contains": lambda values: "({1} not in {0})".format(*values),
     "empty": lambda values: "[]",
 }
 """Built-in functions that Python spells otherwise."""

@@ -125,6 +125,7 @@ def test_names_are_in_the_list_while_one_types(window: Window) -> None:
     window.at(1, 1)
     fill(window)
     window.saved("patrol.swarm", lambda now: now == MODEL)
+    assert text(window, "patrol.swarm") == MODEL
 
 
 def test_file_without_a_name_has_diagnostics_and_colours_of_the_user(window: Window) -> None:

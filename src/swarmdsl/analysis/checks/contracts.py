@@ -74,8 +74,7 @@ def _check_inherited(contract: Contract, member: Member, context: Context) -> No
     """Check an inherited contract in another state machine, where its states have these names."""
     names = [str(each.state.name) for each in contract.states]
     machines = machines_of_member(member)
-    places = [place for machine in machines for place in inside(places_of(machine))]
-    missing = [name for name in names if not any(place.is_called(name) for place in places)]
+    missing = [name for name in names if not any(_has(each, name) for each in machines)]
     if not missing:
 
         def is_safe(place: Place) -> bool:
@@ -86,6 +85,11 @@ def _check_inherited(contract: Contract, member: Member, context: Context) -> No
         reason = f"no state of `{machines[0].name}` is called `{missing[0]}`"
         help_ = f"declare it in `{member.name}` again, with the states of its state machine"
         _report_idle(contract, member.name.span, reason, help_, context)
+
+
+def _has(machine: StateMachine, name: str) -> bool:
+    with places_of(machine) as places:
+        return any(place.is_called(name) for place in inside(places))
 
 
 def _report_idle(
@@ -106,7 +110,8 @@ def _check_machines(
     own = {use.machine.target for use in all_items(member, BehaviorUse)}
     for machine in machines:
         params = [*machine.items] if machine in own else []
-        _MachineCheck(contract, machine, is_safe, within, context, params).run()
+        with places_of(machine) as places:
+            _MachineCheck(contract, machine, places, is_safe, within, context, params).run()
 
 
 def _check_single_call(member: Member, context: Context) -> None:
@@ -153,6 +158,7 @@ class _MachineCheck:
         self,
         contract: Contract,
         machine: StateMachine,
+        places: list[Place],
         is_safe: Callable[[Place], bool],
         within: int | None,
         context: Context,
@@ -162,7 +168,7 @@ class _MachineCheck:
         self._answers = Answers(contract.guard, context.with_event([*contract.triggers]), given)
         self._within = within
         self._context = context
-        self._places = places_of(machine)
+        self._places = places
         safe = [each for each in inside(self._places) if is_safe(each)]
         sends = nodes_of(machine, Send)
         sent = {s.event.target for s in sends if s.event.target and not s.event.target.swarm}

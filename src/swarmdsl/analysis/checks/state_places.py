@@ -7,6 +7,7 @@ in the same use.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from swarmdsl.analysis.resolve.states import content, regions, vertices
 from swarmdsl.base.records import dataclass, field
@@ -90,9 +91,16 @@ class Place:
         return isinstance(self.node, FinalState)
 
 
-def places_of(machine: StateMachine) -> list[Place]:
-    """Return the outermost places of a machine."""
-    return _grow(machine, None, {}, frozenset((machine,)))
+@contextmanager
+def places_of(machine: StateMachine) -> Iterator[list[Place]]:
+    """Yield the outermost places of a machine; then take them apart, since they know each other."""
+    places = _grow(machine, None, {}, frozenset((machine,)))
+    try:
+        yield places
+    finally:
+        for place in [*inside(places)]:
+            place.inside = []
+            place.known.clear()
 
 
 def inside(places: Iterable[Place]) -> Iterator[Place]:

@@ -65,7 +65,7 @@ def guard_shut(machine, event):
     # model.swarm:179
     return (
         all(o.price >= machine.data.best.price for o in machine.data.offers)
-        and not (machine.data.best.by in machine.data.ids)
+        and (machine.data.best.by not in machine.data.ids)
     )
 
 

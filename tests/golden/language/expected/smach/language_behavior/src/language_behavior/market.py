@@ -96,7 +96,7 @@ def _open_f_effect(userdata, event):
 
 def _shut_gone_guard(userdata, event):
     # model.swarm:179
-    return all(o.price >= userdata.best.price for o in userdata.offers) and not (userdata.best.by in userdata.ids)
+    return all(o.price >= userdata.best.price for o in userdata.offers) and (userdata.best.by not in userdata.ids)
 
 
 def _shut_f_effect(userdata, event):
