@@ -90,11 +90,12 @@ WALKS = {
 
 @pytest.fixture
 def world(tmp_path: Path) -> Callable[..., tuple[ServedWorld, Graph]]:
-    def world(ends: Any = None, **member: Any) -> tuple[ServedWorld, Graph]:
+    def world(ends: Any = None, text: str = TEXT, **member: Any) -> tuple[ServedWorld, Graph]:
         to = {"model": "go_to", "arguments": {"to": (40.0, 20.0, 0.0)}}
         scenario = Scenario(functions={("walk", ""): to, ("walk", "rover[1]"): ends or to})
         body = numbers(radius=0.3, speed=5)
-        system = changed(system_of(tmp_path), member={"body": body, **member}, role=WALKS["role"])
+        blocks = {"body": body, **member}
+        system = changed(system_of(tmp_path, text), member=blocks, role=WALKS["role"])
         (swarm,) = system.swarms
         subject, report = Subject(swarm.name, system, swarm), Diagnostics()
         spaces = choose_space("flat", subject, scenario, report)
@@ -188,6 +189,21 @@ def test_radio_relays_events_within_its_range(world: Any, reach: float, arrives:
         graph.heard["/s/rover_1/radio/hello"](wire)
     made.clock.advance(SECOND)
     assert graph.senders["/s/rover_0/radio/hello"].sent == []
+
+
+def test_robots_hear_a_person_wherever_they_are(world: Any) -> None:
+    text = TEXT.replace("swarm event Hello", "swarm operator event Hello")
+    made, graph = world(text=text, radio=numbers(range=1))
+    graph.heard["/s/hello"](b"head")
+    sent = [graph.senders[f"/s/rover_{n}/radio/hello"].sent for n in (0, 1)]
+    assert sent == [[b"head"], [b"head"]]
+    made.lose(made.robots[0])
+    # What comes back from the topic of a robot goes nowhere.
+    graph.heard["/s/rover_1/radio/hello"](b"head")
+    graph.heard["/s/hello"](b"head")
+    assert sent == [[b"head"], [b"head", b"head"]]
+    # Robots alone send other events.
+    assert "/s/target_found" not in graph.heard
 
 
 def test_holds_wait_for_what_is_missing_but_not_for_ever() -> None:

@@ -11,9 +11,14 @@ RADIO = "radio"
 _INCOMING = incoming_topic("", swarm=True)
 
 
+def swarm_namespace(swarm: str) -> str:
+    """Return the namespace of a swarm."""
+    return f"/{snake_case(swarm) or 'swarm'}"
+
+
 def namespace(swarm: str, robot: Robot) -> str:
     """Return the namespace of a robot."""
-    return f"/{snake_case(swarm) or 'swarm'}/{robot.role}_{robot.index}"
+    return f"{swarm_namespace(swarm)}/{robot.role}_{robot.index}"
 
 
 def name_in(space: str, name: str) -> str:

@@ -9,7 +9,7 @@ from typing import Any
 from swarmdsl.base.records import replace
 from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.execution.engine import Envelope, Event
-from swarmdsl.execution.ros2_world.names import radio_topic, topic_of_swarm
+from swarmdsl.execution.ros2_world.names import name_in, radio_topic, topic_of_swarm
 from swarmdsl.execution.ros2_world.ports import Graph, Sender
 from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.network import Network
@@ -29,6 +29,7 @@ _HEAD = 4
 class Radio:
     """Relays between the topics of robots what the network lets through.
 
+    Events of a person come on the topics of the swarm, whose namespace is `swarm`, and reach all.
     `told(robot, event, listeners)` is called when an event has reached a robot.
     """
 
@@ -37,10 +38,12 @@ class Radio:
         graph: Graph,
         system: System,
         heartbeat: Heartbeat | None,
+        swarm: str,
         spaces: Mapping[Robot, str],
         told: Callable[[Robot, str, int], None],
     ) -> None:
         self._system = system
+        self._swarm = swarm
         self._spaces = spaces
         self._told = told
         self._envelopes = envelopes_of(system)
@@ -102,15 +105,32 @@ class Radio:
             name = radio_topic(space, topic)
             self._senders[robot, topic] = graph.sender(name, type_, delivery)
             graph.hear_wire(name, type_, delivery, self._listener(event, robot, topic))
+        if event.operator:
+            hear = self._person(event, topic)
+            graph.hear_wire(name_in(self._swarm, topic), type_, delivery, hear)
+
+    def _person(self, event: Declared, topic: str) -> Callable[[bytes], None]:
+        """Return a function that lets robots hear a person, wherever they are."""
+
+        def hear(wire: bytes) -> None:
+            for robot in self._spaces:
+                to = self._address(event, robot, topic, wire)
+                if robot.is_meant_by(to) and robot not in self.network.gone:
+                    self.arrive(Event(event.name, bytes(wire)), robot)
+
+        return hear
+
+    def _address(self, event: Declared, robot: Robot, topic: str, wire: bytes) -> str | None:
+        if event.name not in self._envelopes:
+            return None
+        return self._senders[robot, topic].read(wire)["to"] or None
 
     def _listener(self, event: Declared, robot: Robot, topic: str) -> Callable[[bytes], None]:
         def hear(wire: bytes) -> None:
             if self._is_echo(robot, topic, wire) or robot in self.network.gone:
                 return
-            to = None
-            if event.name in self._envelopes:
-                to = self._senders[robot, topic].read(wire)["to"] or None
             if event.swarm:
+                to = self._address(event, robot, topic, wire)
                 self._carry(event, robot, bytes(wire), to)
 
         return hear

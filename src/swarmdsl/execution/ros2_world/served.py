@@ -10,7 +10,7 @@ from swarmdsl.codegen.shared import behavior_nodes
 from swarmdsl.execution.engine import InstanceLike, Run
 from swarmdsl.execution.engine.table import Activity
 from swarmdsl.execution.ros2_world.holds import Holds
-from swarmdsl.execution.ros2_world.names import name_in, namespace
+from swarmdsl.execution.ros2_world.names import name_in, namespace, swarm_namespace
 from swarmdsl.execution.ros2_world.ports import Graph, Request, Sender
 from swarmdsl.execution.ros2_world.radio import Radio
 from swarmdsl.execution.ros2_world.recorded import Recorded
@@ -66,7 +66,14 @@ class ServedWorld:
         self._calls: dict[Run, tuple[Robot, Request]] = {}
         self._served: set[tuple[str, str]] = set()
         self._senders: dict[tuple[Robot, str], Sender] = {}
-        self._radio = Radio(graph, self._system, subject.heartbeat, self._spaces, self._told)
+        self._radio = Radio(
+            graph,
+            self._system,
+            subject.heartbeat,
+            swarm_namespace(subject.swarm.name),
+            self._spaces,
+            self._told,
+        )
         self.network = self._radio.network = Network(
             self.clock,
             scenario,
