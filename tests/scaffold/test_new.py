@@ -12,9 +12,11 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.base import resources
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
+from swarmdsl.tools.scaffold.libraries import LIBRARIES
 
 WAYS = {
     "plain": ["rescue"],
@@ -61,6 +63,61 @@ def test_a_project_works_as_it_is(way: str, swarmc, folder, monkeypatch) -> None
 def _targets(arguments: list[str]) -> set[str]:
     named = {each for each in arguments if each in ("ros2", "smach")}
     return named or {"ros2"}
+
+
+@pytest.mark.parametrize("library", LIBRARIES)
+def test_a_project_with_robots_of_a_library_works_as_it_is(
+    library: str, swarmc, folder, monkeypatch
+) -> None:
+    made = swarmc("new", "my-robots", "--robots", library)
+    assert (made.code, made.err.splitlines()[0]) == (0, ""), made.err
+    monkeypatch.chdir(folder / "my-robots")
+
+    assert swarmc("check", "--deny", "warnings").out == ""
+    assert swarmc("fmt", "--check").code == 0
+    # The last test runs the scenario.
+    tested = swarmc("test")
+    assert (tested.code, "4 passed" in tested.err + tested.out) == (0, True)
+    assert swarmc("build", "--deny", "warnings").code == 0
+    assert Path("generated/ros2/my_robots_behavior/package.xml").is_file()
+
+    settings = find_settings([Path()], Diagnostics())
+    system = pipeline.check(settings.sources, settings).system
+    assert system is not None
+    about = LIBRARIES[library]
+    ((role,),) = [swarm.roles for swarm in system.swarms]
+    assert (role.name, role.multiplicity.lower, role.multiplicity.upper) == (about.role, 3, 3)
+    text = "".join(path.read_text(encoding="utf-8") for path in Path("models").glob("*.swarm"))
+    named = r"^(?:member|environment|endless statemachine|property) (\w+)|extends (\w+)"
+    assert {one or other for one, other in re.findall(named, text, re.MULTILINE)} == about.declared
+    assert [each.name for each in system.events if each.operator] == ["Abort", "Start"]
+    needed = Path("generated/ros2/my_robots_behavior/package.xml").read_text(encoding="utf-8")
+    assert all(f"<depend>{package}</depend>" in needed for package in about.packages)
+
+
+def test_every_library_with_robots_for_ros_2_has_a_project() -> None:
+    assert set(LIBRARIES) == {
+        path.parent.name for path in resources.library().glob("*/members.swarm")
+    } - {"cpswarm"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (["x", "--robots", "turtlebot"], 2, "did you mean `turtlebot4`?"),
+        (["x", "--robots", "nope"], 2, "'turtlebot4', 'nav2', 'crazyswarm2', 'mavros', 'px4'"),
+        (["x", "--robots", "nav2", "--member", "Uav"], 2, "its own robots and parts, without `--m"),
+        (["x", "--robots", "nav2", "-t", "smach"], 2, "`--robots` is for ROS 2"),
+        (["nav2", "--robots", "turtlebot4"], 1, "`nav2` cannot be the name of a project"),
+        (["x", "--robots", "nav2", "--swarm", "Site"], 1, "the template uses this name"),
+    ],
+)
+def test_what_robots_of_a_library_cannot_be(arguments, code, said, swarmc, folder) -> None:
+    ran = swarmc("new", *arguments)
+
+    assert ran.code == code
+    assert said in ran.err
+    assert list(folder.iterdir()) == []
 
 
 def test_the_swarm_has_what_the_command_line_says(swarmc, folder) -> None:
@@ -239,6 +296,15 @@ def test_on_a_terminal_one_is_asked(terminal, folder, swarmc, monkeypatch) -> No
     assert "ros        = 1" in settings
     monkeypatch.chdir(folder / "rescue")
     assert swarmc("check", "--deny", "warnings").code == 0
+
+
+def test_robots_of_a_library_leave_few_questions(terminal, folder) -> None:
+    code, shown = terminal(["new", "-i", "--robots", "nav2"], "store\n\nNight\n")
+
+    assert code == 0, shown
+    assert "Description" in shown
+    assert not re.search("type of robot|sensor|Target", shown)
+    assert "swarm Night {" in (folder / "store" / "models" / "store.swarm").read_text()
 
 
 def test_where_no_project_can_go_one_is_asked_no_more_than_its_name(terminal, folder) -> None:

@@ -11,6 +11,7 @@ import click
 from swarmdsl.cli import options
 from swarmdsl.cli.exit_code import exit_code
 from swarmdsl.cli.suggestions import Choice
+from swarmdsl.tools.scaffold.libraries import LIBRARIES
 
 if TYPE_CHECKING:
     from swarmdsl.tools.scaffold.plan import Plan
@@ -29,7 +30,7 @@ class _Target(Choice):
         return super().convert(value, param, context)
 
 
-@click.command(epilog="Example: swarmc new rescue --member Uav=3 --member Rover=1..5")
+@click.command(epilog="Example: swarmc new rescue --robots turtlebot4")
 @click.argument("name", required=False)
 @click.option(
     "--folder",
@@ -39,6 +40,12 @@ class _Target(Choice):
 )
 @click.option("--description", metavar="TEXT", default="", help="Purpose of the project.")
 @click.option("--swarm", metavar="NAME", default="", help="Name of the swarm.")
+@click.option(
+    "--robots",
+    "library",
+    type=Choice(tuple(LIBRARIES)),
+    help="Three robots of this library, instead of types of your own.",
+)
 @click.option(
     "--member",
     "members",
@@ -85,6 +92,7 @@ def new(
     folder: Path | None,
     description: str,
     swarm: str,
+    library: str | None,
     members: tuple[str, ...],
     sensor: str,
     controller: str,
@@ -97,8 +105,9 @@ def new(
     """Create a project: a swarm of robots with a sensor, a controller and an actuator.
 
     It has a behaviour, an environment, a fitness, tests and a scenario, and can be checked,
-    simulated, tested and built as it is. Without NAME, a terminal asks for it. A folder that
-    is not empty is left alone.
+    simulated, tested and built as it is. With `--robots`, the robots are those of a library, and
+    a person can start and abort their mission. Without NAME, a terminal asks for it. A folder
+    that is not empty is left alone.
     """
     from swarmdsl.base.diagnostics.render import render
     from swarmdsl.tools.scaffold.new import create
@@ -107,6 +116,8 @@ def new(
     if len(set(targets)) > 1:
         way = "build for the other with `swarmc build --target`, to another folder"
         raise click.UsageError(f"a project is for ROS 2 (ros2) or ROS 1 (smach): {way}")
+    if library:
+        _refuse_types_of_robots()
     robots = [Robots(*each.split("=", 1)) for each in members]
     plan = Plan(
         name or "",
@@ -116,7 +127,8 @@ def new(
         sensor,
         controller,
         actuator,
-        *targets[:1],
+        targets[0] if targets else "ros2",
+        library or "",
     )
     if interactive or name is None:
         if not (sys.stdin.isatty() and sys.stderr.isatty()):
@@ -129,6 +141,18 @@ def new(
     if created.written and not dry_run:
         click.echo(f"\nNext: cd {created.folder.as_posix()}, and see README.md", err=True)
     return exit_code(created.report)
+
+
+def _refuse_types_of_robots() -> None:
+    """Refuse options that are about robots which are not those of a library."""
+    context = click.get_current_context()
+    given = click.core.ParameterSource.COMMANDLINE
+    for name in ("members", "sensor", "controller", "actuator"):
+        if context.get_parameter_source(name) is given:
+            option = f"--{name.removesuffix('s')}"
+            raise click.UsageError(f"`--robots` has its own robots and parts, without `{option}`")
+    if context.params["targets"] not in ((), ("ros2",)):
+        raise click.UsageError("`--robots` is for ROS 2: leave `--target` out")
 
 
 def _asked(plan: Plan, folder: Path | None) -> Plan:

@@ -9,6 +9,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import camel_case, snake_case
 from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import dataclass
+from swarmdsl.tools.scaffold.libraries import LIBRARIES
 from swarmdsl.tools.scaffold.names import check_project_name, check_type_name, command_line_span
 
 # A project has one of them: packages for ROS 1 and ROS 2 have the same names.
@@ -53,6 +54,8 @@ class Plan:
     controller: str = "Pilot"
     actuator: str = "Wheels"
     target: str = "ros2"
+    library: str = ""
+    """A library whose robots the project has, instead of `robots` with components."""
 
     @property
     def package(self) -> str:
@@ -65,8 +68,15 @@ class Plan:
         if self.swarm:
             return self.swarm
         name = camel_case(self.name)
-        taken = {robots.member for robots in self.robots} | set(self.components)
-        return f"{name}Swarm" if name in taken else name
+        return f"{name}Swarm" if name in self.declared else name
+
+    @property
+    def declared(self) -> frozenset[str]:
+        """Names with which the swarm's may not clash."""
+        if self.library:
+            # `robot.launch.py` starts one robot.
+            return LIBRARIES[self.library].declared | {"Robot"}
+        return frozenset((*(robots.member for robots in self.robots), *self.components))
 
     @property
     def launch(self) -> str:
@@ -87,11 +97,27 @@ class Plan:
 def check_plan(plan: Plan, report: Diagnostics) -> None:
     """Report invalid names and multiplicities."""
     check_project_name(plan.name, report)
-    if plan.package in _TEMPLATE_FILES:
+    if plan.package in _TEMPLATE_FILES or (plan.library and plan.package in LIBRARIES):
         _report_taken(plan.name, "a project", report)
     if plan.package in _ROS_PROJECTS:
         package = f"`{plan.package}_interfaces`"
         _report_taken(plan.name, "a project", report, f"ROS has a package {package}")
+    if plan.library:
+        _check_swarm(plan, report)
+    else:
+        _check_members(plan, report)
+
+
+def _check_swarm(plan: Plan, report: Diagnostics) -> None:
+    """Report an invalid name of the swarm; a library has the names of all else."""
+    if plan.swarm:
+        check_type_name(plan.swarm, "a swarm", report)
+        if plan.swarm in plan.declared:
+            _report_taken(plan.swarm, "a swarm", report)
+
+
+def _check_members(plan: Plan, report: Diagnostics) -> None:
+    """Report invalid names and multiplicities of members, and names of components."""
     kinds = ("a sensor", "a controller", "an actuator")
     names = [(robots.member, "a member") for robots in plan.robots]
     names += zip(plan.components, kinds, strict=True)

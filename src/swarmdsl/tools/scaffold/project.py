@@ -9,6 +9,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.templates import Templates
 from swarmdsl.syntax.formatter import format_source
+from swarmdsl.tools.scaffold.libraries import LIBRARIES
 from swarmdsl.tools.scaffold.plan import Plan
 
 _FOLDER = Path(__file__).resolve().parent / "template"
@@ -24,13 +25,25 @@ _FILES: Mapping[str, str] = {
     "models/mission.swarmtest.toml": "models/mission.swarmtest.toml",
     "scenarios/mission.toml": "scenarios/mission.toml",
 }
+# The same for robots of a library.
+_FILES_OF_LIBRARIES: Mapping[str, str] = {
+    "robots/swarm.toml": "swarm.toml",
+    "robots/README.md": "README.md",
+    "gitignore": ".gitignore",
+    "robots/{library}/main.swarm": "models/{package}.swarm",
+    "robots/{library}/behaviour.swarm": "models/behaviour.swarm",
+    "robots/{library}/mission.swarmtest.toml": "models/mission.swarmtest.toml",
+    "robots/{library}/mission.toml": "scenarios/mission.toml",
+}
 
 
 def project_files(plan: Plan) -> Iterator[tuple[str, str]]:
     """Yield the paths and texts of the project files."""
     templates = Templates(_FOLDER)
-    for name, pattern in _FILES.items():
-        text = str(templates.fill(f"{name}.jinja", plan=plan))
+    library = LIBRARIES.get(plan.library)
+    for name, pattern in (_FILES if library is None else _FILES_OF_LIBRARIES).items():
+        template = f"{name.format(library=plan.library)}.jinja"
+        text = str(templates.fill(template, plan=plan, library=library))
         path = pattern.format(package=plan.package)
         yield path, _formatted(path, text) if path.endswith(".swarm") else text
 

@@ -29,13 +29,23 @@ def ask(start: Plan, console: Console, folder: Path | None) -> Plan:
     if is_taken(folder or Path(plan.name)):
         return plan  # `create` reports it; another name would not help
     plan = replace(plan, description=_prompt(console, "Description", plan.description))
+    if not plan.library:
+        plan = _types(console, plan)
+    plan = _ask_until_valid(
+        console, "Name of the swarm", plan, plan.swarm_name, _with(plan, "swarm")
+    )
+    return plan if plan.library else _target(console, plan)
+
+
+def _types(console: Console, plan: Plan) -> Plan:
     plan = _robots(console, plan)
     for kind in ("sensor", "controller", "actuator"):
         question = f"Name of a {kind}" if kind != "actuator" else "Name of an actuator"
         plan = _ask_until_valid(console, question, plan, getattr(plan, kind), _with(plan, kind))
-    plan = _ask_until_valid(
-        console, "Name of the swarm", plan, plan.swarm_name, _with(plan, "swarm")
-    )
+    return plan
+
+
+def _target(console: Console, plan: Plan) -> Plan:
     question = "Target: ROS 2 (ros2) or ROS 1 (smach)"
     target = Prompt.ask(
         question, console=console, choices=list(TARGETS), show_choices=False, default=plan.target
