@@ -16,7 +16,8 @@ def test_every_mistake_is_found_in_one_run(swarmc, bad):
     assert f" --> {bad}:8:21\n" in ran.out
     assert "8 |     on aborted   -> Of\n" in ran.out
     assert "did you mean `Blinking`?" in ran.out
-    assert ran.err == "2 errors in 1 file\n"
+    fixable = "2 problems can be fixed with `--fix --unsafe-fixes`\n"
+    assert ran.err == f"2 errors in 1 file\n{fixable}"
 
 
 def test_one_line_each(swarmc, bad):

@@ -65,7 +65,6 @@ FURTHER = {
     ("SW0202_port", "oder"): "the ports do not fit",
     ("SW0202_role_in_address", "base"): "nothing is similar",
     ("SW0202_type", "Staus"): "the type is in itself",
-    ("SW0202_without_its_package", "String"): "a message is wanted",
     ("SW0311_robots", "rover"): "that one is there already",
     ("SW0406_equipment", "rang"): "that one is there already",
     ("SW0546_indented", "after 20 s"): "a transition follows on the line",
@@ -82,7 +81,7 @@ def kinds(report: Diagnostics) -> tuple[Counter[tuple[str, str]], Counter[tuple[
 
 
 def faults(case: str, needed: set[object]) -> Iterator[str]:
-    """What is wrong with the fixes of a case; adds the exceptions that it needs to `needed`."""
+    """Faults of the fixes of a case; adds the exceptions that it needs to `needed`."""
     workspace = Workspace([Path(case)], Settings(levels={NAMES[case[:6]]: Level.WARN}))
     found = list(workspace.report)
     proposed = [fixes_of(each, workspace) for each in found]

@@ -6,7 +6,9 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
+from swarmdsl.cli import fix_command
 from swarmdsl.cli import run as command
+from swarmdsl.driver.fixes.application import fix_all
 from swarmdsl.syntax.formatter import format_source
 
 MODEL = """\
@@ -61,6 +63,9 @@ def swarmc(capsys):
 
 
 def test_safe_fixes_are_written(swarmc, model):
+    _, _, err = swarmc("check", model)
+    said = "3 problems can be fixed with `--fix --unsafe-fixes`, 2 of them with `--fix` alone\n"
+    assert err.endswith(f"file\n{said}")
     code, out, err = swarmc("check", model, "--fix", "--format", "concise")
     after = model.read_text()
     assert after == MODEL.replace("= OFF", "= Mode.OFF").replace("Go, Go", "Go")
@@ -70,6 +75,7 @@ def test_safe_fixes_are_written(swarmc, model):
     assert "Remove `Go`" in err
     assert "2 problems in 1 file fixed\n1 error in 1 file\n" in err
     assert swarmc("check", model, "--fix", "--unsafe-fixes")[0] == 0
+    assert "fixed with" not in swarmc("check", model)[2]
     assert model.read_text() == after.replace("Brihgt", "Bright")
     assert format_source(Source("m.swarm", model.read_text()), Diagnostics()) == model.read_text()
 
@@ -133,3 +139,50 @@ def test_options_that_do_not_fit(swarmc, model, words):
     code, _, err = swarmc("check", model, *words)
     assert code == 2
     assert "`--" in err
+
+
+def test_a_file_that_changes_meanwhile_stays_as_it_is(swarmc, model, monkeypatch):
+    """Another program writes it after it was read, or removes it."""
+
+    def meanwhile(act):
+        def fixed(*given, **named):
+            done = fix_all(*given, **named)
+            act()
+            return done
+
+        monkeypatch.setattr(fix_command, "fix_all", fixed)
+        return swarmc("check", model, "--fix", "--format", "concise")
+
+    code, out, _ = meanwhile(lambda: model.write_text("event Other : std_msgs/Empty\n"))
+    assert (code, model.read_text()) == (1, "event Other : std_msgs/Empty\n")
+    assert "error[SW0909]" in out
+    assert "another program has changed it meanwhile" in out
+    model.write_text(MODEL)
+    code, out, _ = meanwhile(model.unlink)
+    assert (code, model.exists()) == (1, False)
+    assert "error[SW0001]" in out
+
+
+def test_files_of_corrected_imports_are_fixed(swarmc, model):
+    modes = model.with_name("modes.swarm")
+    modes.write_text("package modes\n\nevent Off : std_msgs/Emty\n")
+    model.write_text(MODEL.replace("\n\nevent Go", '\n\nimport "mods.swarm"\n\nevent Go', 1))
+    code, _, err = swarmc("check", model, "--fix", "--unsafe-fixes")
+    assert code == 0, err
+    assert 'import "modes.swarm"' in model.read_text()
+    assert "std_msgs/Empty" in modes.read_text()
+
+
+def test_files_outside_of_the_project_stay_as_they_are(swarmc, model):
+    other = model.parent / "elsewhere" / "other.swarm"
+    inside = model.parent / "inside" / "lamps.swarm"
+    for path, text in ((other, "event Off : std_msgs/Emty\n"), (inside, MODEL)):
+        path.parent.mkdir()
+        path.write_text(text)
+    inside.write_text(MODEL.replace("\n\n", '\n\nimport "../elsewhere/other.swarm"\n\n', 1))
+    for option in ("--fix", "--diff"):
+        code, out, err = swarmc("check", inside, option, "--unsafe-fixes", "--format", "concise")
+        assert code == 1
+        assert "SW0017" in out + err
+        assert "---" not in out
+    assert other.read_text() == "event Off : std_msgs/Emty\n"

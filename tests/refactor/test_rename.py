@@ -123,6 +123,7 @@ def test_it_is_called_otherwise_wherever_it_is_named(old, new, parts, model, swa
     [
         ("Camra", "Eye", "SW1503", "did you mean `Camera`?"),
         ("MissionStart", "Go", "SW1503", "a library declares it, and libraries cannot be changed"),
+        ("geometry_msgs/Twist.linear", "x", "SW1503", "ROS declares it, and its interfaces cannot"),
         ("Idle", "Still", "SW1504", "qualify it, such as `Going.Idle`"),
         ("Camera", "on", "SW1505", "is a keyword"),
         ("Camera", "My-Eye", "SW1505", "is not a valid name"),

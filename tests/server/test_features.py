@@ -210,8 +210,8 @@ async def test_quick_fixes(client, editor, folder):
     text = path.read_text().replace('import "patrol.swarm"\n', "")
     [action] = await actions(at("Patrol }", text), editor.open(path, text))
     [edit] = action.edit.changes[path.as_uri()]
-    assert edit.new_text == 'import "patrol.swarm"\n'
-    assert edit.range.start == lsp.Position(line=1, character=0)
+    assert edit.new_text == '\n\nimport "patrol.swarm"'
+    assert edit.range.start == lsp.Position(line=0, character=text.index("\n"))
 
 
 async def test_imports_follow_a_renamed_file(client, editor, folder):

@@ -1,5 +1,7 @@
 """Tests of the order of completions: what is wanted is among the first three."""
 
+import os
+
 import pytest
 from lsprotocol import types as lsp
 
@@ -180,6 +182,19 @@ async def test_typed_character_begins_a_list_only_before_a_name(client, editor, 
         assert bool(found) == wanted, text[offset - 20 : offset]
 
 
+def test_folders_and_packages_of_ros_are_offered(tmp_path, monkeypatch):
+    messages = tmp_path / "ws" / "lamp_msgs" / "msg"
+    index = tmp_path / "ros" / "share" / "ament_index" / "resource_index" / "rosidl_interfaces"
+    messages.mkdir(parents=True)
+    index.mkdir(parents=True)
+    (messages / "Lamp.msg").write_text("bool on\n")
+    (index / "nav2_msgs").touch()
+    prefixes = os.pathsep.join(map(str, (tmp_path / "ros", tmp_path / "gone")))
+    monkeypatch.setenv("AMENT_PREFIX_PATH", prefixes)
+    assert words(tmp_path, 'import ros "|"') == ["ws/lamp_msgs", "nav2_msgs"]
+    assert words(tmp_path, 'import ros "nav2_msgs"\nimport ros "|"') == ["ws/lamp_msgs"]
+
+
 @pytest.mark.asyncio(loop_scope="module")
 async def test_name_of_another_file_adds_its_import(client, editor, tmp_path):
     (tmp_path / "swarm.toml").write_text('[project]\nname = "patrol"\n')
@@ -187,6 +202,7 @@ async def test_name_of_another_file_adds_its_import(client, editor, tmp_path):
     for head in (
         "package here\n\nimport cpswarm.events.*\n\n",
         "package here\n\n",
+        "// A header.\n/* Of two comments. */\n\n",
         "",
     ):
         text = head + "statemachine M {\n  initial A\n\n  state A {\n    do tid|\n  }\n}\n"
@@ -203,6 +219,7 @@ async def test_name_of_another_file_adds_its_import(client, editor, tmp_path):
         line, column = edit.range.start.line, edit.range.start.character
         lines[line] = lines[line][:column] + edit.new_text + lines[line][column:]
         changed = "\n".join(lines)
+        assert changed.startswith(head.rstrip())
         assert 'import "flying.swarm"' in changed
         assert format_source(Source("model.swarm", changed), Diagnostics()) == changed
         editor.type(document, changed)

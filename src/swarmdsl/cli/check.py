@@ -34,8 +34,9 @@ def check(
     """Check models.
 
     A FOLDER means all .swarm files below it. Without arguments: the sources of swarm.toml, or
-    the current folder. `--fix` writes the fixes of diagnostics, again until nothing changes; a file
-    with syntax errors gets no others. With `--diff`, the exit code is 1 if a file would change.
+    the current folder. `--fix` writes the fixes of diagnostics, again until nothing changes; in a
+    file with syntax errors, only these are fixed. With `--diff`, the exit code is 1 if a file would
+    change.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics, Level
     from swarmdsl.driver import pipeline
@@ -69,4 +70,11 @@ def check(
         from swarmdsl.cli.fix_command import with_fixes
 
         return conclude(with_fixes(settings), format_, sys.stdout)
-    return conclude(pipeline.check(settings.sources, settings), format_, sys.stdout)
+    result = pipeline.check(settings.sources, settings)
+    code = conclude(result, format_, sys.stdout)
+    if format_ == "text" and any(found.help for found in result.report):
+        from swarmdsl.cli.fix_command import fixable
+
+        if (said := fixable(settings)) is not None:
+            sys.stderr.write(f"{said}\n")
+    return code

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.diagnostics.render import counted, render
-from swarmdsl.cli.exit_code import ERRORS, conclude, exit_code
+from swarmdsl.base.diagnostics.render import counted
+from swarmdsl.base.rewriting import Layout
+from swarmdsl.cli.exit_code import ERRORS, conclude
 from swarmdsl.driver.config.settings import Settings
-from swarmdsl.driver.fixes import add_fixes
+from swarmdsl.driver.fixes import add_fixes, fixes_of
 from swarmdsl.driver.fixes.application import Fixed, fix_all, layouts_of
 from swarmdsl.driver.format_files import write
 from swarmdsl.driver.pipeline import Result
@@ -24,16 +25,29 @@ def with_fixes(settings: Settings) -> Result:
     return Result(add_fixes(workspace.report, workspace), workspace.files)
 
 
+def fixable(settings: Settings) -> str | None:
+    """Return how many problems of a model have fixes, and which options write them."""
+    workspace = Workspace(settings.sources, settings)
+    # It takes long to find out which new names fit.
+    found = [each for each in workspace.report if each.name != "naming-style"]
+    fixes = [made for each in found if (made := fixes_of(each, workspace))]
+    if not fixes:
+        return None
+    problems = f"{counted(len(fixes), 'problem')} can be fixed with `--fix"
+    safe = sum(any(fix.safe for fix in made) for made in fixes)
+    if safe == len(fixes):
+        return f"{problems}`"
+    return f"{problems} --unsafe-fixes`" + (f", {safe} of them with `--fix` alone" if safe else "")
+
+
 def write_fixes(paths: Sequence[Path], settings: Settings, format_: str, *, unsafe: bool) -> int:
     """Write the fixes of a model, and print what was fixed and what remains."""
     workspace = Workspace(settings.sources, settings)
     fixed = fix_all(workspace, unsafe=unsafe)
-    layouts = layouts_of(fixed)
     failed = Diagnostics()
-    names = [layout.name for layout in layouts]
-    if not (may_write_models(names, paths, failed) and write(layouts, failed)):
-        render(failed, format_, sys.stdout)
-        return exit_code(failed)
+    layouts = _layouts(fixed, paths, failed)
+    if layouts is None or not write(layouts, failed):
+        return conclude(Result(failed, workspace.files), format_, sys.stdout)
     for found, fix in fixed.applied:
         place = found.primary.span if found.primary is not None else None
         where = f"{place.source.name}:{place.line}: " if place is not None else ""
@@ -44,16 +58,27 @@ def write_fixes(paths: Sequence[Path], settings: Settings, format_: str, *, unsa
     return conclude(Result(report, workspace.files), format_, sys.stdout)
 
 
-def show_fixes(_paths: Sequence[Path], settings: Settings, format_: str, *, unsafe: bool) -> int:
+def show_fixes(paths: Sequence[Path], settings: Settings, format_: str, *, unsafe: bool) -> int:
     """Print the fixes of a model as a diff; diagnostics that remain go to standard error."""
     workspace = Workspace(settings.sources, settings)
     fixed = fix_all(workspace, unsafe=unsafe)
-    for layout in layouts_of(fixed):
+    failed = Diagnostics()
+    layouts = _layouts(fixed, paths, failed)
+    if layouts is None:
+        return conclude(Result(failed, workspace.files), format_, sys.stderr)
+    for layout in layouts:
         sys.stdout.write(layout.diff())
     if fixed.applied:
         sys.stderr.write(f"{_counted(fixed)} would be fixed\n")
     code = conclude(Result(workspace.report, workspace.files), format_, sys.stderr)
     return ERRORS if fixed.after else code
+
+
+def _layouts(fixed: Fixed, paths: Sequence[Path], failed: Diagnostics) -> list[Layout] | None:
+    """Return the changed files; report why they cannot be written, and return None."""
+    if not may_write_models(map(str, fixed.after), paths, failed):
+        return None
+    return layouts_of(fixed, failed)
 
 
 def _counted(fixed: Fixed) -> str:

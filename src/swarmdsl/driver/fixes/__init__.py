@@ -15,18 +15,18 @@ from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
 from swarmdsl.driver.fixes import insertions, missing_values, removals, replacements
 from swarmdsl.driver.fixes.new_names import renamed
-from swarmdsl.driver.fixes.problem import Problem
+from swarmdsl.driver.fixes.problem import Problem, Rule
 from swarmdsl.driver.workspace import Workspace
 
 
 @cache
-def _rules() -> tuple[tuple[re.Pattern[str], insertions.Rule], ...]:
+def _rules() -> tuple[tuple[re.Pattern[str], Rule], ...]:
     every = (*insertions.RULES, *missing_values.RULES, *removals.RULES, *replacements.RULES)
     return tuple((re.compile(pattern, re.DOTALL), rule) for pattern, rule in every)
 
 
-def fixes_of(found: Diagnostic, workspace: Workspace) -> tuple[Fix, ...]:
-    """Return the fixes of a diagnostic of a workspace, the best one first."""
+def fixes_of(found: Diagnostic, workspace: Workspace, *, unsafe: bool = True) -> tuple[Fix, ...]:
+    """Return the fixes of a diagnostic of a workspace, or its safe ones, the best one first."""
     if found.primary is None or found.help is None:
         return ()
     span = found.primary.span.absolute
@@ -37,10 +37,11 @@ def fixes_of(found: Diagnostic, workspace: Workspace) -> tuple[Fix, ...]:
     # The workspace may have read the file anew since: for a rename that was tried.
     problem = Problem(found, workspace, file, Span(file.source, span.start, span.end))
     if found.name == "naming-style":
-        return renamed(problem)
+        # Never safe, and slow: the new name is tried.
+        return renamed(problem) if unsafe else ()
     for pattern, rule in _rules():
         if (match := pattern.fullmatch(found.help)) is not None:
-            return tuple(rule(problem, match))
+            return tuple(each for each in rule(problem, match) if unsafe or each.safe)
     return ()
 
 

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Fix, Severity
 from swarmdsl.base.line_matching import line_matcher
-from swarmdsl.base.read_files import read_file
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.rewriting import Change, Layout, rewritten
+from swarmdsl.base.rewriting import Change, Layout
 from swarmdsl.base.source import Source
 from swarmdsl.base.text_edits import Edits
+from swarmdsl.driver.edit_files import edited
 from swarmdsl.driver.fixes import fixes_of
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.syntax.formatter import format_source
@@ -61,6 +61,8 @@ def fix_all(workspace: Workspace, *, unsafe: bool = False, only: Path | None = N
                 refused.add(_identity(*chosen[0]))
             chosen = chosen[: len(chosen) // 2]
         applied += chosen
+        # A fix of an import brings in other files.
+        before = {**dict(_texts(workspace)), **before}
     changed = {path: text for path, text in _texts(workspace) if before[path] != text}
     texts = {path: _as_formatted(path, before[path], text) for path, text in changed.items()}
     if texts != changed:
@@ -82,7 +84,7 @@ def _proposals(workspace: Workspace, only: Path | None, *, unsafe: bool) -> Iter
         if each.code.startswith(_SYNTAX) and each.primary
     }
     for found in report:
-        fix = next((each for each in fixes_of(found, workspace) if unsafe or each.safe), None)
+        fix = next(iter(fixes_of(found, workspace, unsafe=unsafe)), None)
         if fix is None:
             continue
         touched = {span.source.path for span, _ in fix.edits}
@@ -160,12 +162,13 @@ def _as_formatted(path: Path, before: str, after: str) -> str:
     return format_source(Source(str(path), after), Diagnostics()) or after
 
 
-def layouts_of(fixed: Fixed) -> list[Layout]:
-    """Return the changed files; the lines that stay keep their bytes."""
-    return [
-        rewritten(str(path), read_file(path), _changes(fixed.before[path], text))
-        for path, text in fixed.after.items()
-    ]
+def layouts_of(fixed: Fixed, report: Diagnostics) -> list[Layout] | None:
+    """Return the changed files, in which the lines that stay keep their bytes.
+
+    One that is no longer what was read is reported; None is returned then.
+    """
+    changes = {path: _changes(fixed.before[path], text) for path, text in fixed.after.items()}
+    return edited(changes, fixed.before, report)
 
 
 def _changes(before: str, after: str) -> Iterator[Change]:

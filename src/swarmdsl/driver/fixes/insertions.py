@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from swarmdsl.base.diagnostics.collector import Fix
+from swarmdsl.base.rewriting import Change
+from swarmdsl.base.source import Span
 from swarmdsl.driver.fixes.bodies import insert, insertion, opening_brace
-from swarmdsl.driver.fixes.problem import Problem, inserting, replacing
+from swarmdsl.driver.fixes.problem import CODE, Problem, Rule, inserting, proposed, replacing
+from swarmdsl.driver.line_insertion import below_head, import_statement
 from swarmdsl.syntax.ast import (
     Choice,
     EnumType,
@@ -33,28 +36,23 @@ from swarmdsl.syntax.ast import (
     Variable,
 )
 
-Rule = Callable[[Problem, "re.Match[str]"], Iterator[Fix]]
-
-_CODE = re.compile(r"`([^`]+)`")
-_HEAD = re.compile(r"^(?:package|import)\b[^\n]*\n", re.MULTILINE)
 # Rest of a line that has no further code.
 _REST = re.compile(r"[ \t]*(?://[^\n]*)?(?=\n|\Z)")
 
 
 def _import(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    yield _below_head(problem, f"{match[1]}\n", f"Add `{match[1]}`", safe=True)
+    edit = _edit(problem, import_statement(problem.file, match[1]))
+    yield Fix(f"Add `{match[1]}`", (edit,), safe=True)
 
 
 def _declaration(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    gap = "\n" if _HEAD.search(problem.text) else ""
-    yield _below_head(problem, f"{gap}{match[1]}\n", f"Declare `{match[1]}`")
+    edit = _edit(problem, below_head(problem.file, match[1]))
+    yield Fix(f"Declare `{match[1]}`", (edit,))
 
 
-def _below_head(problem: Problem, line: str, title: str, *, safe: bool = False) -> Fix:
-    """Insert a line below the package and the imports."""
-    heads = list(_HEAD.finditer(problem.text))
-    below = heads[-1].end() if heads else 0
-    return Fix(title, ((problem.part(below, below), line),), safe)
+def _edit(problem: Problem, change: Change) -> tuple[Span, str]:
+    start, end, text = change
+    return problem.part(start, end), text
 
 
 def _variable(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
@@ -118,7 +116,7 @@ def _into_named(kind: type[Node]) -> Rule:
 
 
 def _into_environment(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    named = _CODE.search(problem.found.message)
+    named = CODE.search(problem.found.message)
     node = problem.named(named[1], Environment) if named is not None else None
     fix = insert(node, match[1]) if node is not None else None
     if fix is not None:
@@ -136,7 +134,7 @@ def _environment(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
     edits = [edit] if edit is not None else []
     if there is None:
         line = "environment Field { size 50 m x 50 m }"
-        edits += _below_head(problem, f"\n{line}\n", "").edits
+        edits.append(_edit(problem, below_head(problem.file, line)))
     yield Fix(f"Add `environment {name}`", tuple(edits))
 
 
@@ -147,8 +145,8 @@ def _member(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
     role = f"{name[0].lower()}{name[1:]} : {name}[3]"
     edit = insertion(swarm, role) if swarm is not None else None
     if edit is not None:
-        declared = _below_head(problem, "\nmember Robot { }\n", "").edits
-        yield Fix(f"Add `{role}`", (edit, *(() if member is not None else declared)))
+        declared = _edit(problem, below_head(problem.file, "member Robot { }"))
+        yield Fix(f"Add `{role}`", (edit,) if member is not None else (edit, declared))
 
 
 def _fitness(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
@@ -182,7 +180,7 @@ def _final(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
 
 def _final_inside(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
     region = problem.span.text.rpartition(".")[0]
-    named = _CODE.search(problem.found.message)
+    named = CODE.search(problem.found.message)
     node: Node | None = problem.named(region, Region) if region else None
     if node is None and named is not None:
         node = problem.named(named[1], State)
@@ -197,7 +195,7 @@ def _outcomes(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
     target = _target(problem, state)
     if state is not None:
         # The last word of the help is the state.
-        lines = [each for each in _CODE.findall(match[0]) if each.endswith("-> ...")]
+        lines = [each for each in CODE.findall(match[0]) if each.endswith("-> ...")]
         fix = insert(state, "\n".join(each.replace("...", target) for each in lines))
         if fix is not None:
             yield fix
@@ -217,10 +215,6 @@ def _otherwise(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
         fix = insert(choice, f"else -> {choice.branches[-1].target.name}")
         if fix is not None:
             yield fix
-
-
-def _activity_or_done(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    yield replacing(problem.span, match[1])
 
 
 def _enum_values(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
@@ -260,7 +254,7 @@ def _swarm_event(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
 
 
 def _reliable(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
-    named = _CODE.search(problem.found.message)
+    named = CODE.search(problem.found.message)
     event = problem.named(named[1], Event) if named is not None else None
     for setting in event.delivery if event is not None else ():
         if setting.kind == "best":
@@ -268,7 +262,7 @@ def _reliable(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
 
 
 def _heartbeat(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    names = _CODE.findall(problem.found.message)
+    names = CODE.findall(problem.found.message)
     swarm = problem.named(names[-1], Swarm) if names else None
     fix = insert(swarm, match[1]) if swarm is not None else None
     if fix is not None:
@@ -291,7 +285,7 @@ def _bound(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
 
 
 def _subject(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    for text in _CODE.findall(match[0]):
+    for text in CODE.findall(match[0]):
         yield inserting(problem.span, f" {text}")
 
 
@@ -328,7 +322,7 @@ RULES: tuple[tuple[str, Rule], ...] = (
     (r"add a final state to it", _final_inside),
     (r"add (?:`on \w+ -> \.\.\.`(?:, | and )?)+ to state `(\w+)`", _outcomes),
     (r"add `else -> \.\.\.`", _otherwise),
-    (r"add `do function` to the state, or wait for `(done)`", _activity_or_done),
+    (r"add `do function` to the state, or wait for `(done)`", proposed),
     (r"add `(param [^`]+)` to `(\w+)`", _into_named(Member)),
     (r"name what a value of it can be: `([^`]+)` for instance", _enum_values),
     (r"add `region Name \{ \.\.\. \}`; .*", _no_regions),

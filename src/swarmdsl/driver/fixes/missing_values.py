@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from swarmdsl.base.diagnostics.collector import Fix
 from swarmdsl.driver.fixes.bodies import insert
-from swarmdsl.driver.fixes.problem import Problem, inserting
+from swarmdsl.driver.fixes.problem import Problem, Rule, inserting
 from swarmdsl.syntax.ast import (
     Field,
     Node,
@@ -19,8 +19,6 @@ from swarmdsl.syntax.ast import (
     StateMachine,
     Variable,
 )
-
-Rule = Callable[[Problem, "re.Match[str]"], Iterator[Fix]]
 
 
 def _bound_param(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:

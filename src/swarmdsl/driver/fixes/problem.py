@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Callable, Iterator
 from functools import cached_property
 from typing import TypeVar
 
@@ -17,6 +18,9 @@ from swarmdsl.syntax.ast import EnumType, Node, TypeRef, nodes_of, walk
 from swarmdsl.syntax.types import BOOL, DURATION, FLOATS, INTEGERS, STRING, Named, Primitive
 
 N = TypeVar("N", bound=Node)
+
+CODE = re.compile(r"`([^`]+)`")
+"""Code that a help or message quotes."""
 
 
 @dataclass(eq=False)
@@ -112,6 +116,15 @@ class Problem:
         if isinstance(type_, Primitive) and type_.name in INTEGERS:
             return "0"
         return None
+
+
+Rule = Callable[[Problem, "re.Match[str]"], Iterator[Fix]]
+"""Makes the fixes of a problem from its help, which a pattern matches."""
+
+
+def proposed(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
+    """Yield the first text of the help, which is one of several possible ones."""
+    yield replacing(problem.span, match[1])
 
 
 def replacing(span: Span, text: str, *, safe: bool = False, title: str = "") -> Fix:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from swarmdsl.base.diagnostics.collector import Fix
 from swarmdsl.base.source import Span
 from swarmdsl.driver.fixes.bodies import remove
-from swarmdsl.driver.fixes.problem import Problem, replacing
+from swarmdsl.driver.fixes.problem import Problem, Rule, replacing
 from swarmdsl.driver.workspace.references import owner_at
 from swarmdsl.syntax.ast import (
     Branch,
@@ -21,8 +21,6 @@ from swarmdsl.syntax.ast import (
     Word,
     walk,
 )
-
-Rule = Callable[[Problem, "re.Match[str]"], Iterator[Fix]]
 
 _COMMA_BEFORE = re.compile(r",\s*\Z")
 _COMMA_AFTER = re.compile(r"\s*,\s*")

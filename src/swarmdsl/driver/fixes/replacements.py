@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from swarmdsl.base.diagnostics.collector import Fix
-from swarmdsl.driver.fixes.problem import Problem, inserting, replacing
+from swarmdsl.driver.fixes.problem import CODE, Problem, Rule, inserting, proposed, replacing
 
-Rule = Callable[[Problem, "re.Match[str]"], Iterator[Fix]]
-
-_CODE = re.compile(r"`([^`]+)`")
 _NAME = re.compile(r"[\w./]+")
 _NUMBER = re.compile(r"(-?[\d.]+(?:e[+-]?\d+)?) *([^\d\s.].*)?")
 
@@ -30,7 +27,7 @@ def _renamed(problem: Problem, name: str, *, safe: bool = False) -> Fix:
     if "." in text and "." not in name and _NAME.fullmatch(text):
         place = problem.part(span.end - len(text.rpartition(".")[2]), span.end)
         return replacing(place, name, safe=safe)
-    called = _CODE.findall(problem.found.message)
+    called = CODE.findall(problem.found.message)
     for wrong in reversed(called):
         found = problem.inside(wrong) if not _NAME.fullmatch(text) else None
         if found is not None:
@@ -40,29 +37,24 @@ def _renamed(problem: Problem, name: str, *, safe: bool = False) -> Fix:
 
 def _one_of(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
     """Use the only one that there is: "the roles are `uav`"."""
-    names = _CODE.findall(match[0])
+    names = CODE.findall(match[0])
     if len(names) == 1:
         yield _renamed(problem, names[0])
 
 
 def _written(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
     """Yield what is to stand at the place: one text is the only reading, several are proposals."""
-    texts = [each for each in _CODE.findall(match[0]) if "..." not in each]
+    texts = [each for each in CODE.findall(match[0]) if "..." not in each]
     # A number can be meant in more than one way.
     safe = len(texts) == 1 and not problem.span.text[:1].isdigit()
     for text in texts:
         yield replacing(problem.span, text, safe=safe)
 
 
-def _proposed(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    """Yield the first text of the help, which is one of several possible ones."""
-    yield replacing(problem.span, match[1])
-
-
 def _bracketed(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
     """Sizes of arrays and multiplicities, without the brackets that are there already."""
     text = problem.span.text
-    for size in _CODE.findall(match[0]):
+    for size in CODE.findall(match[0]):
         if text == "[":
             end = problem.text.find("]", problem.span.end) + 1
             yield replacing(problem.part(problem.span.start, max(end, problem.span.end)), size)
@@ -186,7 +178,7 @@ def _no_address(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
 
 
 def _state_around(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    for text in _CODE.findall(match[0]):
+    for text in CODE.findall(match[0]):
         yield replacing(problem.span, text.removeprefix("elapsed(").removesuffix(")"))
 
 
@@ -276,7 +268,7 @@ RULES: tuple[tuple[str, Rule], ...] = (
     (r"write `\\\\` for `\\`", _escape),
     (r"write `(\})` at the end of the block", _closing_brace),
     (r"write a number in `([^`]+)`", _other_unit),
-    (r"write `(round\([^`]+)`, or .*", _proposed),
+    (r"write `(round\([^`]+)`, or .*", proposed),
     (r"give it a unit: `([^`]+)`", _number_with_unit),
     (r"let the range include ([^,]+), or change the default", _range),
     (r"write a number from 0 to 1, such as `([^`]+)`", _probability),
@@ -286,18 +278,18 @@ RULES: tuple[tuple[str, Rule], ...] = (
     (r"write (`elapsed\([^`]*`(?:, | or )?)+", _state_around),
     (r"write `count\(x in \w+ where \.\.\.\)`", _condition),
     (r"write the lower left corner first, .*", _corners),
-    (r"items are counted from 0: the last one is `\[(\d+)\]`", _proposed),
+    (r"items are counted from 0: the last one is `\[(\d+)\]`", proposed),
     (r"the last one is `([^`]+)`", _last_robot),
     (r"this is a robot; its role is `([^`]+)`", _meant),
     (r"this is a role; its robots are `([^`]+)` and so on", _meant),
-    (r"choose another name, for example `([^`]+)`", _proposed),
-    (r"the values of an enum are whole numbers: `([^`]+)` for instance", _proposed),
-    (r"write `([^`]+)` for a string of any length", _proposed),
-    (r"(?:name one of its values|compare it|name an item of an array): `([^`]+)`", _proposed),
-    (r"for the outcome of an activity, write `([^`]+)`", _proposed),
+    (r"choose another name, for example `([^`]+)`", proposed),
+    (r"the values of an enum are whole numbers: `([^`]+)` for instance", proposed),
+    (r"write `([^`]+)` for a string of any length", proposed),
+    (r"(?:name one of its values|compare it|name an item of an array): `([^`]+)`", proposed),
+    (r"for the outcome of an activity, write `([^`]+)`", proposed),
     (r"(?:it is a function|paths leave out regions|.* is a string): write `([^`]+)`", _written),
-    (r"leave it out, or write `([^`]+)`", _proposed),
-    (r"write `([^`]+)`, or (?!give the param|`|if it).*", _proposed),
+    (r"leave it out, or write `([^`]+)`", proposed),
+    (r"write `([^`]+)`, or (?!give the param|`|if it).*", proposed),
     (r"write (?:`[^`]+`(?:, | or )?)+(?: for an interface of ROS)?", _written),
 )
 """The first pattern that matches the whole help of a diagnostic makes its fixes."""

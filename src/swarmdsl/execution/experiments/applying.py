@@ -13,10 +13,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.read_files import read_file
-from swarmdsl.base.rewriting import Change, Layout, rewritten
+from swarmdsl.base.rewriting import Change, Layout
 from swarmdsl.base.source import Span
 from swarmdsl.driver.config import find_settings
+from swarmdsl.driver.edit_files import edited
 from swarmdsl.driver.format_files import write
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.write_bounds import may_write_models
@@ -48,14 +48,14 @@ def apply_to_model(
         assert source.path is not None
         changes[source.path].append((start, end, text))
         texts[source.path] = source.text
-    layouts = [rewritten(str(path), read_file(path), made) for path, made in changes.items()]
     after = {path: _changed(texts[path], made) for path, made in changes.items()}
     with workspace.overriding(after):
         for each in workspace.report:
             if each.severity.value == "error":
                 raise StoppedError("cannot-apply", None, name=swarm, reason=each.message)
-    names = [layout.name for layout in layouts]
-    if not may_write_models(names, paths, report) or not write(layouts, report):
+    names = map(str, changes)
+    layouts = edited(changes, texts, report) if may_write_models(names, paths, report) else None
+    if layouts is None or not write(layouts, report):
         return []
     return [layout for layout in layouts if layout.changed]
 

@@ -16,9 +16,12 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.completion_entry import BEST, IMPORTED, LIKELY, Completion, entry_of
 from swarmdsl.project.libraries import SUFFIX, Libraries
 from swarmdsl.project.loader import File
+from swarmdsl.project.rosidl.installed import installed_packages
+from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS
 from swarmdsl.project.search import found_below
-from swarmdsl.syntax.ast import ImportFile, ImportLibrary, Node
+from swarmdsl.syntax.ast import ImportFile, ImportLibrary, ImportRos, Node
 
+_ROS = re.compile(r'^[ \t]*import[ \t]+ros[ \t]+"([^"\n]*)\Z', re.MULTILINE)
 _FILE = re.compile(r'^[ \t]*import[ \t]+"([^"\n]*)\Z', re.MULTILINE)
 _PACKAGE = re.compile(r"^[ \t]*import[ \t]+([\w.]*)\Z", re.MULTILINE)
 _REST = re.compile(r"[\w.]*\*?")
@@ -29,10 +32,11 @@ def imports_at(workspace: Workspace, file: File, start: int) -> list[Completion]
     """Return what an import can name at an offset; None outside of imports."""
     text = file.source.text
     head = text[:start]
-    if quoted := _FILE.search(head):
-        rest = _REST_OF_FILE.match(text, start)
-        place = Span(file.source, quoted.start(1), rest.end() if rest is not None else start)
-        return list(_files(workspace, file, place))
+    for pattern, offered in ((_FILE, _files), (_ROS, _ros_packages)):
+        if quoted := pattern.search(head):
+            rest = _REST_OF_FILE.match(text, start)
+            end = rest.end() if rest is not None else start
+            return list(offered(workspace, file, Span(file.source, quoted.start(1), end)))
     if named := _PACKAGE.search(head):
         rest = _REST.match(text, start)
         place = Span(file.source, named.start(1), rest.end() if rest is not None else start)
@@ -55,18 +59,6 @@ def missing_imports(kinds: tuple[type[Node], ...], scope: FileScope) -> Iterator
             yield Completion(name, f"({line})", rank=IMPORTED, added=line)
 
 
-def import_edit(file: File, line: str) -> tuple[Span, str]:
-    """Return where an import is added to a file, and the text: as the formatter sets it."""
-    source, model = file.source, file.model
-    if model.imports or model.package is not None:
-        last = model.imports[-1] if model.imports else model.package
-        assert last is not None
-        end = source.text.find("\n", last.span.absolute.end)
-        at = end if end >= 0 else len(source.text)
-        return Span(source, at, at), f"\n{line}" if model.imports else f"\n\n{line}"
-    return Span(source, 0, 0), f"{line}\n\n"
-
-
 def _files(workspace: Workspace, file: File, place: Span) -> Iterator[Completion]:
     """Yield the files of the model that can be imported, by their relative paths."""
     own = Path(file.source.name)
@@ -75,8 +67,26 @@ def _files(workspace: Workspace, file: File, place: Span) -> Iterator[Completion
     paths += found_below(own.parent, SUFFIX, Diagnostics()) or ()
     for path in dict.fromkeys(paths):
         relative = Path(os.path.relpath(path, own.parent)).as_posix()
-        if path != own and relative not in known and f'"{relative}"' not in known:
+        if path != own and relative not in known:
             yield Completion(relative, "file", rank=LIKELY, replaced=place)
+
+
+def _ros_packages(_workspace: Workspace, file: File, place: Span) -> Iterator[Completion]:
+    """Yield folders with interfaces of ROS below the file, and installed packages."""
+    own = Path(file.source.name)
+    known = {str(each.path) for each in file.model.imports if isinstance(each, ImportRos)}
+    folders = []
+    for kind in INTERFACE_KINDS:
+        for path in found_below(own.parent, f".{kind}", Diagnostics()) or ():
+            inside = path.parent
+            folders.append(inside.parent if inside.name == kind else inside)
+    for folder in dict.fromkeys(folders):
+        relative = Path(os.path.relpath(folder, own.parent)).as_posix()
+        if relative not in known:
+            yield Completion(relative, "folder", rank=BEST, replaced=place)
+    for name in installed_packages():
+        if name not in known:
+            yield Completion(name, "package", rank=LIKELY, replaced=place)
 
 
 def _packages(workspace: Workspace, file: File, place: Span) -> Iterator[Completion]:

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostic
 from swarmdsl.base.rewriting import Change
+from swarmdsl.driver.line_insertion import import_statement
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.project.loader import File
-from swarmdsl.tools.refactor import insertion_point
 
 _HELP = re.compile(r"add `(import [^`]+)`")
 
@@ -25,7 +25,7 @@ def missing_import(workspace: Workspace, found: Iterable[Diagnostic]) -> tuple[F
         if each.name == "unresolved-name" and line and each.related and each.primary is not None:
             file = workspace.file(Path(each.primary.span.absolute.source.name))
             if file is not None:
-                return file, insertion_point.import_statement(file, line[1])
+                return file, import_statement(file, line[1])
     return None
 
 

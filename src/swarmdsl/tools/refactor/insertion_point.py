@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.rewriting import Change
 from swarmdsl.base.source import Source
-from swarmdsl.base.text_edits import Edits
+from swarmdsl.driver.line_insertion import above, below, below_head
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -81,27 +81,13 @@ def declaration(file: File, kind: type, text: str) -> Change:
     neighbors = same or before
     if neighbors:
         last = max(neighbors, key=lambda each: each.span.absolute.start)
-        return _below(file, last.span.absolute.end, f"\n{lines}")
-    model = file.model
-    top = [*([model.package] if model.package is not None else []), *model.imports]
-    if top:
-        return _below(file, max(each.span.absolute.end for each in top), f"\n{lines}")
+        return below(file, last.span.absolute.end, f"\n{lines}")
+    if file.model.package is not None or file.model.imports:
+        return below_head(file, lines)
     if declared:
         first = min(each.span.absolute.start for each in declared)
-        return _above(file, _with_documentation(file, first), f"{lines}\n")
-    return _below(file, len(file.source.text), lines)
-
-
-def import_statement(file: File, line: str) -> Change:
-    """Insert an import below the others, or above the declarations and their documentation."""
-    model = file.model
-    if model.imports:
-        return _below(file, max(each.span.absolute.end for each in model.imports), line)
-    if model.package is not None:
-        return _below(file, model.package.span.absolute.end, f"\n{line}")
-    starts = (each.span.absolute.start for each in model.declarations)
-    first = min(starts, default=len(file.source.text))
-    return _above(file, _with_documentation(file, first), f"{line}\n")
+        return above(file, _with_documentation(file, first), f"{lines}\n")
+    return below(file, len(file.source.text), lines)
 
 
 def line_in(file: File, owner: Node, items: Sequence[Node], text: str) -> Change:
@@ -109,8 +95,8 @@ def line_in(file: File, owner: Node, items: Sequence[Node], text: str) -> Change
     indent = _indent(file, owner.span.absolute.start) + "  "
     lines = textwrap.indent(text, indent)
     if items:
-        return _below(file, max(each.span.absolute.end for each in items), lines)
-    return _below(file, _brace(file, owner) + 1, lines)
+        return below(file, max(each.span.absolute.end for each in items), lines)
+    return below(file, _brace(file, owner) + 1, lines)
 
 
 def state(file: File, container: Container, name: str, text: str) -> Change:
@@ -133,8 +119,8 @@ def state(file: File, container: Container, name: str, text: str) -> Change:
     separator = "\n" if neighbors is states and _is_separated(file, states) else ""
     lines = separator + textwrap.indent(inner.strip("\n"), indent, lambda line: line.strip() != "")
     if neighbors:
-        return _below(file, max(each.span.absolute.end for each in neighbors), lines)
-    return _below(file, _brace(file, container) + 1, lines)
+        return below(file, max(each.span.absolute.end for each in neighbors), lines)
+    return below(file, _brace(file, container) + 1, lines)
 
 
 def _with_documentation(file: File, at: int) -> int:
@@ -162,17 +148,3 @@ def _indent(file: File, at: int) -> str:
     text = file.source.text
     line = text[text.rfind("\n", 0, at) + 1 :]
     return line[: len(line) - len(line.lstrip(" \t"))]
-
-
-def _below(file: File, at: int, lines: str) -> Change:
-    edits = Edits(file.source)
-    edits.below(at, lines)
-    (change,) = edits.changes()
-    return change
-
-
-def _above(file: File, at: int, lines: str) -> Change:
-    edits = Edits(file.source)
-    edits.above(at, lines)
-    (change,) = edits.changes()
-    return change

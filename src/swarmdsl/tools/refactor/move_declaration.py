@@ -12,13 +12,14 @@ from pathlib import Path
 from swarmdsl.analysis.resolve.scopes import Scopes
 from swarmdsl.base.naming import snake_case
 from swarmdsl.base.read_files import exists
+from swarmdsl.base.rewriting import Change
+from swarmdsl.driver.line_insertion import import_statement
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import occurrences, occurrences_of, owner_at
 from swarmdsl.driver.workspace.renaming import RefusedError
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Optimization, TopLevel
-from swarmdsl.tools.refactor import insertion_point
-from swarmdsl.tools.refactor.changed_texts import Change, applied, statement, tried
+from swarmdsl.tools.refactor.changed_texts import applied, statement, tried
 
 
 def movable(file: File, offset: int) -> TopLevel | None:
@@ -57,7 +58,7 @@ def move_declaration(workspace: Workspace, file: File, declaration: TopLevel) ->
         if importer is None or user is None or importer.library:
             continue
         line = f'import "{_relative(there, user)}"'
-        changes.setdefault(user, []).append(insertion_point.import_statement(importer, line))
+        changes.setdefault(user, []).append(import_statement(importer, line))
     changes[here].append((*statement(declaration.span.absolute), ""))
     texts = {
         path: applied(other.source.text, made)

@@ -41,13 +41,13 @@ def all_elements(workspace: Workspace, *, library: bool = False) -> Iterator[Nam
                 yield from _elements_in(file, owner, ())
 
 
-def find_elements(workspace: Workspace, name: str) -> list[NamedElement]:
-    """Find the elements with a qualified name.
+def find_elements(workspace: Workspace, name: str, *, library: bool = False) -> list[NamedElement]:
+    """Find the elements of the project, or with `library` of libraries, with a qualified name.
 
     An exact match wins over a suffix; `package.Name` finds a declaration.
     """
     words = tuple(name.split("."))
-    every = list(all_elements(workspace))
+    every = list(all_elements(workspace, library=library))
     exact = [each for each in every if each.path == words]
     if exact:
         return exact

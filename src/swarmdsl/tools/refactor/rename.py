@@ -9,18 +9,21 @@ from typing import TYPE_CHECKING
 
 from swarmdsl.analysis.resolve.identities import robot_named
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
-from swarmdsl.base.read_files import MOST_DATA, read_file
+from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.rewriting import Change, Layout, rewritten
+from swarmdsl.base.rewriting import Change, Layout
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config import find_file, find_settings
+from swarmdsl.driver.edit_files import edited
 from swarmdsl.driver.format_files import write
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.driver.workspace.renaming import RefusedError, replaced
 from swarmdsl.driver.workspace.renaming import rename as places_of
 from swarmdsl.driver.write_bounds import may_write_models
+from swarmdsl.project.libraries import SUFFIX
 from swarmdsl.project.read_source import read_source
+from swarmdsl.project.rosidl import standard
 from swarmdsl.project.search import found_below
 from swarmdsl.syntax.ast import Role, Value, nodes_of
 from swarmdsl.tools.refactor.names import NamedElement, all_elements, find_elements, suggest_path
@@ -64,18 +67,22 @@ def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) 
         report.report("cannot-rename", found.name_span, what=str(found), reason=error, help=hint)
         return RenameResult(report, workspace.files)
     changes: dict[Path, list[Change]] = defaultdict(list)
+    texts: dict[Path, str] = {}
     for source, start, end in (span.absolute for span in spans):
         assert source.path is not None  # sources of a workspace are files
         changes[source.path].append((start, end, new))
-    changes |= _test_changes(
+        texts[source.path] = source.text
+    for test, made in _test_changes(
         workspace, paths, (found.path[-1], new), namesakes, replaced(spans, new), report
-    )
-    layouts = [rewritten(str(path), read_file(path), made) for path, made in changes.items()]
+    ).items():
+        assert test.path is not None  # it was read from a file
+        changes[test.path], texts[test.path] = made, test.text
     _check_style(workspace, spans, new, report)
     if isinstance(found.node, Role):
         _check_strings(workspace, found.path[-1], spans, report)
-    names = [layout.name for layout in layouts]
-    if not may_write_models(names, paths, report) or not (dry_run or write(layouts, report)):
+    names = map(str, changes)
+    layouts = edited(changes, texts, report) if may_write_models(names, paths, report) else None
+    if layouts is None or not (dry_run or write(layouts, report)):
         return RenameResult(report, workspace.files)
     return RenameResult(report, workspace.files, layouts, sum(map(len, changes.values())))
 
@@ -94,15 +101,24 @@ def _resolve(workspace: Workspace, name: str, report: Diagnostics) -> NamedEleme
         )
         return None
     suggestion = suggest_path(workspace, name)
-    if any(".".join(each.path) == name for each in all_elements(workspace, library=True)):
-        hint = "a library declares it, and libraries cannot be changed"
+    if (unchangeable := _unchangeable(workspace, name)) is not None:
+        hint = unchangeable
+    elif suggestion is not None:
+        hint = f"did you mean `{suggestion}`?"
     else:
-        hint = (
-            f"did you mean `{suggestion}`?"
-            if suggestion
-            else "give its qualified name, such as `Uav.altitude`"
-        )
+        hint = "give its qualified name, such as `Uav.altitude`"
     report.report("no-such-thing", command_line_span(name), name=name, help=hint)
+    return None
+
+
+def _unchangeable(workspace: Workspace, name: str) -> str | None:
+    """Return the hint for a name that a library or ROS declares."""
+    found = find_elements(workspace, name, library=True)
+    package, _, rest = name.partition("/")
+    if found and found[0].file.source.name.endswith(SUFFIX):
+        return "a library declares it, and libraries cannot be changed"
+    if found or rest.partition(".")[0] in standard.names(package):
+        return "ROS declares it, and its interfaces cannot be changed"
     return None
 
 
@@ -146,7 +162,7 @@ def _test_changes(
     namesakes: Sequence[NamedElement],
     texts: Mapping[Path, str],
     report: Diagnostics,
-) -> dict[Path, list[Change]]:
+) -> dict[Source, list[Change]]:
     """Return the changes from an old name to a new one in tests and scenarios of the project.
 
     Old names that remain are reported.
@@ -168,11 +184,11 @@ def _test_changes(
         with workspace.overriding(texts):
             systems = before, lower(workspace.project)
     files = [file.source.path for file in workspace.project.files if file.source.path is not None]
-    changes: dict[Path, list[Change]] = {}
-    for path, source in sources:
+    changes: dict[Source, list[Change]] = {}
+    for source in sources:
         references = find_references(source, old, new, files, *systems) if systems else References()
         if references.changes:
-            changes[path] = [*references.changes]
+            changes[source] = [*references.changes]
         changed = {start for start, _, _ in references.changes}
         for each in word_pattern(old).finditer(source.text):
             if each.start() not in changed and each.start() not in references.others:
@@ -182,7 +198,7 @@ def _test_changes(
 
 def _toml_files_containing(
     paths: Sequence[Path], name: str, report: Diagnostics
-) -> Iterator[tuple[Path, Source]]:
+) -> Iterator[Source]:
     """Yield the TOML files beside the model that contain a name."""
     project = find_file(paths[0] if paths else Path())
     folders = [project.parent] if project is not None else [*paths] or [Path()]
@@ -194,4 +210,4 @@ def _toml_files_containing(
                 else None
             )
             if source is not None and name in source.text:
-                yield path, source
+                yield source

@@ -8,10 +8,11 @@ from typing import Any
 
 from lsprotocol import types as lsp
 
+from swarmdsl.base.source import Span
+from swarmdsl.driver.line_insertion import import_statement
 from swarmdsl.ide.server.completion import completions
 from swarmdsl.ide.server.completion_entry import Completion
 from swarmdsl.ide.server.hover import described
-from swarmdsl.ide.server.import_names import import_edit
 from swarmdsl.ide.server.session import Place, Session
 from swarmdsl.ide.server.snippets import snippets
 from swarmdsl.ide.server.symbol_kinds import COMPLETION_KINDS
@@ -63,8 +64,10 @@ def _item(
     if entry.replaced is not None:
         item.text_edit = lsp.TextEdit(range=session.range(entry.replaced), new_text=entry.word)
     if entry.added is not None:
-        span, line = import_edit(place[1], entry.added)
-        item.additional_text_edits = [lsp.TextEdit(range=session.range(span), new_text=line)]
+        file = place[1]
+        start, end, text = import_statement(file, entry.added)
+        where = session.range(Span(file.source, start, end))
+        item.additional_text_edits = [lsp.TextEdit(range=where, new_text=text)]
     if fills and entry.text is not None:
         item.insert_text = entry.text
         item.insert_text_format = lsp.InsertTextFormat.Snippet
@@ -77,6 +80,7 @@ def _kind(entry: Completion) -> lsp.CompletionItemKind:
     known = {
         "keyword": lsp.CompletionItemKind.Keyword,
         "file": lsp.CompletionItemKind.File,
+        "folder": lsp.CompletionItemKind.Folder,
         "package": lsp.CompletionItemKind.Module,
         "unit": lsp.CompletionItemKind.Unit,
     }
