@@ -34,6 +34,8 @@ _OTHER_TYPES = {
     "boolean": "bool",
     "str": "string",
 }
+# Text before a type that is an interface of ROS, or a message of the model.
+_INTERFACE = re.compile(r'\b(?:event\s+\w+|(?:in|out|monitor|action|service)\s+"[^"\n]*")\s*:\s*\Z')
 _SENT = re.compile(r"\bsend\s+([\w.]+)\s+to\s+\Z")
 # Functions that need no value in their parentheses.
 _CALLED = ("elapsed", "present")
@@ -90,11 +92,26 @@ def _import_path(other: File, name: str, scope: FileScope) -> str:
     return f'"{Path(path).as_posix()}"'
 
 
+def wants_interface(ref: TypeRef) -> bool:
+    """Return True for the type of an event, topic, action or service: it is no primitive type."""
+    return _INTERFACE.search(ref.span.source.text[: ref.span.start]) is not None
+
+
+def _message_with(type_: str) -> str:
+    """Return the message of ROS that has a value of a primitive type."""
+    from swarmdsl.project.rosidl import standard
+
+    messages = standard.names("std_msgs")
+    return next(f"std_msgs/{each}" for each in messages if each.lower() == type_)
+
+
 def type_hint(ref: TypeRef, scope: FileScope, report: Diagnostics) -> str | None:
     """Hint for a type of another language or of ROS, or an address with fields after it."""
     name = ref.name
+    interface = wants_interface(ref)
     if name in _OTHER_TYPES:
-        return f"write `{_OTHER_TYPES[name]}`"
+        type_ = _OTHER_TYPES[name]
+        return f"write `{_message_with(type_) if interface else type_}`"
     package, _, last = name.rpartition(".")
     if last in scope.skipped_names:
         return None
@@ -103,7 +120,7 @@ def type_hint(ref: TypeRef, scope: FileScope, report: Diagnostics) -> str | None
     unknown = package and "." not in package and package not in scope.packages
     if unknown and scope.imports_resolved:
         return f"write `{package}/{last}` for an interface of ROS"
-    if name.lower() in PRIMITIVES:
+    if name.lower() in PRIMITIVES and not interface:
         return None
     if not report.wants_hint("unresolved-name"):
         return None

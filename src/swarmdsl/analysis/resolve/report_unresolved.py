@@ -257,13 +257,14 @@ def report_type(
     found: Unresolved, ref: TypeRef, kinds: Kinds, scope: FileScope, report: Diagnostics
 ) -> None:
     """Report the name of a type that is not declared."""
-    from swarmdsl.analysis.resolve.hints import type_hint
+    from swarmdsl.analysis.resolve.hints import type_hint, wants_interface
 
     help_ = type_hint(ref, scope, report) if isinstance(found, Missing) else None
     if help_ is not None:
         report.report("unresolved-name", ref.span, kind="type", name=ref.name, help=help_)
         return
-    _report_declaration(found, ref.name, ref.span, kinds, scope, report, built_in=PRIMITIVES)
+    primitives = () if wants_interface(ref) else PRIMITIVES
+    _report_declaration(found, ref.name, ref.span, kinds, scope, report, built_in=primitives)
 
 
 # ---- values
