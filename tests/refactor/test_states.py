@@ -370,3 +370,12 @@ def test_not_dissolved(tmp_path: Path, old: str, new: str, reason: str) -> None:
     model = Workspace([tmp_path])
     with pytest.raises(RefusedError, match=reason):
         inline_state(model, *chosen(model, "state W"))
+
+
+def test_machine_whose_name_is_taken_gets_a_number(tmp_path: Path) -> None:
+    text = MODEL.replace("member R", "member MF")
+    (tmp_path / "model.swarm").write_text(text, encoding="utf-8")
+    model = Workspace([tmp_path])
+    [changed] = extract_machine(model, *chosen(model, "state F")).values()
+    assert "state F = MF2" in changed
+    assert "statemachine MF2 {" in changed

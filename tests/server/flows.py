@@ -82,7 +82,7 @@ _MARK = re.compile(r"«(.*?)\|(.*?)»(.*)")
 
 
 class Flow(NamedTuple):
-    """What is typed on a line; after the choice from the list, `then` is typed on."""
+    """Typing on a line; after the choice from the list, `then` is typed."""
 
     line: int
     typed: str

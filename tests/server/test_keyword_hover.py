@@ -12,6 +12,7 @@ from swarmdsl.ide.server.keyword_hover import SECTIONS, TABLE
 from swarmdsl.syntax.parser.keywords import RESERVED
 
 REFERENCE = Path(__file__).parents[2] / "docs" / "language.md"
+SYNTAX = re.compile(r"```text\n.*?^```$", re.DOTALL | re.MULTILINE)
 LINK = re.compile(r"\[([^\]]+)\]\([^)]*\)")
 
 
@@ -21,11 +22,12 @@ def sections() -> dict[str, str]:
     found = {}
     for heading, body in zip(parts[::2], parts[1::2], strict=True):
         if heading in SECTIONS.values():
-            first, *others = body.strip().split("\n\n", 2)
-            syntax = next((each for each in (first, *others[:1]) if each.startswith("```text")), "")
-            prose = "" if first.startswith("```") else LINK.sub(r"\1", " ".join(first.split()))
+            first, _, rest = body.strip().partition("\n\n")
+            begins = first.startswith("```")
+            syntax = SYNTAX.match(body.strip() if begins else rest)
+            prose = "" if begins else LINK.sub(r"\1", " ".join(first.split()))
             where = f"*{heading}* in the language reference"
-            found[heading] = "\n\n".join(filter(None, (syntax, prose, where)))
+            found[heading] = "\n\n".join(filter(None, (syntax and syntax[0], prose, where)))
     return found
 
 
@@ -34,6 +36,7 @@ def test_the_table_is_that_of_the_reference(bless: bool) -> None:
     assert set(SECTIONS.values()) == sections().keys()
     if bless:
         TABLE.write_text(json.dumps(sections(), indent=2) + "\n", encoding="utf-8")
+    assert all(each.count("```") in (0, 2) for each in sections().values())
     assert json.loads(TABLE.read_text(encoding="utf-8")) == sections()
 
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.syntax.ast import (
     ActionType,
-    Activity,
     Communication,
     Field,
     Function,
@@ -14,6 +15,8 @@ from swarmdsl.syntax.ast import (
     ServiceType,
 )
 from swarmdsl.syntax.types import Named
+
+Fields = Sequence[Field] | Sequence[Parameter]
 
 
 def called_interface(
@@ -29,12 +32,19 @@ def called_interface(
     return known if isinstance(known, (ActionType, ServiceType)) else None
 
 
-def taken_fields(activity: Activity, interfaces: Interfaces) -> list[Field] | list[Parameter]:
-    """Return the fields that an activity can set: of a goal, of a request or of an operation."""
-    function = activity.function.target
-    if isinstance(function, Operation):
-        return [each for each in function.parameters if each.direction != "out"]
-    match called_interface(function, interfaces):
-        case ActionType(goal=fields) | ServiceType(request=fields):
-            return fields
-    return []
+def call_fields(
+    called: Function | Operation | None, interfaces: Interfaces
+) -> tuple[Fields, Fields]:
+    """Return the fields that a call takes, and those that it gives.
+
+    They are those of a goal and result, of a request and response, or of an operation.
+    """
+    if isinstance(called, Operation):
+        taken = [each for each in called.parameters if each.direction != "out"]
+        return taken, [each for each in called.parameters if each.direction == "out"]
+    match called_interface(called, interfaces):
+        case ActionType(goal=sent, result=received):
+            return sent, received
+        case ServiceType(request=sent, response=received):
+            return sent, received
+    return (), ()

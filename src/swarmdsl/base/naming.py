@@ -36,13 +36,13 @@ def is_ros_package_name(name: str) -> bool:
     return re.fullmatch(r"[a-z][a-z0-9_]*", name) is not None and not name.endswith("_")
 
 
-def fresh(name: str, *taken: Iterable[str]) -> str:
-    """Append a number to a name if it is taken."""
+def fresh(name: str, *taken: Iterable[str], gap: str = "_") -> str:
+    """Append a number to a name if it is taken: `name_2`, or `name2` without a gap."""
     known = [each if isinstance(each, (Set, Mapping)) else set(each) for each in taken]
     number, made = 1, name
     while any(made in each for each in known):
         number += 1
-        made = f"{name}_{number}"
+        made = f"{name}{gap}{number}"
     return made
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from swarmdsl import ir
-from swarmdsl.analysis.called_interface import taken_fields
+from swarmdsl.analysis.called_interface import call_fields
 from swarmdsl.analysis.event_topics import is_of_swarm, received_topic
 from swarmdsl.analysis.resolve.membership import is_member_event
 from swarmdsl.base.records import dataclass, replace
@@ -204,7 +204,7 @@ def lower_activity(state: State, frame: Frame) -> ir.Activity | None:
     if found is None:
         return None
     context = frame.context
-    fields = taken_fields(found, context.typing.interfaces)
+    fields, _ = call_fields(found.function.target, context.typing.interfaces)
     return ir.Activity(
         function=context.function(found),
         arguments=lower_fields(found.arguments, fields, context),

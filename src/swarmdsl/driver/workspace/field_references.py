@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.analysis.called_interface import called_interface, taken_fields
+from swarmdsl.analysis.called_interface import call_fields
 from swarmdsl.analysis.event_typing import in_transition
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import Typing
@@ -19,7 +19,6 @@ from swarmdsl.syntax.ast import (
     FieldUse,
     MessageType,
     Node,
-    Operation,
     Parameter,
     ResultMapping,
     Send,
@@ -40,8 +39,9 @@ FIELDS = (Field, Parameter)
 def field_references(owner: TopLevel, interfaces: Interfaces) -> Iterator[tuple[Span, Slot]]:
     """Yield the names of fields in a declaration, with what declares them."""
     for activity in nodes_of(owner, Activity):
-        yield from _named(activity.arguments, taken_fields(activity, interfaces))
-        yield from _named(activity.results, _given(activity, interfaces))
+        taken, given = call_fields(activity.function.target, interfaces)
+        yield from _named(activity.arguments, taken)
+        yield from _named(activity.results, given)
     for send in nodes_of(owner, Send):
         event = send.event.target
         type_ = event.type.type if event is not None else None
@@ -77,17 +77,6 @@ def _accesses(owner: TopLevel, interfaces: Interfaces) -> Iterator[tuple[Span, S
 
 def _fields(type_: Type | None, interfaces: Interfaces) -> list[Field]:
     return (interfaces.fields(type_) if isinstance(type_, Named) else None) or []
-
-
-def _given(activity: Activity, interfaces: Interfaces) -> list[Field] | list[Parameter]:
-    """Return the fields of the result, or the outputs, of what an activity calls."""
-    function = activity.function.target
-    if isinstance(function, Operation):
-        return [each for each in function.parameters if each.direction == "out"]
-    match called_interface(function, interfaces):
-        case ActionType(result=fields) | ServiceType(response=fields):
-            return fields
-    return []
 
 
 def _named(

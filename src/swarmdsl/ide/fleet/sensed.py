@@ -1,4 +1,4 @@
-"""What sensors of robots tell in standard messages: the charge of batteries, and places."""
+"""Standard messages of sensors of robots: the charge of batteries, and places."""
 
 from __future__ import annotations
 

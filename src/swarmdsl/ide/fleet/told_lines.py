@@ -1,4 +1,4 @@
-"""What nodes of target `ros2` tell as strings: lines of traces, heartbeats, models, verdicts."""
+"""Strings of nodes of target `ros2`: lines of traces, heartbeats, models, verdicts."""
 
 from __future__ import annotations
 

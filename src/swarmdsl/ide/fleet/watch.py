@@ -32,7 +32,7 @@ class NotSentError(Exception):
 
 
 class Watch:
-    """What is known of a fleet; sources add to it, pages and terminals show it.
+    """State of a fleet as far as it is known: sources add to it, pages and terminals show it.
 
     `no_sending` is the reason why nothing can be sent, until a source gives a way to do it.
     """

@@ -13,11 +13,10 @@ from swarmdsl.driver.fixes import fixes_of
 from swarmdsl.driver.fixes.application import fix_all, without_overlaps
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.diagnostics import to_lsp_diagnostics
+from swarmdsl.ide.server.features import FIX_ALL
 from swarmdsl.ide.server.layout import line_changes
 from swarmdsl.ide.server.session import Session
 from swarmdsl.project.loader import File
-
-FIX_ALL = "source.fixAll.swarmdsl"
 
 
 def code_actions(

@@ -14,6 +14,9 @@ from lsprotocol import types as lsp
 from swarmdsl.ide.server.session import Session
 from swarmdsl.ide.server.tokens import MODIFIERS, TYPES
 
+FIX_ALL = "source.fixAll.swarmdsl"
+"""Kind of the code action that applies all certain fixes of a file."""
+
 FEATURES: Mapping[str, Mapping[str, Any]] = {
     "read": {
         lsp.TEXT_DOCUMENT_HOVER: None,
@@ -56,7 +59,7 @@ FEATURES: Mapping[str, Mapping[str, Any]] = {
         lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(
             code_action_kinds=[
                 lsp.CodeActionKind.QuickFix,
-                "source.fixAll.swarmdsl",
+                FIX_ALL,
                 lsp.CodeActionKind.RefactorExtract,
                 lsp.CodeActionKind.RefactorInline,
                 "refactor.move",

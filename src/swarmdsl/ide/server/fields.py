@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from swarmdsl.analysis.called_interface import call_fields
 from swarmdsl.analysis.event_typing import in_transition
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.interfaces import Interfaces
@@ -13,30 +14,21 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.ide.server.speculative_parse import PLACEHOLDER
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
-    ActionType,
     Activity,
     Argument,
-    Communication,
     Contract,
-    Event,
     Fact,
     Field,
     FieldUse,
-    Function,
-    Interface,
-    MessageType,
     NameUse,
     Node,
-    Operation,
     Param,
     Parameter,
     PartValue,
     ResultMapping,
     Send,
-    ServiceType,
     State,
     StateMachine,
-    StructType,
     TopLevel,
     Transition,
     Word,
@@ -62,37 +54,11 @@ class Slots:
         return [each for each in self.fields if each.name not in self.assigned]
 
 
-def call_slots(
-    target: Function | Operation | None, interfaces: Interfaces
-) -> tuple[Sequence[Slot], Sequence[Slot]]:
-    """Return inputs and outputs of a function or an operation."""
-    if isinstance(target, Operation):
-        return (
-            [each for each in target.parameters if each.direction != "out"],
-            [each for each in target.parameters if each.direction == "out"],
-        )
-    items = target.items if target is not None else ()
-    call = next((item for item in items if isinstance(item, Communication)), None)
-    wanted: type[Interface] = ServiceType
-    if call is not None and call.paradigm == "action":
-        wanted = ActionType
-    match _interface(call.type.type if call is not None else None, interfaces, wanted):
-        case ActionType(goal=taken, result=given) | ServiceType(request=taken, response=given):
-            return taken, given
-    return (), ()
-
-
-def event_slots(event: Event | None, interfaces: Interfaces) -> Sequence[Slot]:
-    """Return the fields of the message of an event."""
-    found = _interface(event.type.type if event is not None else None, interfaces, MessageType)
-    return found.fields if isinstance(found, (MessageType, StructType)) else ()
-
-
 def slots(owner: TopLevel, project: Project) -> Slots | None:
     """Return the parameter list in which the placeholder is a name or a value."""
     interfaces = Interfaces(project.declarations())
     for activity in nodes_of(owner, Activity):
-        taken, given = call_slots(activity.function.target, interfaces)
+        taken, given = call_fields(activity.function.target, interfaces)
         if _any_placeholder(activity.arguments):
             return Slots(activity.function.name, taken, _names(activity.arguments))
         if any(_has_placeholder(each) for each in activity.results):
@@ -100,8 +66,9 @@ def slots(owner: TopLevel, project: Project) -> Slots | None:
             return Slots(activity.function.name, given, results)
     for send in nodes_of(owner, Send):
         if _any_placeholder(send.arguments):
-            fields = event_slots(send.event.target, interfaces)
-            return Slots(send.event.name, fields, _names(send.arguments))
+            event = send.event.target
+            type_ = event.type.type if event is not None else None
+            return Slots(send.event.name, _fields(type_, interfaces), _names(send.arguments))
     for state in nodes_of(owner, State):
         machine = state.machine.target if state.machine is not None else None
         if _any_placeholder(state.bindings) and isinstance(machine, StateMachine):
@@ -117,7 +84,7 @@ def fields_of(use: FieldUse, owner: TopLevel, project: Project) -> Sequence[Fiel
     """Return the fields of the type of the placeholder's base."""
     typing = Typing(Interfaces(project.declarations()))
     type_ = with_event(use, owner, typing).infer(use.base)
-    return (typing.interfaces.fields(type_) if isinstance(type_, Named) else None) or ()
+    return _fields(type_, typing.interfaces)
 
 
 def facts_of(use: FieldUse, owner: TopLevel, project: Project) -> dict[str, Type]:
@@ -151,10 +118,8 @@ def with_event(use: Node, owner: TopLevel, typing: Typing) -> Typing:
     return typing
 
 
-def _interface(
-    type_: Type | None, interfaces: Interfaces, wanted: type[Interface]
-) -> Interface | None:
-    return interfaces.get(type_, wanted) if isinstance(type_, Named) else None
+def _fields(type_: Type | None, interfaces: Interfaces) -> Sequence[Field]:
+    return (interfaces.fields(type_) if isinstance(type_, Named) else None) or ()
 
 
 def _any_placeholder(arguments: Sequence[Argument | PartValue]) -> bool:

@@ -33,7 +33,10 @@ MOVE = "refactor.move.file"
 
 @dataclass(frozen=True)
 class Refactoring:
-    """What can be done at a range; `reason` is why not, `texts` makes the new texts of files."""
+    """Change of a model that is offered at a range.
+
+    `texts` makes the new texts of files; with a `reason`, the change is not possible.
+    """
 
     kind: str
     title: str
@@ -90,6 +93,8 @@ def resolved(session: Session, action: lsp.CodeAction) -> lsp.CodeAction:
 def _at(
     session: Session, workspace: Workspace, file: File, part: lsp.Range
 ) -> Iterator[Refactoring]:
+    if file.library:
+        return
     span = session.span(file, part)
     selection = selected_states(file, span)
     if selection is not None:
@@ -100,24 +105,22 @@ def _at(
             lambda: wrap_states(workspace, file, selection),
             why_not_wrap(selection),
         )
-        reason = why_not_inline(selection)
-        if reason != "":
-            yield Refactoring(
-                INLINE,
-                f"Dissolve composite state {names}",
-                lambda: inline_state(workspace, file, selection),
-                reason,
-            )
-        reason = why_not_extract(selection)
-        if reason != "":
-            yield Refactoring(
-                EXTRACT,
-                f"Make a machine of {names}",
-                lambda: extract_machine(workspace, file, selection),
-                reason,
-            )
+    if selection is not None and selection.composite is not None:
+        name = f"`{selection.composite.name}`"
+        yield Refactoring(
+            INLINE,
+            f"Dissolve composite state {name}",
+            lambda: inline_state(workspace, file, selection),
+            why_not_inline(selection),
+        )
+        yield Refactoring(
+            EXTRACT,
+            f"Make a machine of {name}",
+            lambda: extract_machine(workspace, file, selection),
+            why_not_extract(selection),
+        )
     declaration = movable(file, span.start)
-    if declaration is not None and _creates_files(session) and not file.library:
+    if declaration is not None and _creates_files(session):
         name = getattr(declaration, "name", "")
         yield Refactoring(
             MOVE,

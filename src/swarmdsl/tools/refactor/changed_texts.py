@@ -8,13 +8,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.base.rewriting import Change
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.renaming import RefusedError
 from swarmdsl.syntax.formatter import format_source
-
-Change = tuple[int, int, str]
-"""Start, end and new string of a replacement."""
 
 _ENDS_LINE = re.compile(r"[ \t]*;?[ \t]*(?://[^\n]*)?(?=\n|\Z)")
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from swarmdsl.analysis.resolve.states import vertices
 from swarmdsl.base.naming import fresh
+from swarmdsl.base.rewriting import Change
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.renaming import RefusedError
 from swarmdsl.project.loader import File
@@ -28,33 +29,29 @@ from swarmdsl.syntax.ast import (
     references,
     walk,
 )
-from swarmdsl.tools.refactor.changed_texts import Change, applied, statement, tried
+from swarmdsl.tools.refactor.changed_texts import applied, statement, tried
 from swarmdsl.tools.refactor.selected_states import Selection
 
 _BODY = re.compile(r"\s*\{")
 
 
 def why_not_extract(selection: Selection) -> str | None:
-    """Return the reason why no machine can be made of a state; None if one can.
-
-    "" stands for a selection that is no composite state.
-    """
-    state = selection.states[0]
-    if len(selection.states) != 1 or not isinstance(state, State) or not vertices(state):
-        return ""
+    """Return the reason why no machine can be made of a state; None if one can."""
+    state = selection.composite
+    if state is None:
+        return "it is no composite state"
     for item in state.items:
         if isinstance(item, Variable):
             return f"`{state.name}` has variables"
         if isinstance(item, Activity):
             return f"`{state.name}` has an activity"
-    moved = {node for item in vertices(state) for node in walk(item)}
-    beginning = (item for item in state.items if isinstance(item, Initial))
-    moved.update(node for item in beginning for node in walk(item))
     states = {node for item in vertices(state) for node in walk(item)}
+    beginning = (item for item in state.items if isinstance(item, Initial))
+    moved = states | {node for item in beginning for node in walk(item)}
     for node, ref in references(selection.machine):
         if not isinstance(ref.target, Node) or not _is_in(ref.target, selection.machine):
             continue
-        if (node in moved) and ref.target not in states:
+        if node in moved and ref.target not in states:
             return f"`{ref.name}` is named in `{state.name}`, and not inside"
         if node not in moved and ref.target in states and not _is_end_of(state, ref.target):
             return f"`{ref.name}` is inside, and named outside of `{state.name}`"
@@ -79,12 +76,12 @@ def extract_machine(workspace: Workspace, file: File, selection: Selection) -> d
     """Return the texts of files with a new machine; raise RefusedError if it cannot be."""
     reason = why_not_extract(selection)
     if reason is not None:
-        raise RefusedError(reason or "it is no composite state")
-    state, machine, text = selection.states[0], selection.machine, file.source.text
-    assert isinstance(state, State)
+        raise RefusedError(reason)
+    state, machine, text = selection.composite, selection.machine, file.source.text
+    assert state is not None  # it has no reason not to be
     path = file.source.path
     assert path is not None  # sources of a workspace are files
-    name = fresh(f"{machine.name}{state.name}", re.findall(r"\w+", text))
+    name = fresh(f"{machine.name}{state.name}", re.findall(r"\w+", text), gap="")
     params = list(_params(state, machine))
     kept = [item for item in state.items if not isinstance(item, (Initial, *_vertex_kinds(state)))]
     bounds = [statement(item.span.absolute) for item in kept]

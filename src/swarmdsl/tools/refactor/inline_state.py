@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from swarmdsl.analysis.resolve.states import vertices
+from swarmdsl.base.rewriting import Change
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import occurrences_of
@@ -33,7 +34,7 @@ from swarmdsl.syntax.ast import (
     Variable,
     walk,
 )
-from swarmdsl.tools.refactor.changed_texts import Change, applied, statement, tried
+from swarmdsl.tools.refactor.changed_texts import applied, statement, tried
 from swarmdsl.tools.refactor.selected_states import Selection, references_to
 
 _ITEMS = {
@@ -51,13 +52,10 @@ _BODY = re.compile(r"\s*\{")
 
 
 def why_not_inline(selection: Selection) -> str | None:
-    """Return the reason why a state cannot be dissolved; None if it can.
-
-    "" stands for a selection that is no composite state.
-    """
-    state = selection.states[0]
-    if len(selection.states) != 1 or not isinstance(state, State) or not vertices(state):
-        return ""
+    """Return the reason why a state cannot be dissolved; None if it can."""
+    state = selection.composite
+    if state is None:
+        return "it is no composite state"
     for item in state.items:
         if type(item) in _ITEMS:
             return f"`{state.name}` has {_ITEMS[type(item)]}"
@@ -88,9 +86,9 @@ def inline_state(workspace: Workspace, file: File, selection: Selection) -> dict
     """Return the texts of files without the state; raise RefusedError if not possible."""
     reason = why_not_inline(selection)
     if reason is not None:
-        raise RefusedError(reason or "it is no composite state")
-    state, path, text = selection.states[0], file.source.path, file.source.text
-    assert isinstance(state, State)
+        raise RefusedError(reason)
+    state, path, text = selection.composite, file.source.path, file.source.text
+    assert state is not None  # it has no reason not to be
     assert path is not None  # sources of a workspace are files
     beginning = next(item for item in state.items if isinstance(item, Initial))
     elsewhere: dict[Path, list[Change]] = {path: []}

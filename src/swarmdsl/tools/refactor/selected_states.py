@@ -38,6 +38,14 @@ class Selection:
         return self.around[0]
 
     @property
+    def composite(self) -> State | None:
+        """The composite state that is selected alone; None for anything else."""
+        state, *others = self.states
+        if others or not isinstance(state, State) or not vertices(state):
+            return None
+        return state
+
+    @property
     def shallow_history(self) -> History | None:
         """A history that restores one of the states directly inside their container."""
         found = (each for each in vertices(self.container) if isinstance(each, History))

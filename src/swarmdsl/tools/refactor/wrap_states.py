@@ -9,12 +9,14 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from swarmdsl.base.naming import fresh
+from swarmdsl.base.rewriting import Change
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import occurrences_of
 from swarmdsl.driver.workspace.renaming import RefusedError
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import FinalState, History, Initial, State, Vertex
-from swarmdsl.tools.refactor.changed_texts import Change, applied, statement, tried
+from swarmdsl.tools.refactor.changed_texts import applied, statement, tried
 from swarmdsl.tools.refactor.selected_states import Selection
 
 _NAME = "Group"
@@ -42,7 +44,7 @@ def wrap_states(workspace: Workspace, file: File, selection: Selection) -> dict[
         raise RefusedError(reason)
     path = file.source.path
     assert path is not None  # sources of a workspace are files
-    name = _fresh(selection.machine.span.text)
+    name = fresh(_NAME, re.findall(r"\w+", selection.machine.span.text), gap="")
     changes: dict[Path, list[Change]] = {path: []}
     entered: list[Vertex] = []
     inside = [each.span.absolute for each in selection.states]
@@ -91,13 +93,3 @@ def _moved(text: str, selection: Selection, changes: list[Change], name: str, in
     ]
     places = [(*bounds[0], f"state {name} {{\ninitial {initial}\n\n{states}\n}}")]
     return applied(text, [*others, *places, *((start, end, "") for start, end in bounds[1:])])
-
-
-def _fresh(text: str) -> str:
-    """Return a name that does not occur in a text."""
-    used = set(re.findall(r"\w+", text))
-    number = 2
-    name = _NAME
-    while name in used:
-        name, number = f"{_NAME}{number}", number + 1
-    return name
