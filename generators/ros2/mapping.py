@@ -70,6 +70,7 @@ MAPPING = tuple(
         ("initial state of a machine that is final", _EXACT, "the node ends at once: `Kind.FINAL`"),
         ("name that Python cannot have", _REJECTED, "not a valid identifier (SW0905)"),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
+        ("event of a person", _EXACT, "a swarm event like others: `swarm=True`"),
         ("delivery of a swarm event", _EXACT, "quality of service: `delivery=Delivery(`"),
         ("monitored topic", _EXACT, "subscription, reliable if its publishers are: `heard=True`"),
         (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 
 from swarmdsl.codegen import MappedText
@@ -49,6 +50,8 @@ def network_files(
 def _profiles(
     network: Network, options: Options, header: str, fill: Fill
 ) -> Iterator[tuple[str, MappedText]]:
+    # No comment of XML has two hyphens, but the name of a file may.
+    header = re.sub("-(?=-)", "- ", header)
     nodes = {
         "profile": "nodes",
         "hosts": network.hosts,

@@ -65,6 +65,7 @@ def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, 
             "timer of the chart: `machine.emit_after(`, `machine.cancel(`",
         ),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
+        ("event of a person", _EXACT, "a swarm event like others: `swarm=True`"),
         ("delivery of a swarm event", _EXACT, "quality of service: `delivery=Delivery(`"),
         (
             "monitored topic",

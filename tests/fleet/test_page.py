@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from array import array
 from collections.abc import Iterator, Mapping
 from http.client import HTTPConnection
 from pathlib import Path
+from socket import create_connection
 from typing import Any
 
 import pytest
@@ -14,8 +16,10 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
 from swarmdsl.ide.fleet.followed import follow_trace
 from swarmdsl.ide.fleet.operator_events import OperatorEvent
+from swarmdsl.ide.fleet.ros2_messages import fill
 from swarmdsl.ide.fleet.serving import serving
 from swarmdsl.ide.fleet.watch import NotSentError, Watch
+from swarmdsl.ide.preview.local_server import LocalHandler
 from swarmdsl.tools.player.record import record_nothing
 
 from ..player.conftest import browser as browser
@@ -148,7 +152,7 @@ def test_what_is_wrong_is_an_alarm(seen: Seen) -> None:
 def ask(
     address: str, method: str, path: str, body: object = None, **headers: str
 ) -> tuple[int, str]:
-    """What a server answers."""
+    """Status and text of the answer of a server."""
     port = int(address.split(":")[2].partition("/")[0])
     connection = HTTPConnection("127.0.0.1", port, timeout=20)
     text = None if body is None else json.dumps(body)
@@ -202,6 +206,44 @@ def test_others_need_the_token(seen: Seen) -> None:
         assert ask(address, "POST", "/send", {"event": "Abort"}, **foreign)[0] == 403
         bearer = {"Authorization": "Bearer let-me-in"}
         assert ask(address, "GET", "/", None, **bearer)[0] == 200
+
+
+def test_a_client_that_asks_for_nothing_is_left(
+    seen: Seen, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(LocalHandler, "timeout", 0.1)
+    with serving(seen.watch, "127.0.0.1", 0, "secret") as address:
+        port = int(address.split(":")[2].partition("/")[0])
+        with create_connection(("127.0.0.1", port), 20) as silent:
+            silent.sendall(b"POST /send HTTP/1.1")
+            assert silent.recv(1) == b""
+
+
+class Shape:
+    """A message as ROS makes them: numbers are kept in an array, and each is checked."""
+
+    def __init__(self) -> None:
+        self._sides = array("d")
+
+    def get_fields_and_field_types(self) -> dict[str, str]:
+        return {"sides": "sequence<double>"}
+
+    @property
+    def sides(self) -> Any:
+        return self._sides
+
+    @sides.setter
+    def sides(self, value: Any) -> None:
+        assert all(isinstance(each, float) for each in value)
+        self._sides = array("d", value)
+
+
+def test_arrays_of_numbers_are_filled() -> None:
+    assert fill(Shape(), {"sides": []}).sides == array("d")
+    assert fill(Shape(), {"sides": [1, 2.5]}).sides == array("d", [1.0, 2.5])
+    for wrong in (["one"], "one", 1):
+        with pytest.raises(ValueError, match="sequence<double>"):
+            fill(Shape(), {"sides": wrong})
 
 
 def test_what_cannot_be_sent_is_told(seen: Seen) -> None:

@@ -140,11 +140,47 @@ def test_a_damaged_recording_is_told(
     assert "error[SW1024]: cannot read the recording" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("plugin", [StoragePlugin.MCAP, StoragePlugin.SQLITE3])
+def test_damaged_bytes_are_told(
+    plugin: Any, model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    bag = record(tmp_path / "bag", plugin)
+    (file,) = (*bag.glob("*.mcap"), *bag.glob("*.db3"))
+    whole = file.read_bytes()
+    codes = set()
+    for at in range(0, len(whole), len(whole) // 12):
+        file.write_bytes(whole[:at] + b"\xff" * 60 + whole[at + 60 :])
+        code = run(["fleet", str(model), "--follow", str(bag), "--terminal"])
+        said = capsys.readouterr().err
+        assert code == 0 or "error[SW1024]: cannot read the recording" in said, said
+        codes.add(code)
+    assert 1 in codes
+    assert codes <= {0, 1}
+
+
+def test_a_trace_that_ends_ends_the_lines(
+    model: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    trace = tmp_path / "run.jsonl"
+    trace.write_text(f"{line(0, 'robot[0]', None, 'Off')}\n", encoding="utf-8")
+    # A token for pages is no reason to refuse a terminal.
+    monkeypatch.setenv("SWARMC_FLEET_TOKEN", "secret")
+    with trace.open(encoding="utf-8") as stdin:
+        monkeypatch.setattr(sys, "stdin", stdin)
+        assert run(["fleet", str(model), "--follow", "-", "--terminal"]) == 0
+    assert "robot[0] there Off start" in capsys.readouterr().out.splitlines()
+
+
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
         (["--host", "0.0.0.0"], "`--host` needs `--token`"),
-        (["--token", ""], "the token is empty"),
+        (["--token", ""], "a token has letters"),
+        (["--token", "one&two"], "a token has letters"),
+        (["--terminal", "--host", "localhost"], "`--terminal` serves no page"),
         (["--terminal", "--open"], "`--terminal` serves no page"),
         (["--follow", "a.jsonl", "--follow", "ros2:"], "one trace or recording"),
     ],

@@ -338,6 +338,7 @@ def test_one_robot_is_launched_on_its_own_computer(
         ({"member": "left_0", "left_count": "5"}, "there cannot be 5 of left, but 2 to 4"),
         ({"member": "left_0", "left_count": "two"}, "must be a number of robots, not `two`"),
         ({"member": "left_0", "respawn_delay": "soon"}, "a number of seconds, not `soon`"),
+        ({"member": "left_0", "respawn": "yes"}, "respawn must be true or false, not `yes`"),
         ({"member": "left_0", "log_dir": str(package / "setup.py")}, "log_dir cannot be made"),
     ):
         with pytest.raises(Exception, match=re.escape(said)) as error:

@@ -20,6 +20,7 @@ event Stop : Note
 swarm event Call : Note
 swarm event Kept : Note { latest, keep 3 }
 swarm event Brief : Note { lifespan 1 s }
+swarm operator event Recall : Note
 """
 PARTS = """
 sensor Eye { out seen : Note; behavior Work }
@@ -146,6 +147,7 @@ ONLY_ROS_1 = ("latest, keep of an event", "lifespan, deadline of an event")
 FOR_ROS_2 = {
     **{name: model for name, model in MODELS.items() if name not in ONLY_ROS_1},
     "swarm event": "state A { on Call -> End }",
+    "event of a person": "state A { on Recall -> End }",
     "delivery of a swarm event": "state A { on Go / send Kept -> End }",
     "monitored topic": 'state A { monitor "seen" : Note [event.level > 1] -> End }',
     "monitored feedback of an action": """

@@ -8,7 +8,7 @@ from . import parameters
 from .parameters import Parameter, StartError
 
 RUNNING, ENDED = 'running', 'ended'
-"""What the file says while the process runs, and when it has ended by itself."""
+"""Words in the file while the process runs, and when it has ended by itself."""
 
 _SETTINGS = (Parameter('lease.file', 'string', '', 'File that is locked while the node lives.'),)
 _PATIENCE = 2.0

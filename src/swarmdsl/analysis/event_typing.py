@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from swarmdsl.analysis.event_topics import is_of_swarm
 from swarmdsl.analysis.types import Typing
 from swarmdsl.syntax.ast import Contract, EventTrigger, MonitorTrigger, Transition
@@ -10,9 +12,12 @@ from swarmdsl.syntax.types import Type
 
 def in_transition(transition: Transition | Contract, typing: Typing) -> Typing:
     """Return the typing in a transition or contract: `event` has the type of all its events."""
-    triggers = [
-        each for each in transition.triggers if isinstance(each, (EventTrigger, MonitorTrigger))
-    ]
+    kinds = (EventTrigger, MonitorTrigger)
+    return on_events([each for each in transition.triggers if isinstance(each, kinds)], typing)
+
+
+def on_events(triggers: Sequence[EventTrigger | MonitorTrigger], typing: Typing) -> Typing:
+    """Return a typing in which `event` is the message of any of these triggers."""
     types = [_message(each) for each in triggers] or [None]
     alike = all(each == types[0] for each in types)
     of_swarm = bool(triggers) and all(map(is_of_swarm, triggers))

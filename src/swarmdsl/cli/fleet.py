@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import re
 import signal
 import sys
 import time
@@ -28,6 +29,8 @@ Tell = Callable[[Diagnostics], None]
 _NAP = 0.2
 """Seconds between two looks for an interrupt."""
 _LOOPBACK = "127.0.0.1"
+_TOKEN = re.compile(r"[A-Za-z0-9._~-]+")
+"""Characters that need no quotes in an address or a cookie."""
 
 
 @click.command(epilog="Example: swarmc fleet examples/search_and_rescue --follow ros2:/sar --open")
@@ -92,12 +95,12 @@ def fleet(
     others = [each for each in sources if not each.startswith(PREFIX)]
     if len(others) > 1 or (others and names):
         raise click.UsageError("`--follow` takes one trace or recording, or nodes of ROS 2")
-    if token == "":
-        raise click.UsageError("the token is empty")
+    if token is not None and _TOKEN.fullmatch(token) is None:
+        raise click.UsageError("a token has letters, digits, and `-`, `.`, `_` or `~`")
+    if terminal and (opens or port or host != _LOOPBACK):
+        raise click.UsageError("`--terminal` serves no page: leave out its other options")
     if host not in (_LOOPBACK, "localhost") and token is None:
         raise click.UsageError("`--host` needs `--token`: others can reach the page")
-    if terminal and (opens or port or token is not None):
-        raise click.UsageError("`--terminal` serves no page: leave out its other options")
     gc.enable()  # it runs for hours
     if hasattr(signal, "SIGPIPE"):
         # A page may be closed while it is written to; others stay.

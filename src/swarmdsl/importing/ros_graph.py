@@ -14,8 +14,8 @@ from collections.abc import Iterable, Iterator
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.errors import UsageError
-from swarmdsl.base.naming import camel_case, fresh, snake_case
 from swarmdsl.base.records import dataclass, field
+from swarmdsl.importing.names import type_names, value_names
 from swarmdsl.importing.ros import import_ros
 from swarmdsl.ir import Communication, Event, Function, Interface, Named, System
 from swarmdsl.project.rosidl.installed import installed_package
@@ -110,19 +110,18 @@ def import_graph(
     around = f"/{namespace.strip('/')}/".replace("//", "/")
     functions: list[Function] = []
     events: list[Event] = []
+    of_functions, of_events = value_names(), type_names()
     for paradigm, found in (("action", graph.actions), ("service", graph.services)):
         for full, type_ in found:
             if not full.startswith(around):
                 continue
             server = full.removeprefix(around)
-            made = fresh(snake_case(server.replace("/", "_")), (each.name for each in functions))
             call = Communication(paradigm, server, type_)  # type: ignore[arg-type]
-            functions.append(Function(made, "abstraction", call, (), ()))
+            functions.append(Function(of_functions.new(server), "abstraction", call, (), ()))
     for full, type_ in graph.topics:
         if full.startswith(around):
             topic = full.removeprefix(around)
-            made = fresh(camel_case(topic.replace("/", "_")), (each.name for each in events))
-            events.append(Event(made, type_, topic, swarm=False))
+            events.append(Event(of_events.new(topic), type_, topic, swarm=False))
     used = [each.communication.type for each in functions]
     used += [each.type for each in events if isinstance(each.type, Named)]
     interfaces = _interfaces(used, report)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.read_files import exists
 from swarmdsl.base.records import dataclass
 from swarmdsl.importing.ros import import_ros
 from swarmdsl.importing.ros_graph import PARTS, Graph
@@ -40,13 +42,18 @@ def compare_installed(system: System) -> Iterator[Compared]:
             packages[type_.package] = {each.type: each for each in read.interfaces}
         installed = packages[type_.package].get(type_)
         ours = system.interface(type_)
-        # Interfaces of ROS itself are the same in all distributions, and are not read.
+        # Interfaces of ROS itself are the same in all distributions, and are not compared.
         if installed is not None and ours is not None:
             yield Compared(str(type_), str(folder), "; ".join(_differences(ours, installed)))
-        elif ours is not None:
-            yield Compared(str(type_), str(folder), f"{folder} does not have it")
-        else:
+        elif ours is None and _has(folder, type_.name):
             yield Compared(str(type_), str(folder))
+        else:
+            yield Compared(str(type_), str(folder), f"{folder} does not have it")
+
+
+def _has(folder: Path, name: str) -> bool:
+    """Return True if a folder of a package has an interface of a name."""
+    return any(exists(folder / kind / f"{name}.{kind}") for kind in ("msg", "srv", "action"))
 
 
 def _differences(ours: Interface, installed: Interface) -> Iterator[str]:
@@ -57,11 +64,11 @@ def _differences(ours: Interface, installed: Interface) -> Iterator[str]:
         own = {each.name: str(each.type) for each in getattr(ours, part, ())}
         there = {each.name: str(each.type) for each in getattr(installed, part, ())}
         where = "" if part == "fields" else f" of its {part}"
-        for name in own.keys() - there.keys():
+        for name in sorted(own.keys() - there.keys()):
             yield f"it has no field `{name}`{where}"
-        for name in there.keys() - own.keys():
+        for name in sorted(there.keys() - own.keys()):
             yield f"field `{name}`{where} is missing in the model"
-        for name in own.keys() & there.keys():
+        for name in sorted(own.keys() & there.keys()):
             if own[name] != there[name]:
                 yield f"field `{name}`{where} is {there[name]}, but {own[name]} in the model"
 

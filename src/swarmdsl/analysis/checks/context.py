@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from swarmdsl.analysis.checks.facts import Condition, FactCache
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
-from swarmdsl.analysis.event_topics import is_of_swarm
+from swarmdsl.analysis.event_typing import on_events
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import Typing, check_types, constant, fits, is_number
@@ -178,16 +178,7 @@ class Context:
 
     def with_event(self, triggers: list[EventTrigger | MonitorTrigger]) -> Typing:
         """Return a typing in which `event` is the message of any of these triggers."""
-        types = [_message(trigger) for trigger in triggers]
-        alike = all(known == types[0] for known in types)
-        of_swarm = all(map(is_of_swarm, triggers))
-        return self.typing.on_event(types[0], known=alike, of_swarm=of_swarm)
-
-
-def _message(trigger: EventTrigger | MonitorTrigger) -> Type | None:
-    if isinstance(trigger, MonitorTrigger):
-        return trigger.type.type
-    return trigger.event.target.type.type if trigger.event.target is not None else None
+        return on_events(triggers, self.typing)
 
 
 def _kind_of_type(ref: TypeRef, known: Interface | None) -> str:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
-from swarmdsl.base.read_files import is_file, is_folder
+from swarmdsl.base.read_files import is_file
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ide.fleet.sensed import BATTERY, TYPES, moved_line, place_of, share_of
 from swarmdsl.ide.fleet.told_lines import LINES, TOPICS, member_in, model_in, time_of
@@ -53,19 +53,17 @@ def read_bag(name: str, watch: Watch, clock: BagClock) -> None:
     moved: dict[str, int] = {}
     """Time of the last place of each robot that is shown: one a second."""
     with _opened(Path(name)) as reader:
-        wanted = [each for each in reader.connections if _is_wanted(each.topic, each.msgtype)]
-        for connection, time, data in reader.messages(wanted):
+        for topic, type_, time, message in _messages(Path(name), reader):
             clock.now = time / _SECOND
-            message = reader.deserialize(data, connection.msgtype)
-            space, _, last = connection.topic.rpartition("/")
+            space, _, last = topic.rpartition("/")
             robot = next((name for at, name in robots.items() if f"{space}/".startswith(at)), "")
-            if last in LINES and connection.msgtype == _STRING:
+            if last in LINES and type_ == _STRING:
                 lines.append(message.data)
                 if member := member_in(message.data):
                     _note_robot(member, space, robots)
-            elif connection.msgtype == _STRING:
+            elif type_ == _STRING:
                 _note(watch, last, message.data)
-            elif robot and connection.msgtype == BATTERY:
+            elif robot and type_ == BATTERY:
                 with watch.noting() as standing:
                     standing.charge(robot, share_of(message))
             elif not robot or time - moved.get(robot, 0) < _SECOND:
@@ -97,20 +95,38 @@ def _note(watch: Watch, last: str, text: str) -> None:
             standing.tell_model(*told)
 
 
+def _messages(path: Path, reader: Any) -> Iterator[tuple[str, str, int, Any]]:
+    """Yield the topic, the type, the time and the content of each message that is wanted."""
+    with _told(path):
+        wanted = [each for each in reader.connections if _is_wanted(each.topic, each.msgtype)]
+        for connection, time, data in reader.messages(wanted):
+            message = reader.deserialize(data, connection.msgtype)
+            yield connection.topic, connection.msgtype, time, message
+
+
 @contextmanager
 def _opened(path: Path) -> Iterator[Any]:
     try:
-        from rosbags.highlevel import AnyReader, AnyReaderError
-        from rosbags.serde import SerdeError
+        from rosbags.highlevel import AnyReader
         from rosbags.typesys import Stores, get_typestore
     except ImportError as error:
         raise UnreadableBagError(
             f"bags need the Python package rosbags: {error}", _NEEDED
         ) from None
-    folder = path if is_folder(path) else path.parent
+    folder = path if path.is_dir() else path.parent
+    with ExitStack() as stack:
+        with _told(path):
+            types = get_typestore(Stores.ROS2_JAZZY)
+            reader = stack.enter_context(AnyReader([folder], default_typestore=types))
+        yield reader
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Raise UnreadableBagError for what is wrong with a bag."""
     try:
-        with AnyReader([folder], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
-            yield reader
-    except (AnyReaderError, SerdeError, OSError) as error:
+        yield
+    except Exception as error:  # each decoder fails in its own way at damaged bytes
         hint = "name the folder that `ros2 bag record` has written, with its metadata.yaml"
-        raise UnreadableBagError(f"{path}: {error}", hint) from None
+        reason = str(error) or type(error).__name__
+        raise UnreadableBagError(f"{path}: {reason}", hint) from None

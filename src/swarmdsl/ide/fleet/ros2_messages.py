@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from importlib import import_module
 from typing import Any
+
+_FLOAT = re.compile(r"\b(?:float|double)\b")
 
 
 def message_class(type_: str) -> Any:
@@ -28,12 +31,20 @@ def fill(message: Any, fields: Mapping[str, Any]) -> Any:
                 raise ValueError(f"`{name}` needs an object")
             fill(before, value)
             continue
-        # JSON has one kind of numbers.
-        is_whole = isinstance(before, float) and type(value) is int
-        if type(value) is not type(before) and not is_whole:
+        value = _as_floats(value) if _FLOAT.search(types[name]) else value
+        # Numbers are in an array of their type, which takes a list.
+        is_array = isinstance(value, list) and hasattr(before, "tolist")
+        if type(value) is not type(before) and not is_array:
             raise ValueError(f"`{name}` is a {types[name]}")
         try:
-            setattr(message, name, float(value) if is_whole else value)
+            setattr(message, name, value)
         except AssertionError:
             raise ValueError(f"{value} is no {types[name]}") from None
     return message
+
+
+def _as_floats(value: Any) -> Any:
+    """Return whole numbers as floating-point ones: JSON has one kind of numbers."""
+    if isinstance(value, list):
+        return [_as_floats(each) for each in value]
+    return float(value) if type(value) is int else value

@@ -17,6 +17,7 @@ from rich.text import Text
 from swarmdsl.base import interrupts
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.ide.fleet.watch import RECORDED, NotSentError, Watch
+from swarmdsl.ide.preview.trace_file import Turn
 
 _NAP = 0.25
 """Seconds between two looks."""
@@ -70,14 +71,16 @@ def lines_of(head: Mapping[str, Any]) -> dict[str, str]:
 
 
 def _write_changes(watch: Watch, out: TextIO) -> None:
-    """Write a line for each thing that has changed, without a terminal that could be drawn on."""
+    """Write a line for each thing that has changed, to the end of the trace or forever."""
     told: dict[str, str] = {}
-    for _ in watch.feed.follow():
+    for messages in watch.feed.follow():
         now = lines_of(watch.head())
         for key, line in now.items():
             if told.get(key) != line:
                 print(line, file=out, flush=True)
         told = now
+        if {"turn": Turn.ENDED.value} in messages:
+            return
         interrupts.raise_lost()
 
 

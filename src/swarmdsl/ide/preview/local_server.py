@@ -27,6 +27,8 @@ class LocalHandler(BaseHTTPRequestHandler):
     """Answers to pages of this computer; `policy` is that of all answers."""
 
     policy = "default-src 'none'"
+    # A client that neither asks nor listens gives its thread back.
+    timeout = 2 * KEEP_ALIVE
 
     def do_GET(self) -> None:
         """Answer a page of this computer, and no other."""

@@ -157,7 +157,7 @@ def _in_thread(listen: Callable[[Callable[[], None]], None], stop: Event) -> Ite
 
 
 class NodeTrace(Protocol):
-    """What is done with the messages of a node, until it ends."""
+    """Receiver of the messages of a node, until it ends."""
 
     def on_transition(self, message: Any) -> None:
         """Handle `~/transitions`: a line of the trace."""

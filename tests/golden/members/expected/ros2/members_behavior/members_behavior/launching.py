@@ -296,7 +296,10 @@ class _Launch:
         return LaunchConfiguration(argument).perform(self._context)
 
     def _is_on(self, argument):
-        return self._text(argument).lower() == 'true'
+        text = self._text(argument).lower()
+        if text not in ('true', '1', 'false', '0'):
+            raise RobotError(f'{argument} must be true or false, not `{text}`')
+        return text in ('true', '1')
 
 
 def _declared(arguments):

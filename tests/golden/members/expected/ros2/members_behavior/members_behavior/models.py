@@ -21,7 +21,7 @@ _DEPTH = 1000
 
 
 class Told(NamedTuple):
-    """What a node tells of itself and its model."""
+    """A node with its model, as it tells them."""
 
     node: str
     member: str
