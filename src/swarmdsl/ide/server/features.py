@@ -81,7 +81,7 @@ FEATURES: Mapping[str, Mapping[str, Any]] = {
         ),
         lsp.CODE_ACTION_RESOLVE: None,
     },
-    "preview": {"swarmdsl/pictures": None},
+    "preview": {"swarmdsl/pictures": None, "swarmdsl/diagramElements": None},
 }
 """By module name in `handlers`; its `REQUESTS` maps requests to functions."""
 

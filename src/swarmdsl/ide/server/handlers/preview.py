@@ -1,4 +1,4 @@
-"""Handler of `swarmdsl/pictures`, an extension of the protocol for the preview."""
+"""Handlers for the preview, extensions of the protocol."""
 
 from __future__ import annotations
 
@@ -9,15 +9,13 @@ from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcInvalidParams
 
 from swarmdsl.driver.pipeline import Result
+from swarmdsl.ide.server.diagram_elements import elements_at
 from swarmdsl.ide.server.session import Session
 
 
 def _pictures(session: Session, params: Any) -> dict[str, Any] | None:
     """Return the diagrams of a model; draw diagram `id` with the nodes in `folded` folded."""
-    uri = getattr(getattr(params, "textDocument", None), "uri", None)
-    if not isinstance(uri, str):
-        raise JsonRpcInvalidParams("`textDocument` is missing")
-    found = session.file(lsp.TextDocumentIdentifier(uri=uri))
+    found = session.file(_document(params))
     if found is None:
         return None
     # Layout and lowering are imported on the first request.
@@ -39,4 +37,25 @@ def _pictures(session: Session, params: Any) -> dict[str, Any] | None:
     }
 
 
-REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {"swarmdsl/pictures": _pictures}
+def _elements(session: Session, params: Any) -> list[dict[str, str]]:
+    """Return the elements of diagrams that show a position, see `elements_at`."""
+    document, at = _document(params), getattr(params, "position", None)
+    line, character = getattr(at, "line", None), getattr(at, "character", None)
+    if not (isinstance(line, int) and isinstance(character, int) and min(line, character) >= 0):
+        raise JsonRpcInvalidParams("`position` is missing")
+    place = session.place(document, lsp.Position(line, character))
+    found = elements_at(*place) if place is not None else []
+    return [{"diagram": diagram, "element": element} for diagram, element in found]
+
+
+def _document(params: Any) -> lsp.TextDocumentIdentifier:
+    uri = getattr(getattr(params, "textDocument", None), "uri", None)
+    if not isinstance(uri, str):
+        raise JsonRpcInvalidParams("`textDocument` is missing")
+    return lsp.TextDocumentIdentifier(uri=uri)
+
+
+REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
+    "swarmdsl/pictures": _pictures,
+    "swarmdsl/diagramElements": _elements,
+}
