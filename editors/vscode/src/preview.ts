@@ -1,11 +1,12 @@
 // Preview panel with the diagrams of a model, updated as the user types.
 
 import { randomBytes } from "node:crypto";
+import { basename } from "node:path";
 
 import * as vscode from "vscode";
 
 import type { Highlights, Moved } from "./highlights.ts";
-import type { Server } from "./server.ts";
+import type { Server, Status } from "./server.ts";
 import type { Subject } from "./subject.ts";
 
 /** Messages of the page. */
@@ -13,11 +14,24 @@ interface PageMessage {
   readonly want?: { readonly id: string; readonly folded: readonly string[] };
   readonly reveal?: string;
   readonly save?: { readonly name: string; readonly base64: string };
+  readonly run?: string;
+}
+
+/** Element of a diagram, as named by the language server; the frame has an empty name. */
+interface DiagramElement {
+  readonly diagram: string;
+  readonly element: string;
 }
 
 // Diagram kinds of swarmc by kind of subject.
 const DIAGRAMS = { swarm: "composition", member: "internal", machine: "statechart" } as const;
 const DEBOUNCE = 150;
+// Remedies that the page offers as buttons.
+const ACTIONS = [
+  { title: "Select Interpreter", command: "swarmdsl.selectInterpreter" },
+  { title: "Restart Server", command: "swarmdsl.restartServer" },
+  { title: "Show Log", command: "swarmdsl.showLog" },
+];
 
 /** Single panel for all models; it follows the active file. */
 export class Preview implements vscode.Disposable {
@@ -27,6 +41,9 @@ export class Preview implements vscode.Disposable {
   private wanted: PageMessage["want"];
   private highlights: Highlights | undefined;
   private isNew = false;
+  private isMove = false; // the cursor has moved, not only the text around it
+  private version: number | undefined; // of the text at the last position of the cursor
+  private positions = 0; // number of positions of the cursor
   private timer: NodeJS.Timeout | undefined;
   private readonly extension: vscode.Uri;
   private readonly server: Server;
@@ -37,14 +54,22 @@ export class Preview implements vscode.Disposable {
     this.extension = extension;
     this.listening = vscode.Disposable.from(
       vscode.workspace.onDidChangeTextDocument(({ document }) => this.follow(document)),
-      vscode.window.onDidChangeActiveTextEditor((each) => each && this.follow(each.document)),
-      vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.markCursor(textEditor)),
+      vscode.window.onDidChangeActiveTextEditor((each) => {
+        if (each?.document.languageId === "swarm") {
+          this.isMove = true;
+          this.follow(each.document);
+        }
+      }),
+      vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => {
+        this.isMove ||= textEditor.document.version === this.version;
+        void this.markCursor(textEditor);
+      }),
       // Catches changes of files that are not shown or not open.
       vscode.languages.onDidChangeDiagnostics(
         ({ uris }) => uris.some(({ path }) => path.endsWith(".swarm")) && this.scheduleUpdate(),
       ),
       server.onFiles(() => this.scheduleUpdate()),
-      server.onChange(({ kind }) => kind === "running" && this.scheduleUpdate()),
+      server.onChange(() => this.scheduleUpdate()),
     );
   }
 
@@ -54,10 +79,14 @@ export class Preview implements vscode.Disposable {
     const wanted = subject && `${subject.name}.${DIAGRAMS[subject.kind]}`;
     if (this.panel) {
       this.panel.reveal(undefined, true);
+      this.isMove = !wanted;
       await (wanted ? this.panel.webview.postMessage({ show: wanted }) : this.update());
       return;
     }
-    this.first = wanted;
+    const editor = vscode.window.activeTextEditor;
+    const atCursor = !wanted && editor ? await this.elements(editor) : [];
+    this.first = wanted ?? atCursor[0]?.diagram;
+    this.isMove = !wanted;
     const panel = vscode.window.createWebviewPanel(
       "swarmdsl.preview",
       "Swarm Preview",
@@ -116,7 +145,7 @@ export class Preview implements vscode.Disposable {
     return new TextDecoder().decode(await vscode.workspace.fs.readFile(file));
   }
 
-  private async receive({ want, reveal, save }: PageMessage): Promise<void> {
+  private async receive({ want, reveal, save, run }: PageMessage): Promise<void> {
     if (want !== undefined) {
       // A restored page first requests the diagram that it showed before.
       const first = this.isNew ? this.first : undefined;
@@ -136,6 +165,9 @@ export class Preview implements vscode.Disposable {
         viewColumn: vscode.ViewColumn.One,
         selection: new vscode.Range(at, at),
       });
+    }
+    if (ACTIONS.some(({ command }) => command === run)) {
+      await vscode.commands.executeCommand(run ?? "");
     }
     if (save && this.file) {
       const uri = await vscode.window.showSaveDialog({
@@ -164,20 +196,65 @@ export class Preview implements vscode.Disposable {
     if (!this.panel || !this.file) {
       return;
     }
-    const shown = await this.server.request("swarmdsl/pictures", {
-      textDocument: { uri: this.file.toString() },
-      ...this.wanted,
-    });
-    await this.panel?.webview.postMessage(shown ?? {});
-    if (vscode.window.activeTextEditor) {
-      this.markCursor(vscode.window.activeTextEditor);
+    const reason = unavailable(this.server.status);
+    const shown = reason ?? (await this.pictures(this.file));
+    await this.panel?.webview.postMessage(shown);
+    if (!reason && vscode.window.activeTextEditor) {
+      await this.markCursor(vscode.window.activeTextEditor);
     }
   }
 
-  private markCursor({ document, selection }: vscode.TextEditor): void {
-    if (this.panel && document.languageId === "swarm") {
-      const cursor = { file: document.uri.fsPath, line: selection.active.line + 1 };
-      void this.panel.webview.postMessage({ cursor });
+  private async pictures(file: vscode.Uri): Promise<object> {
+    const parameters = { textDocument: { uri: file.toString() }, ...this.wanted };
+    try {
+      const shown = await this.server.request<object | null>("swarmdsl/pictures", parameters);
+      return shown ?? explained(`${basename(file.fsPath)} is not open.`, []);
+    } catch (error) {
+      return explained(`The language server has not drawn the model: ${String(error)}.`);
     }
   }
+
+  private async markCursor(editor: vscode.TextEditor): Promise<void> {
+    if (!this.panel || editor.document.languageId !== "swarm") {
+      return;
+    }
+    this.version = editor.document.version;
+    const number = ++this.positions;
+    const cursor = await this.elements(editor);
+    // The answer to an earlier position must not win.
+    if (number === this.positions) {
+      const moved = this.isMove;
+      this.isMove = false;
+      await this.panel?.webview.postMessage({ cursor, moved });
+    }
+  }
+
+  /** Elements of diagrams at the cursor; none without a server, or with one that does not tell. */
+  private async elements({ document, selection }: vscode.TextEditor): Promise<DiagramElement[]> {
+    const { line, character } = selection.active;
+    const parameters = { textDocument: { uri: document.uri.toString() }, position: { line, character } };
+    try {
+      return (await this.server.request<DiagramElement[]>("swarmdsl/diagramElements", parameters)) ?? [];
+    } catch {
+      return [];
+    }
+  }
+}
+
+/** Message of why there are no diagrams; undefined if a server runs. */
+function unavailable(status: Status): object | undefined {
+  switch (status.kind) {
+    case "running":
+      return undefined;
+    case "starting":
+      return explained("The language server is starting.", []);
+    case "stopped":
+      return explained("The diagrams come from the language server, which is not running.");
+    case "missing":
+      return explained(`The diagrams come from the language server, which is missing. ${status.why}`);
+  }
+}
+
+function explained(text: string, actions = ACTIONS): object {
+  return { unavailable: { text, actions } };
 }

@@ -17,6 +17,8 @@ export type Status =
   | { readonly kind: "missing"; readonly why: string };
 
 export class Server implements vscode.Disposable {
+  /** The last status. */
+  status: Status = { kind: "starting" };
   private readonly changed = new vscode.EventEmitter<Status>();
   readonly onChange = this.changed.event;
   private readonly filesChanged = new vscode.EventEmitter<void>();
@@ -97,14 +99,14 @@ export class Server implements vscode.Disposable {
   private async start(found: Found): Promise<void> {
     if (!("launch" in found)) {
       this.log.error(found.missing);
-      this.changed.fire({ kind: "missing", why: found.missing });
+      this.tell({ kind: "missing", why: found.missing });
       showMissing(found);
       return;
     }
     const { launch } = found;
     this.launch = launch;
     this.log.info(`starting swarmc of ${launch.origin}: ${[launch.command, ...launch.args].join(" ")}`);
-    this.changed.fire({ kind: "starting" });
+    this.tell({ kind: "starting" });
     const client = new LanguageClient(
       "swarmdsl",
       "Swarm",
@@ -144,7 +146,7 @@ export class Server implements vscode.Disposable {
     );
     client.onDidChangeState(({ newState }) => {
       if (client === this.client || newState === State.Running) {
-        this.changed.fire(
+        this.tell(
           newState === State.Running
             ? { kind: "running", launch, version: client.initializeResult?.serverInfo?.version ?? "" }
             : { kind: newState === State.Starting ? "starting" : "stopped" },
@@ -156,8 +158,15 @@ export class Server implements vscode.Disposable {
       await client.start();
     } catch (error) {
       this.log.error(String(error));
-      showMissing({ missing: `The swarmc of ${launch.origin} did not start.` });
+      const why = `The swarmc of ${launch.origin} did not start.`;
+      this.tell({ kind: "missing", why });
+      showMissing({ missing: why });
     }
+  }
+
+  private tell(status: Status): void {
+    this.status = status;
+    this.changed.fire(status);
   }
 
   private async end(): Promise<void> {

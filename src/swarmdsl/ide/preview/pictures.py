@@ -37,7 +37,8 @@ class Message(Steps, total=False):
     """Update for a page; all keys are optional.
 
     `titles` are titles of all diagrams by id, `id` and `svg` one drawn diagram, `broken` the number
-    of errors. The id of a diagram is stable while its subject keeps its name.
+    of errors. The id of a diagram is stable while its subject keeps its name. `names` are those of
+    its nodes by id, `foldable` the ids of nodes that fold, both including hidden ones.
 
     `runs` maps the diagram of a state machine to those who run it, each with the prefix of its
     state ids in a submachine. A runner is a role (`uav`), a part of a role (`uav.camera`), or the
@@ -54,6 +55,8 @@ class Message(Steps, total=False):
     runs: Mapping[str, Sequence[tuple[str, str]]]
     id: str
     svg: str
+    names: Mapping[str, str]
+    foldable: Sequence[str]
     broken: int
     redrawn: Drawn
     active: Mapping[str, Sequence[str] | None]
@@ -77,7 +80,15 @@ class Pictures:
         """Draw the diagram of an id, else the first one; `hidden` nodes are folded."""
         named = (each for each in self._diagrams if each.stem == id_)
         found = next(named, self._diagrams[0] if self._diagrams else None)
-        return {"id": found.stem, "svg": svg(fold(found, hidden))} if found is not None else {}
+        if found is None:
+            return {}
+        nodes = [each for each in found.frame.walk() if each.kind not in ("frame", "initial")]
+        return {
+            "id": found.stem,
+            "svg": svg(fold(found, hidden)),
+            "names": {each.id: each.name for each in nodes},
+            "foldable": [each.id for each in nodes if each.foldable],
+        }
 
     @cached_property
     def files(self) -> frozenset[str]:

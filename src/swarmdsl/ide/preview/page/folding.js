@@ -1,6 +1,6 @@
 // Folded nodes of diagrams, and their fold marks.
 
-import { made, sides } from "./shapes.js";
+import { made, outer, sides } from "./shapes.js";
 
 const HALF = 7;
 const OUT = 3; // outside of the lines
@@ -26,6 +26,22 @@ export class Folding {
     const folded = this.of(diagram);
     const others = folded.filter((each) => each !== id);
     this.#folded[diagram] = others.length < folded.length ? others : [...folded, id];
+  }
+
+  /** Fold exactly these nodes of a diagram. */
+  fold(diagram, ids) {
+    this.#folded[diagram] = [...ids];
+  }
+
+  /** Unfold the nodes around an element; returns true if one was folded. */
+  unfoldPath(diagram, id) {
+    const around = new Set();
+    for (let each = outer(id); each; each = outer(each)) {
+      around.add(each);
+    }
+    const before = this.of(diagram);
+    this.fold(diagram, before.filter((each) => !around.has(each)));
+    return this.of(diagram).length < before.length;
   }
 
   /** Draw a mark at the corner of each foldable node. */

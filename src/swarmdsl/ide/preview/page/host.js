@@ -1,5 +1,6 @@
 // Connection to the host: an editor that embeds the page, or swarmc over HTTP. An editor receives
-// `{ want: { id, folded } }`, `{ reveal: "FILE:LINE:COLUMN" }` and `{ save: { name, base64 } }`.
+// `{ want: { id, folded } }`, `{ reveal: "FILE:LINE:COLUMN" }`, `{ save: { name, base64 } }` and
+// `{ run: COMMAND }`.
 
 const editor = typeof acquireVsCodeApi === "function" ? acquireVsCodeApi() : undefined;
 const DARK = window.matchMedia("(prefers-color-scheme: dark)");
@@ -8,9 +9,19 @@ const KEY = "swarm-preview";
 export const isInEditor = editor !== undefined;
 
 /** True if the page is dark; an editor has its own theme. */
-export function isDark() {
+function isDark() {
+  if (!editor) {
+    return DARK.matches;
+  }
+  // Light themes of high contrast have the class of all of high contrast, too.
   const theme = document.body.classList;
-  return editor ? theme.contains("vscode-dark") || theme.contains("vscode-high-contrast") : DARK.matches;
+  const isContrast = theme.contains("vscode-high-contrast") && !theme.contains("vscode-high-contrast-light");
+  return theme.contains("vscode-dark") || isContrast;
+}
+
+/** A picture in the colours of the theme. */
+export function coloured(svg) {
+  return svg.replaceAll("(prefers-color-scheme: dark)", isDark() ? "all" : "not all");
 }
 
 /** State stored for the lifetime of the view or tab. */
@@ -58,6 +69,11 @@ export async function reveal(place, say) {
   if (address) {
     location.href = address;
   }
+}
+
+/** Run a command of the editor that it has offered. */
+export function run(command) {
+  editor?.postMessage({ run: command });
 }
 
 /** Save a file where the user chooses. */

@@ -1,66 +1,74 @@
 // Preview page, in a browser (`swarmc preview`) or in a view of an editor.
 //
-// Messages of the host: `{ titles: { ID: TITLE }, runs }`, `{ id, svg }` with a drawn diagram,
-// `{ broken }` with the number of errors (the picture stays), `{ active }` with active states,
+// Messages of the host: `{ titles: { ID: TITLE }, runs }`, `{ id, svg, names, foldable }` with a drawn
+// diagram, `{ broken }` with the number of errors (the picture stays), `{ active }` with active states,
 // `{ taken, entered }` with transitions just taken and states they entered,
 // `{ redrawn: { id, svg } }` with a new picture of a diagram, for pages that show it,
-// `{ cursor: { file, line } }` and `{ show: ID }`.
+// `{ cursor: [{ diagram, element }], moved }`, `{ show: ID }`, and
+// `{ unavailable: { text, actions: [{ title, command }] } }` if there are no diagrams.
 
+import { Cursor } from "./cursor.js";
+import { saveButtons } from "./export.js";
 import { Folding } from "./folding.js";
-import * as host from "./host.js";
 import { Highlight } from "./highlight.js";
-import { node } from "./shapes.js";
+import * as host from "./host.js";
+import { focused, makeReachable, neighbour } from "./keys.js";
+import { Search } from "./search.js";
+import { visible } from "./shapes.js";
+import { Status } from "./status.js";
 import { View } from "./view.js";
 
-const [which, who, state, note, canvas, picture] = [
-  "which",
-  "who",
-  "state",
-  "note",
-  "view",
-  "picture",
-].map((id) => document.getElementById(id));
+const element = (id) => document.getElementById(id);
+const [which, canvas, picture] = ["which", "view", "picture"].map(element);
 const before = host.remembered();
 const folding = new Folding(before.folded);
-const highlight = new Highlight(who, () => update());
+const highlight = new Highlight(element("who"), () => update());
 const view = new View(canvas, picture, click);
+const cursor = new Cursor();
+const status = new Status(element("state"), element("note"), element("explanation"));
+const search = new Search(element("find"), element("names"), find, () => canvas.focus());
 let titles = {};
-let drawn; // { id, svg }
+let drawn; // { id, svg, names, foldable }
+// Diagram to show; while the model has errors, another one may be drawn.
 let shown = (!host.isInEditor && decodeURIComponent(location.hash.slice(1))) || (before.shown ?? "");
-let cursor;
 let wants = 0; // number of requested pictures
 let touched; // node folded or unfolded last, until its picture arrives
+let sought; // element to show when its picture arrives
+let isNew = false; // no element of the diagram has been shown
 
 // ---- drawing
 
-/** A picture in the colours of the theme. */
-function coloured(svg) {
-  return svg.replaceAll("(prefers-color-scheme: dark)", host.isDark() ? "all" : "not all");
-}
-
 function draw() {
+  const focus = document.hasFocus() ? focused(picture)?.dataset.id : undefined;
   // SVG from swarmc: names are escaped, and the page runs no scripts in it.
-  picture.innerHTML = drawn ? coloured(drawn.svg) : "";
-  mark();
+  picture.innerHTML = drawn ? host.coloured(drawn.svg) : "";
+  makeReachable(picture);
+  cursor.mark(picture, drawn?.id);
+  search.learn(drawn?.names ?? {});
+  element("folding").hidden = !drawn?.foldable?.length;
   if (drawn) {
     folding.mark(picture);
     update();
   }
+  if (focus !== undefined) {
+    visible(picture, focus)?.focus({ preventScroll: true });
+  }
 }
 
 function update() {
-  highlight.show(picture, shown);
+  highlight.show(picture, drawn?.id);
 }
 
 /** Request the picture to show; an editor may answer with another one. */
 function want() {
   const number = ++wants;
-  void host.want(shown, folding.of(shown), (message) => {
+  const answer = (message) => {
     // A slower answer to an earlier request must not win.
     if (number === wants) {
       receive(message);
     }
-  });
+  };
+  host.want(shown, folding.of(shown), answer).catch(() => status.end());
 }
 
 function remember() {
@@ -79,12 +87,14 @@ function receive(message) {
     receivePicture(message);
   }
   if (message.redrawn?.id === shown) {
-    receivePicture(message.redrawn);
+    receivePicture({ ...drawn, ...message.redrawn });
   }
-  which.value = shown;
+  which.value = drawn?.id ?? shown;
   if (message.broken !== undefined) {
-    const errors = `${message.broken} error${message.broken === 1 ? "" : "s"}`;
-    state.textContent = drawn ? `${errors}: showing the last valid version` : errors;
+    status.tellErrors(message.broken, drawn !== undefined);
+  }
+  if (message.unavailable) {
+    status.explain(message.unavailable, drawn !== undefined, host.run);
   }
   if (message.active) {
     highlight.move(message.active);
@@ -97,40 +107,48 @@ function receive(message) {
     update();
   }
   if (message.taken || message.entered) {
-    highlight.flash(picture, shown, message.taken ?? {}, message.entered ?? {});
+    highlight.flash(picture, drawn?.id, message.taken ?? {}, message.entered ?? {});
   }
   if (message.show) {
     show(message.show);
   }
   if (message.cursor) {
-    cursor = message.cursor;
-    mark();
+    follow(message);
   }
 }
 
 function list(all) {
   titles = all;
   which.replaceChildren(...Object.entries(titles).map(([id, title]) => new Option(title, id)));
-  state.textContent = "";
+  status.clear();
   if (!Object.keys(titles).length) {
-    state.textContent = "the model has nothing to draw";
+    status.explain({ text: "The model has nothing to draw." }, false);
     drawn = undefined;
     draw();
   }
 }
 
-function receivePicture({ id, svg }) {
+function receivePicture({ id, svg, names, foldable }) {
   const isOther = id !== drawn?.id;
-  drawn = { id, svg };
+  drawn = { id, svg, names, foldable };
   shown = id;
   remember();
+  const stays = touched ?? cursor.in(shown);
   if (isOther) {
     draw();
     view.fit();
+    const marked = cursor.mark(picture, drawn?.id);
+    if (marked) {
+      view.approach(marked);
+    }
+    isNew = !marked;
   } else {
-    view.keeping(() => touched && node(picture, touched), draw);
+    view.keeping(() => stays && visible(picture, stays), draw);
   }
   touched = undefined;
+  if (sought !== undefined) {
+    visit(sought);
+  }
 }
 
 function show(id) {
@@ -139,24 +157,23 @@ function show(id) {
   want();
 }
 
-/** Mark the node at the cursor: the last one that starts before it. */
-function mark() {
-  let best;
-  let line = 0;
-  for (const each of picture.querySelectorAll("[data-place]")) {
-    each.classList.remove("marked");
-    const place = parsed(each.dataset.place);
-    if (cursor && place?.file === cursor.file && place.line <= cursor.line && place.line >= line) {
-      best = each;
-      line = place.line;
-    }
+/** Mark the element at the cursor, and show it in its diagram. */
+function follow({ cursor: elements, moved }) {
+  const before = cursor.in(drawn?.id);
+  const next = cursor.move(elements, moved, shown, titles);
+  if (next !== shown) {
+    show(next);
+    return;
   }
-  best?.classList.add("marked");
-}
-
-function parsed(place) {
-  const found = /^(.*):(\d+):(\d+)$/.exec(place);
-  return found && { file: found[1], line: Number(found[2]), column: Number(found[3]) };
+  const marked = cursor.mark(picture, drawn?.id);
+  if (marked && before !== cursor.in(drawn?.id)) {
+    if (isNew) {
+      view.approach(marked);
+    } else {
+      view.reveal(marked);
+    }
+    isNew = false;
+  }
 }
 
 // ---- user actions
@@ -165,59 +182,106 @@ function click(target) {
   const fold = target.closest(".fold");
   const place = target.closest("[data-place]")?.dataset.place;
   if (fold) {
-    toggle(fold);
+    toggle(fold.dataset.of);
   } else if (place) {
-    void host.reveal(place, (text) => (note.textContent = text));
+    open(place);
   }
 }
 
-function toggle(fold) {
-  touched = fold.dataset.of;
-  folding.toggle(shown, touched);
+function open(place) {
+  void host.reveal(place, (text) => status.note(text));
+}
+
+function toggle(id) {
+  touched = id;
+  folding.toggle(shown, id);
   remember();
   want();
 }
 
+function foldAll(ids) {
+  touched = undefined;
+  folding.fold(shown, ids);
+  remember();
+  want();
+}
+
+/** Unfold what hides an element, and show it. */
+function reach(id) {
+  status.note(id ? "" : "the cursor is at no element of this diagram");
+  sought = id;
+  if (folding.unfoldPath(shown, id)) {
+    remember();
+    want();
+  } else {
+    visit(id);
+  }
+}
+
+function visit(id) {
+  sought = undefined;
+  const found = visible(picture, id);
+  if (found) {
+    view.approach(found);
+    for (const each of picture.querySelectorAll(".found")) {
+      each.classList.remove("found");
+    }
+    found.classList.add("found");
+  }
+}
+
+function find(id, number, count) {
+  if (id !== undefined) {
+    reach(id);
+  }
+  status.note(id === undefined ? "no such name here" : `${number} of ${count}`);
+}
+
 picture.addEventListener("keydown", (event) => {
-  const fold = event.target.closest(".fold");
-  if (fold && (event.key === "Enter" || event.key === " ")) {
+  const [fold, at] = [event.target.closest(".fold"), focused(picture)];
+  if (event.key === "Enter" && at?.dataset.place) {
+    open(at.dataset.place);
+  } else if ([" ", "Enter"].includes(event.key) && (fold || at?.dataset.fold)) {
+    toggle(fold?.dataset.of ?? at.dataset.id);
+  } else {
+    return;
+  }
+  event.preventDefault();
+});
+canvas.addEventListener("keydown", (event) => {
+  const from = focused(picture) ?? picture.querySelector(".node.marked, .node.lit");
+  const next = event.shiftKey ? undefined : neighbour(picture, from, event.key);
+  if (next) {
     event.preventDefault();
-    toggle(fold);
+    next.focus({ preventScroll: true });
+  }
+});
+picture.addEventListener("focusin", ({ target }) => {
+  // Not on a click, which would move what the pointer is on.
+  if (target.matches(".node:focus-visible, .fold:focus-visible")) {
+    view.reveal(target);
   }
 });
 which.addEventListener("change", () => show(which.value));
-document.getElementById("fit").addEventListener("click", () => view.fit());
-
-// ---- export
-
-function asBlob(svg) {
-  return new Blob([svg], { type: "image/svg+xml" });
+for (const [id, act] of Object.entries({
+  "zoom-out": () => view.zoom(0.8),
+  "zoom-in": () => view.zoom(1.25),
+  fit: () => view.fit(),
+  "fold-all": () => foldAll(drawn.foldable),
+  "unfold-all": () => foldAll([]),
+  "unfold-path": () => reach(cursor.in(shown) ?? ""),
+})) {
+  element(id).addEventListener("click", act);
 }
-
-document.getElementById("svg").addEventListener("click", () => {
-  if (drawn) {
-    void host.save(`${drawn.id}.svg`, asBlob(drawn.svg));
-  }
-});
-
-document.getElementById("png").addEventListener("click", async () => {
-  if (!drawn) {
-    return;
-  }
-  const { id, svg } = drawn;
-  const image = new Image();
-  image.src = URL.createObjectURL(asBlob(coloured(svg)));
-  await image.decode();
-  const sheet = document.createElement("canvas");
-  [sheet.width, sheet.height] = view.size.map((each) => each * 2); // for print
-  sheet.getContext("2d").drawImage(image, 0, 0, sheet.width, sheet.height);
-  URL.revokeObjectURL(image.src);
-  sheet.toBlob((blob) => blob && host.save(`${id}.png`, blob));
-});
+element("unfold-path").hidden = !host.isInEditor; // only an editor has a cursor
+saveButtons(
+  () => drawn,
+  () => view.size,
+);
 
 // ---- messages of the host
 
-host.listen(receive, () => (state.textContent = "swarmc preview has ended"), draw);
+host.listen(receive, () => status.end(), draw);
 if (host.isInEditor) {
   want();
 }
