@@ -66,7 +66,7 @@ async def elements(client, document, whole, text, after=""):
         "position": {"line": line, "character": character},
     }
     found = await client.protocol.send_request_async("swarmdsl/diagramElements", params)
-    return [(each.diagram, each.element) for each in found]
+    return [(each["diagram"], each["element"]) for each in found]
 
 
 async def test_elements_of_diagrams_at_a_position(client, editor, folder):
@@ -96,8 +96,14 @@ async def test_elements_of_nested_states_members_and_swarms(client, editor, fold
         ("connect eye", "connector0", "role.digger"),
         ("out seen", ":seen", "role.digger"),
     ):
-        assert await elements(client, document, DIAGRAMS, text) == [*zip(inside, (part, role), strict=True)]
-    assert await elements(client, document, DIAGRAMS, "out image") == [("Digger.internal", "eye:image")]
+        assert await elements(client, document, DIAGRAMS, text) == [
+            *zip(inside, (part, role), strict=True)
+        ]
+    assert await elements(client, document, DIAGRAMS, "out image") == [
+        ("Digger.internal", "eye:image")
+    ]
     assert await elements(client, document, DIAGRAMS, "digger : D") == [(team, "role.digger")]
-    assert await elements(client, document, DIAGRAMS, "environment Y", "swarm") == [(team, "environment")]
+    assert await elements(client, document, DIAGRAMS, "environment Y", "swarm") == [
+        (team, "environment")
+    ]
     assert await elements(client, document, DIAGRAMS, "world") == [(team, "environment")]
