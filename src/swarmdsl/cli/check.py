@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from swarmdsl.base.diagnostics.render import WITH_FIXES
 from swarmdsl.base.errors import UsageError
 from swarmdsl.cli.exit_code import briefly, conclude
 from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH, Option
@@ -15,8 +16,6 @@ FIXES = (
     Option("unsafe_fixes", ("--unsafe-fixes",), "With --fix or --diff: also fix what is a guess."),
     Option("diff", ("--diff",), "Show the fixes as a diff; write nothing."),
 )
-# Formats that list the fixes of each diagnostic.
-WITH_FIXES = ("json", "sarif")
 OPTIONS = (WATCH, *FIXES, *LEVELS, FORMAT)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.diagnostics.render import counted
+from swarmdsl.base.diagnostics.render import WITH_FIXES, counted
 from swarmdsl.base.rewriting import Layout
 from swarmdsl.cli.exit_code import ERRORS, conclude
 from swarmdsl.driver.config.settings import Settings
@@ -54,7 +54,9 @@ def write_fixes(paths: Sequence[Path], settings: Settings, format_: str, *, unsa
         sys.stderr.write(f"{where}{found.code}: {fix.title}\n")
     if fixed.applied:
         sys.stderr.write(f"{_counted(fixed)} fixed\n")
-    report = add_fixes(workspace.report, workspace)
+    report = workspace.report
+    if format_ in WITH_FIXES:
+        report = add_fixes(report, workspace)
     return conclude(Result(report, workspace.files), format_, sys.stdout)
 
 

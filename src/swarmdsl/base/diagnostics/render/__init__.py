@@ -20,6 +20,8 @@ _MODULES = {
 FORMATS = tuple(_MODULES)
 DOCUMENTS = ("sarif",)
 """Formats of which a run writes one document, with all its diagnostics."""
+WITH_FIXES = ("json", "sarif")
+"""Formats that list the fixes of each diagnostic."""
 
 
 def render(found: Iterable[Diagnostic], format_: str, stream: TextIO) -> None:
