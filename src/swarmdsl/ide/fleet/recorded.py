@@ -7,7 +7,7 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
-from swarmdsl.base.read_files import is_file
+from swarmdsl.base.read_files import is_file, is_folder
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.ide.fleet.sensed import BATTERY, TYPES, moved_line, place_of, share_of
 from swarmdsl.ide.fleet.told_lines import LINES, TOPICS, member_in, model_in, time_of
@@ -113,7 +113,7 @@ def _opened(path: Path) -> Iterator[Any]:
         raise UnreadableBagError(
             f"bags need the Python package rosbags: {error}", _NEEDED
         ) from None
-    folder = path if path.is_dir() else path.parent
+    folder = path if is_folder(path) else path.parent
     with ExitStack() as stack:
         with _told(path):
             types = get_typestore(Stores.ROS2_JAZZY)
