@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -20,7 +19,6 @@ Levels = Mapping[str, Level]
 _NONE: frozenset[Any] = frozenset()
 
 
-@dataclass(eq=False)
 class Fragment:
     """Unit of parsing, linking and checking: a part of a file, mostly one declaration.
 
@@ -30,15 +28,14 @@ class Fragment:
     never linked again.
     """
 
-    source: Source
-    file: File
-    parser: ReportingParser
-    levels: Levels
-    uses: tuple[Fragment, ...] = ()
-    users: frozenset[Fragment] | set[Fragment] = _NONE
-    runs: frozenset[StateMachine] = _NONE
-
-    def __post_init__(self) -> None:
+    def __init__(self, source: Source, file: File, parser: ReportingParser, levels: Levels) -> None:
+        self.source = source
+        self.file = file
+        self.parser = parser
+        self.levels = levels
+        self.uses: tuple[Fragment, ...] = ()
+        self.users: frozenset[Fragment] | set[Fragment] = _NONE
+        self.runs: frozenset[StateMachine] = _NONE
         self.syntax = Diagnostics(self.levels)
         self.parsed = self.parser(self.source, self.syntax)
         self.forget()
