@@ -2,32 +2,22 @@
 
 from __future__ import annotations
 
-import gc
 import re
-import signal
 import sys
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from swarmdsl.base import interrupts
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.diagnostics.render import render
-from swarmdsl.cli import options
+from swarmdsl.cli import options, served_page
 from swarmdsl.cli.exit_code import ERRORS, OK
 
 if TYPE_CHECKING:
     from swarmdsl.execution.simulate.prepare import Prepared
     from swarmdsl.ide.fleet.watch import Watch
-
-Tell = Callable[[Diagnostics], None]
-
-_NAP = 0.2
-"""Seconds between two looks for an interrupt."""
 _LOOPBACK = "127.0.0.1"
 _TOKEN = re.compile(r"[A-Za-z0-9._~-]+")
 """Characters that need no quotes in an address or a cookie."""
@@ -89,7 +79,6 @@ def fleet(
     from swarmdsl.base.forced_end import forced_end
     from swarmdsl.execution.simulate.prepare import Request
     from swarmdsl.ide.preview.ros2 import PREFIX, UnavailableError
-    from swarmdsl.tools.player.command import prepare_traces
 
     names = [each.removeprefix(PREFIX) for each in sources or (PREFIX,) if each.startswith(PREFIX)]
     others = [each for each in sources if not each.startswith(PREFIX)]
@@ -101,27 +90,16 @@ def fleet(
         raise click.UsageError("`--terminal` serves no page: leave out its other options")
     if host not in (_LOOPBACK, "localhost") and token is None:
         raise click.UsageError("`--host` needs `--token`: others can reach the page")
-    gc.enable()  # it runs for hours
-    if hasattr(signal, "SIGPIPE"):
-        # A page may be closed while it is written to; others stay.
-        signal.signal(signal.SIGPIPE, signal.SIG_IGN)
-
-    def tell(report: Diagnostics) -> None:
-        render(report, "text", sys.stderr)
-
-    report = Diagnostics()
-    prepared = prepare_traces(Request(paths, swarm=swarm), [Path("trace")], report)
-    tell(report)
-    if report.has_errors:
+    served_page.run_for_hours()
+    prepared, failed = served_page.prepared_to_grow(Request(paths, swarm=swarm), Path("trace"))
+    if failed:
         return ERRORS
     with ExitStack() as stack:
         stack.enter_context(forced_end())
         try:
-            watch = _begun(prepared, names, others, tell, stack)
+            watch = _begun(prepared, names, others, stack)
         except UnavailableError as error:
-            failed = Diagnostics()
-            failed.report("ros2-unavailable", reason=str(error), help=error.hint)
-            tell(failed)
+            served_page.tell_of_ros(error)
             return ERRORS
         if watch is None:
             return ERRORS
@@ -141,7 +119,6 @@ def _begun(
     prepared: Prepared | None,
     names: Sequence[str],
     others: Sequence[str],
-    tell: Tell,
     stack: ExitStack,
 ) -> Watch | None:
     """Return the watch over the robots of a source; None if it cannot be read, which is told."""
@@ -152,6 +129,7 @@ def _begun(
     from swarmdsl.ide.preview.ros2 import spinning
     from swarmdsl.tools.player.record import record_nothing
 
+    tell = served_page.tell
     subject = prepared.subject if prepared is not None else None
     source = others[0] if others else "ROS 2"
     recording = record_nothing(prepared, source)
@@ -181,13 +159,6 @@ def _serve(
     """Serve the page until the user ends it."""
     from swarmdsl.ide.fleet.serving import serving
 
-    try:
-        address = stack.enter_context(serving(watch, host, port, token))
-    except OSError as error:
-        raise click.ClickException(f"{host}, port {port}: {error.strerror}") from error
-    click.echo(address)
-    if opens:
-        click.launch(address)
-    while True:
-        time.sleep(_NAP)
-        interrupts.raise_lost()
+    page = serving(watch, host, port, token)
+    served_page.opened(page, f"{host}, port {port}", opens, stack)
+    served_page.wait_for_interrupt()

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import gc
-import signal
 import sys
-import time
 from collections.abc import Collection
 from contextlib import ExitStack
 from pathlib import Path
@@ -14,7 +11,6 @@ from typing import TYPE_CHECKING
 import click
 from click.core import ParameterSource
 
-from swarmdsl.base import interrupts
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import DOCUMENTS, render
 from swarmdsl.cli import options, run_options
@@ -23,9 +19,6 @@ from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostic
     from swarmdsl.execution.simulate.prepare import Request
-
-_NAP = 0.2
-"""Seconds between two looks for an interrupt."""
 
 
 @click.command(
@@ -186,35 +179,19 @@ def _check_alone(taken: Collection[str]) -> None:
 def _follow(request: Request, trace: str, port: int, opens: bool) -> int:
     """Serve the page of a trace until the user ends it."""
     from swarmdsl.base.forced_end import forced_end
+    from swarmdsl.cli import served_page
     from swarmdsl.ide.preview.live_player import playing
-    from swarmdsl.tools.player.command import prepare_traces
 
-    gc.enable()  # it runs for hours
-    if hasattr(signal, "SIGPIPE"):
-        # A page may be closed while it is written to; others stay.
-        signal.signal(signal.SIGPIPE, signal.SIG_IGN)
-
-    def tell(report: Diagnostics) -> None:
-        render(report, "text", sys.stderr)
-
-    report = Diagnostics()
-    prepared = prepare_traces(request, [Path(trace)], report)
-    tell(report)
-    if report.has_errors:
+    served_page.run_for_hours()
+    prepared, failed = served_page.prepared_to_grow(request, Path(trace))
+    if failed:
         return ERRORS
     with ExitStack() as stack:
         stack.enter_context(forced_end())
+        page = playing(prepared, trace, port, served_page.tell)
+        served_page.opened(page, f"port {port}", opens, stack)
         try:
-            address = stack.enter_context(playing(prepared, trace, port, tell))
-        except OSError as error:
-            raise click.ClickException(f"port {port}: {error.strerror}") from error
-        click.echo(address)
-        if opens:
-            click.launch(address)
-        try:
-            while True:
-                time.sleep(_NAP)
-                interrupts.raise_lost()
+            served_page.wait_for_interrupt()
         except KeyboardInterrupt:
             click.echo(err=True)
     return OK

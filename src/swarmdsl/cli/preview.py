@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import gc
 import os
-import signal
 import sys
 from contextlib import ExitStack
 from pathlib import Path
@@ -71,8 +69,8 @@ def preview(
     simulation in real time or of others.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics
-    from swarmdsl.base.diagnostics.render import render
     from swarmdsl.base.forced_end import forced_end
+    from swarmdsl.cli import served_page
     from swarmdsl.cli.exit_code import briefly
     from swarmdsl.cli.watch import Concluded, watch_files
     from swarmdsl.driver.config.command_line import run_settings
@@ -83,10 +81,7 @@ def preview(
     from swarmdsl.ide.preview.ros2 import PREFIX, UnavailableError, listening
     from swarmdsl.ide.preview.serving import Snapshot, serving
 
-    gc.enable()  # it runs for hours
-    if hasattr(signal, "SIGPIPE"):
-        # A page may be closed while it is written to; others stay.
-        signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+    served_page.run_for_hours()
     snapshot = Snapshot()
 
     def settings(report: Diagnostics) -> Settings:
@@ -103,24 +98,15 @@ def preview(
 
         return Concluded(len(result.report) > 0, say)
 
-    def tell(report: Diagnostics) -> None:
-        render(report, "text", sys.stderr)
-
     nodes = [each.removeprefix(PREFIX) for each in traces if each.startswith(PREFIX)]
     with ExitStack() as stack:
         stack.enter_context(forced_end())
         try:
-            stack.enter_context(listening(nodes, snapshot, tell))
+            stack.enter_context(listening(nodes, snapshot, served_page.tell))
         except UnavailableError as error:
-            report = Diagnostics()
-            report.report("ros2-unavailable", reason=str(error), help=error.hint)
-            tell(report)
+            served_page.tell_of_ros(error)
             return 1
-        try:
-            address = stack.enter_context(serving(snapshot, port, editor))
-        except OSError as error:
-            raise click.ClickException(f"port {port}: {error.strerror}") from error
-        follow([each for each in traces if not each.startswith(PREFIX)], snapshot, tell)
-        if opens:
-            click.launch(address)
+        page = serving(snapshot, port, editor)
+        address = served_page.opened(page, f"port {port}", opens, stack, say=False)
+        follow([each for each in traces if not each.startswith(PREFIX)], snapshot, served_page.tell)
         return watch_files(paths, settings, show)
