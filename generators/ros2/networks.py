@@ -10,7 +10,7 @@ from swarmdsl.ir import Delivery, Named, StateMachine, System
 
 from .launch import Launch, LaunchedRole
 from .names import TARGET, type_name
-from .network_faults import LAST_DOMAIN
+from .network_options import LAST_DOMAIN
 from .options import Options
 from .package import heard_events, sent_events
 from .topics import place

@@ -6,7 +6,7 @@ from swarmdsl.codegen import dataclass, option
 from swarmdsl.codegen.ros import PackageOptions, copyright_fault, packages_fault
 
 from .names import NAMES
-from .network_faults import NETWORKS, domain_fault, lease_fault, peers_fault
+from .network_options import domain_option, lease_option, network_option, peers_option
 
 
 @dataclass(frozen=True)
@@ -32,25 +32,7 @@ class Options(PackageOptions):
         False, "`compose.yaml` and a container file, with a service for each robot"
     )
     lifecycle: bool = option(False, "managed nodes: configured and activated from outside")
-    network: str = option(
-        "none",
-        "settings for the radio between robots: DDS profiles, a domain for each robot, or Zenoh",
-        choices=NETWORKS,
-    )
-    peers: str = option(
-        "",
-        "addresses of the robots' computers, separated by commas; `uav-0` of `uav[0]` when empty",
-        check=peers_fault,
-    )
-    domain: int = option(
-        10,
-        "domain in which the swarm meets; the robots have the next ones",
-        check=domain_fault,
-        only="network=domains",
-    )
-    lease: int = option(
-        600,
-        "seconds for which events wait for a robot that is out of reach",
-        check=lease_fault,
-        only="network=wifi",
-    )
+    network: str = network_option()
+    peers: str = peers_option()
+    domain: int = domain_option()
+    lease: int = lease_option()

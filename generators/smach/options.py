@@ -5,7 +5,7 @@ from __future__ import annotations
 from swarmdsl.codegen import dataclass, option
 from swarmdsl.codegen.ros import PackageOptions, copyright_fault, packages_fault
 
-from ..ros2.network_faults import NETWORKS, domain_fault, lease_fault, peers_fault
+from ..ros2.network_options import domain_option, lease_option, network_option, peers_option
 from .names import NAMES
 
 
@@ -81,30 +81,10 @@ class Options(PackageOptions):
     lifecycle: bool = option(
         False, "managed nodes: configured and activated from outside", only="ros=2"
     )
-    network: str = option(
-        "none",
-        "settings for the radio between robots: DDS profiles, a domain for each robot, or Zenoh",
-        choices=NETWORKS,
-        only="ros=2",
-    )
-    peers: str = option(
-        "",
-        "addresses of the robots' computers, separated by commas; `uav-0` of `uav[0]` when empty",
-        check=peers_fault,
-        only="ros=2",
-    )
-    domain: int = option(
-        10,
-        "domain in which the swarm meets; the robots have the next ones",
-        check=domain_fault,
-        only="network=domains",
-    )
-    lease: int = option(
-        600,
-        "seconds for which events wait for a robot that is out of reach",
-        check=lease_fault,
-        only="network=wifi",
-    )
+    network: str = network_option(only="ros=2")
+    peers: str = peers_option(only="ros=2")
+    domain: int = domain_option()
+    lease: int = lease_option()
 
     @property
     def timeouts(self) -> dict[str, int]:
