@@ -16,9 +16,9 @@ from .radio import missing
 
 PERIOD, TIMEOUT = 0.2, 2.5
 SLACK = 2.0
-"""What a machine that does much else may add to a timeout, in seconds."""
+"""Seconds that a machine which does much else may add to a timeout."""
 _FOUND = 10.0
-"""What DDS may take to find a new process on a busy machine, in seconds."""
+"""Seconds that DDS may take to find a new process on a busy machine."""
 _ROUNDED = 0.002
 """Error of times that are rounded to milliseconds, in seconds."""
 

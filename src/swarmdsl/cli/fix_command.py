@@ -11,7 +11,7 @@ from swarmdsl.base.diagnostics.render import WITH_FIXES, counted
 from swarmdsl.base.rewriting import Layout
 from swarmdsl.cli.exit_code import ERRORS, conclude
 from swarmdsl.driver.config.settings import Settings
-from swarmdsl.driver.fixes import add_fixes, fixes_of
+from swarmdsl.driver.fixes import SLOW, add_fixes, fixes_of
 from swarmdsl.driver.fixes.application import Fixed, fix_all, layouts_of
 from swarmdsl.driver.format_files import write
 from swarmdsl.driver.pipeline import Result
@@ -29,7 +29,7 @@ def fixable(settings: Settings) -> str | None:
     """Return how many problems of a model have fixes, and which options write them."""
     workspace = Workspace(settings.sources, settings)
     # It takes long to find out which new names fit.
-    found = [each for each in workspace.report if each.name != "naming-style"]
+    found = [each for each in workspace.report if each.name != SLOW]
     fixes = [made for each in found if (made := fixes_of(each, workspace))]
     if not fixes:
         return None

@@ -18,6 +18,9 @@ from swarmdsl.driver.fixes.new_names import renamed
 from swarmdsl.driver.fixes.problem import Problem, Rule
 from swarmdsl.driver.workspace import Workspace
 
+SLOW = "naming-style"
+"""Diagnostic whose fix is tried on the whole model, since a new name may mean something else."""
+
 
 @cache
 def _rules() -> tuple[tuple[re.Pattern[str], Rule], ...]:
@@ -36,8 +39,7 @@ def fixes_of(found: Diagnostic, workspace: Workspace, *, unsafe: bool = True) ->
         return ()
     # The workspace may have read the file anew since: for a rename that was tried.
     problem = Problem(found, workspace, file, Span(file.source, span.start, span.end))
-    if found.name == "naming-style":
-        # Never safe, and slow: the new name is tried.
+    if found.name == SLOW:  # and never safe
         return renamed(problem) if unsafe else ()
     for pattern, rule in _rules():
         if (match := pattern.fullmatch(found.help)) is not None:
@@ -46,6 +48,10 @@ def fixes_of(found: Diagnostic, workspace: Workspace, *, unsafe: bool = True) ->
 
 
 def add_fixes(report: Diagnostics, workspace: Workspace) -> Diagnostics:
-    """Add the fixes to the diagnostics of a workspace."""
-    report.change(lambda found: replace(found, fixes=fixes_of(found, workspace)))
+    """Add the fixes to the diagnostics of a workspace, but for slow ones."""
+    report.change(
+        lambda found: (
+            found if found.name == SLOW else replace(found, fixes=fixes_of(found, workspace))
+        )
+    )
     return report
