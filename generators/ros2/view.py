@@ -14,6 +14,7 @@ from swarmdsl.codegen.ros import (
     manifest,
 )
 from swarmdsl.codegen.shared import (
+    check_watchdogs,
     envelopes_of,
     follows_members,
     missing_values,
@@ -143,6 +144,14 @@ def package_view(
     )
     doc = system.doc or f"Behaviour of {system.name}."
     launched = launches(system, modules, report)
+    check_watchdogs(
+        system,
+        {role.member for launch in launched for role in launch.roles},
+        NAMES.target,
+        report,
+        "a watchdog is started with the robots of a swarm",
+        "give the member a role in a swarm, or remove the contract",
+    )
     depends = [("depend", needed) for needed in package.dependencies(system, machines)]
     if launched:
         tools = ("ament_index_python", "launch", "launch_ros")

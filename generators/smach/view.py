@@ -24,7 +24,13 @@ from swarmdsl.codegen.ros import (
     manifest,
     third_party_packages,
 )
-from swarmdsl.codegen.shared import doc_with_unit, envelopes_of, missing_values, uses_self
+from swarmdsl.codegen.shared import (
+    check_watchdogs,
+    doc_with_unit,
+    envelopes_of,
+    missing_values,
+    uses_self,
+)
 from swarmdsl.ir import (
     DURATION,
     Array,
@@ -161,6 +167,14 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     written = [*interfaces_to_write(system, options.interfaces), *around.values()]
     interfaces = group_by_package(written, 1)
     check_described(system, options.interfaces, NAMES.target, report)
+    check_watchdogs(
+        system,
+        frozenset(),
+        NAMES.target,
+        report,
+        "nodes of ROS 1 have no watchdog",
+        "build it for ROS 2, or let another program watch the node",
+    )
     NAMES.check_interfaces(system, interfaces, name, report)
     used = package.used_types(system, machines)
     events = _events(system, machines, report)

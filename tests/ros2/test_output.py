@@ -15,7 +15,11 @@ import yaml
 from lxml import etree
 
 import swarmdsl.execution.engine
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.options import parse_options
+from swarmdsl.codegen.registry import load
+from swarmdsl.driver import pipeline
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.simulate.table import table
 from swarmdsl.ir import System
@@ -601,3 +605,30 @@ def test_values_have_their_names(generate: Generate) -> None:
     assert "event.data.data < MOST" in text
     assert "machine.data.last = SPECIES_DOCK" in text
     assert text.count("STATES_") == 2
+
+
+def test_a_contract_without_a_watchdog_is_told(tmp_path: Path) -> None:
+    """Also one that a member inherits; one that an heir keeps is kept."""
+    model = tmp_path / "model.swarm"
+    model.write_text(
+        "package p\n"
+        'function land : abstraction { service "land" : std_srvs/Empty }\n'
+        "statemachine Fly { initial A; state A { after 1 s -> B }; final B }\n"
+        "member Base { behavior Fly; contract Dies : when dead call land }\n"
+        "member Uav extends Base {}\n"
+        "member Spare { behavior Fly; contract Falls : when dead call land }\n"
+        "swarm Team { uav : Uav }\n"
+    )
+    system = pipeline.check([model]).system
+    assert system is not None
+    told: dict[tuple[str, ...], list[str]] = {}
+    for target, options in (("ros2", {}), ("smach", {"ros": "2"}), ("smach", {"ros": "1"})):
+        report = Diagnostics()
+        generator = load(target)
+        generator.emit(system, parse_options(generator, options, report), report)
+        told[(target, *options.values())] = [
+            each.message.partition("contract ")[2] for each in report if each.name == "no-place"
+        ]
+    spare = "`Falls`: nothing calls `land`"
+    assert told[("ros2",)] == told["smach", "2"] == [spare]
+    assert told["smach", "1"] == ["`Dies`: nothing calls `land`", spare]

@@ -71,6 +71,9 @@ if TYPE_CHECKING:
     from swarmdsl.codegen.shared.units import (
         doc_with_unit,
     )
+    from swarmdsl.codegen.shared.watchdogs import (
+        check_watchdogs,
+    )
     from swarmdsl.codegen.shared.wiring import (
         Remaps,
         Wiring,
@@ -105,6 +108,7 @@ else:
             "swarmdsl.codegen.shared.state_expressions": "expressions_of timed_states",
             "swarmdsl.codegen.shared.swarmros": "bridge_files",
             "swarmdsl.codegen.shared.units": "doc_with_unit",
+            "swarmdsl.codegen.shared.watchdogs": "check_watchdogs",
             "swarmdsl.codegen.shared.wiring": "Remaps Wiring check_wiring member_wiring",
         },
     )
@@ -122,6 +126,7 @@ __all__ = [
     "bridge_files",
     "bringup_package",
     "check_part_values",
+    "check_watchdogs",
     "check_wiring",
     "condition_text",
     "constant",
