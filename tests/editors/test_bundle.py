@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
 import pytest_lsp
+import tomli
 from lsprotocol import types as lsp
 from pytest_lsp import ClientServerConfig, LanguageClient
 
@@ -94,3 +96,21 @@ def test_bundle_rejects_build() -> None:
     ran = subprocess.run([*BARE, "build", "."], capture_output=True, text=True)
     assert ran.returncode == 1
     assert "install the Python package swarmdsl" in ran.stderr
+
+
+def test_archive_has_what_the_package_is_built_of() -> None:
+    with zipfile.ZipFile(EXTENSION / "swarmdsl.zip") as archive:
+        names = {name.removeprefix("swarmdsl/") for name in archive.namelist()}
+        settings = tomli.loads(archive.read("swarmdsl/pyproject.toml").decode())
+    wheel = settings["tool"]["hatch"]["build"]["targets"]["wheel"]
+    folders = [*wheel["packages"], *wheel["force-include"]]
+    files = [
+        *(settings["project"]["readme"], *settings["project"]["license-files"]),
+        *(settings["tool"]["hatch"]["version"]["path"], *wheel["shared-data"]),
+    ]
+    assert names == {"pyproject.toml", *files} | {
+        path.relative_to(ROOT).as_posix()
+        for folder in folders
+        for path in (ROOT / folder).rglob("*")
+        if path.is_file() and "__pycache__" not in path.parts
+    }

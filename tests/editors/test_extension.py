@@ -15,6 +15,8 @@ from typing import Any
 import pytest
 
 from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.cli import run
+from swarmdsl.tools.scaffold.plan import TARGETS
 
 ROOT = Path(__file__).resolve().parents[2]
 EXTENSION = ROOT / "editors" / "vscode"
@@ -25,9 +27,10 @@ NAMED = {
     "syntaxes/markdown.tmLanguage.json",
     "icons/extension.png",
     "icons/file.svg",
+    *(f"walkthrough/{path.name}" for path in (EXTENSION / "walkthrough").iterdir()),
 }
 BUILT = {"dist/extension.js", "dist/licences.txt", "dist/preview.js"}
-SHIPPED = {"package.json", "templates/model.swarm", *NAMED, *BUILT}
+SHIPPED = {"package.json", "templates/model.swarm", "swarmdsl.zip", *NAMED, *BUILT}
 
 
 def read(path: str) -> Any:
@@ -61,8 +64,9 @@ def test_commands_are_those_that_the_sources_register() -> None:
     for_the_server = {"swarmdsl.references"}
     offered = {each["command"] for each in MANIFEST["contributes"]["commands"]}
     assert offered | for_the_server == registered
-    used = set(re.findall(r"executeCommand\(\s*\"(swarmdsl\.\w+)", sources))
-    assert used | set(re.findall(r"command:(swarmdsl\.\w+)", sources)) <= registered
+    used = set(re.findall(r"executeCommand\(\s*\"(swarmdsl\.\w+)\"", sources))
+    used |= set(re.findall(r"command:(swarmdsl\.\w+)", sources + json.dumps(MANIFEST)))
+    assert used | set(re.findall(r"onCommand:(swarmdsl\.\w+)", json.dumps(MANIFEST))) <= registered
 
 
 def test_settings_are_those_that_the_sources_read() -> None:
@@ -71,6 +75,61 @@ def test_settings_are_those_that_the_sources_read() -> None:
     assert settings == {"swarmdsl.trace.server", *re.findall(r"swarmdsl\.server\.\w+", sources)}
     trusted = set(MANIFEST["capabilities"]["untrustedWorkspaces"]["restrictedConfigurations"])
     assert trusted == settings - {"swarmdsl.trace.server"}
+
+
+def test_first_steps_have_a_command_and_end_with_it() -> None:
+    [walkthrough] = MANIFEST["contributes"]["walkthroughs"]
+    sources = (EXTENSION / "src" / "extension.ts").read_text(encoding="utf-8")
+    assert f'"{MANIFEST["publisher"]}.{MANIFEST["name"]}#{walkthrough["id"]}"' in sources
+    for step in walkthrough["steps"]:
+        offered = re.findall(r"\(command:([\w.]+)\)", step["description"])
+        assert step["completionEvents"] == [f"onCommand:{each}" for each in offered] != []
+    shown = (EXTENSION / "src" / "welcome.ts").read_text(encoding="utf-8")
+    [view] = MANIFEST["contributes"]["views"]["explorer"]
+    assert f'"{view["id"]}"' in shown
+    assert f'"{view["when"]}"' in shown
+    contents = {each["view"]: each["contents"] for each in MANIFEST["contributes"]["viewsWelcome"]}
+    assert all("(command:swarmdsl.newProject)" in each for each in contents.values())
+    assert contents.keys() == {view["id"], "workbench.explorer.emptyView"}
+
+
+def test_first_steps_show_valid_models(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    blocks = {
+        path.stem: re.findall(r"^```(\w+)\n(.*?)^```", path.read_text("utf-8"), re.M | re.S)
+        for path in (EXTENSION / "walkthrough").iterdir()
+    }
+    [(_, model)] = blocks["write"]
+    [(_, prop), (_, test)] = blocks["verify"]
+    [(_, project)] = blocks["build"]
+    (tmp_path / "swarm.toml").write_text(project)
+    models = tmp_path / "models"
+    models.mkdir()
+    (models / "patrol.swarm").write_text(model + prop)
+    (models / "patrol.swarmtest.toml").write_text(test)
+    monkeypatch.chdir(tmp_path)
+    assert run(["check", "--deny", "warnings"]) == 0
+    assert run(["test"]) == 0
+    assert run(["verify", "--property", "Told"]) == 0
+
+
+def test_first_steps_show_the_run_of_a_new_project(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    page = (EXTENSION / "walkthrough" / "simulate.md").read_text(encoding="utf-8")
+    [shown] = re.findall(r"^```text\n(.*?)^```", page, re.M | re.S)
+    assert run(["new", "rescue", "--folder", str(tmp_path / "rescue")]) == 0
+    scenario = tmp_path / "rescue" / "scenarios" / "mission.toml"
+    capsys.readouterr()
+    assert run(["simulate", str(tmp_path / "rescue"), "--scenario", str(scenario)]) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert shown.splitlines() == [line for line in told if line in shown.splitlines()] != []
+
+
+def test_new_projects_are_for_each_target() -> None:
+    sources = (EXTENSION / "src" / "projects.ts").read_text(encoding="utf-8")
+    assert tuple(re.findall(r'target: "(\w+)"', sources)) == TARGETS
 
 
 def test_sources_name_modules_and_files_that_exist() -> None:

@@ -3,18 +3,24 @@
 import * as vscode from "vscode";
 
 import { followNodes, followTrace } from "./follow.ts";
+import { install } from "./install.ts";
 import { selectInterpreter } from "./interpreter.ts";
-import { newModel } from "./models.ts";
+import { chooseModel, newModel } from "./models.ts";
 import { play, test } from "./play.ts";
 import { Preview } from "./preview.ts";
+import { newProject } from "./projects.ts";
 import { onSelect } from "./python.ts";
 import { type Place, showReferences } from "./references.ts";
 import { Server } from "./server.ts";
 import { simulate } from "./simulate.ts";
 import { showStatus } from "./status.ts";
 import type { Simulated, Subject } from "./subject.ts";
-import { provideTasks } from "./tasks.ts";
+import { build, provideTasks } from "./tasks.ts";
 import { verify } from "./verify.ts";
+import { welcome } from "./welcome.ts";
+
+// The publisher and name of the extension, and the id in the manifest.
+const WALKTHROUGH = "swarmdsl.swarm#start";
 
 let server: Server | undefined;
 
@@ -32,7 +38,12 @@ export function activate(context: vscode.ExtensionContext): void {
     provideTasks(started),
     command("restartServer", () => started.restart()),
     command("selectInterpreter", selectInterpreter),
+    command("install", () => install(started, context.extensionUri)),
     command("showLog", () => log.show()),
+    command("getStarted", () =>
+      vscode.commands.executeCommand("workbench.action.openWalkthrough", WALKTHROUGH),
+    ),
+    command("newProject", () => newProject(started)),
     command("newModel", () => newModel(context.extensionUri)),
     command("simulate", async (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = await savedFile(file);
@@ -50,6 +61,10 @@ export function activate(context: vscode.ExtensionContext): void {
       const uri = await savedFile(file);
       return uri && test(started, uri);
     }),
+    command("build", async (file?: vscode.Uri | string) => {
+      const uri = await savedFile(file);
+      return uri && build(started, uri);
+    }),
     command("verify", async (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = await savedFile(file);
       return uri && verify(started, uri, subject);
@@ -62,22 +77,27 @@ export function activate(context: vscode.ExtensionContext): void {
       const uri = await savedFile(file);
       return uri && followNodes(started, preview, uri, log);
     }),
-    command("preview", (file?: vscode.Uri | string, subject?: Subject) => {
-      const uri = targetFile(file);
+    command("preview", async (file?: vscode.Uri | string, subject?: Subject) => {
+      const uri = await targetFile(file);
       return uri && preview.show(uri, subject);
     }),
     command("references", (file: string, at: Place["range"]["start"], places: Place[]) =>
       showReferences(file, at, places),
     ),
-    vscode.workspace.onDidChangeConfiguration((event) => {
-      if (event.affectsConfiguration("swarmdsl.server")) {
-        refresh();
-      }
+    welcome(() => {
+      refresh();
+      // Without a model, no change starts the server.
+      context.subscriptions.push(
+        vscode.workspace.onDidChangeConfiguration((event) => {
+          if (event.affectsConfiguration("swarmdsl.server")) {
+            refresh();
+          }
+        }),
+        vscode.workspace.onDidGrantWorkspaceTrust(refresh),
+      );
+      void onSelect(refresh).then((listening) => context.subscriptions.push(listening));
     }),
-    vscode.workspace.onDidGrantWorkspaceTrust(refresh),
   );
-  void onSelect(refresh).then((listening) => context.subscriptions.push(listening));
-  refresh();
 }
 
 export function deactivate(): Promise<void> | undefined {
@@ -88,17 +108,19 @@ function command(name: string, run: (...args: never[]) => unknown): vscode.Dispo
   return vscode.commands.registerCommand(`swarmdsl.${name}`, run);
 }
 
-/** File of a command: its argument, or the active file. */
-function targetFile(file: vscode.Uri | string | undefined): vscode.Uri | undefined {
-  if (typeof file === "string") {
-    return vscode.Uri.parse(file);
+/** File of a command: its argument, the active file, or one of the workspace. */
+async function targetFile(
+  file: vscode.Uri | string | undefined,
+): Promise<vscode.Uri | undefined> {
+  if (file !== undefined) {
+    return typeof file === "string" ? vscode.Uri.parse(file) : file;
   }
   const document = vscode.window.activeTextEditor?.document;
-  return file ?? (document?.languageId === "swarm" ? document.uri : undefined);
+  return document?.languageId === "swarm" ? document.uri : chooseModel();
 }
 
 /** File of a command that runs swarmc, which reads from disk: a new file is saved first. */
 async function savedFile(file: vscode.Uri | string | undefined): Promise<vscode.Uri | undefined> {
-  const uri = targetFile(file);
+  const uri = await targetFile(file);
   return uri?.scheme === "untitled" ? vscode.workspace.save(uri) : uri;
 }

@@ -1,4 +1,4 @@
-// Command that selects the interpreter for swarmc.
+// Choice of the interpreter for swarmc, and the command that stores one.
 
 import * as vscode from "vscode";
 
@@ -6,7 +6,8 @@ import { interpreterIn, onPath, probe } from "./probe.ts";
 import { selectedInterpreter } from "./python.ts";
 import { INTERPRETER_SETTING, PATH_SETTING } from "./launch.ts";
 
-interface Choice extends vscode.QuickPickItem {
+export interface Choice extends vscode.QuickPickItem {
+  /** Undefined if the user is to name the file. */
   readonly interpreter: string | undefined;
 }
 
@@ -15,21 +16,30 @@ const AUTOMATIC: Choice = {
   detail: "Python extension, .venv or PATH; else the bundled server",
   interpreter: "",
 };
-const BROWSE: Choice = { label: "$(folder-opened) Browse...", interpreter: undefined };
+export const BROWSE: Choice = { label: "$(folder-opened) Browse...", interpreter: undefined };
 
-/** Ask for an interpreter; store it for the workspace, or for the user without one. */
+/** Ask for an interpreter and store it. */
 export async function selectInterpreter(): Promise<void> {
-  const chosen = await vscode.window.showQuickPick(choices(), {
-    title: "Select the Python for swarmc",
+  const interpreter = await askInterpreter("Select the Python for swarmc", [AUTOMATIC, BROWSE]);
+  if (interpreter !== undefined) {
+    await storeInterpreter(interpreter);
+  }
+}
+
+/** Let the user choose among `first` and the interpreters that are found. */
+export async function askInterpreter(
+  title: string,
+  first: readonly Choice[],
+): Promise<string | undefined> {
+  const chosen = await vscode.window.showQuickPick(choices(first), {
+    title,
     placeHolder: "Interpreter with the package swarmdsl, or any Python 3.10 or later",
   });
-  if (!chosen) {
-    return;
-  }
-  const interpreter = chosen.interpreter ?? (await browse());
-  if (interpreter === undefined) {
-    return;
-  }
+  return chosen && (chosen.interpreter ?? (await browse()));
+}
+
+/** Store an interpreter for the workspace, or for the user without one; none if it is empty. */
+export async function storeInterpreter(interpreter: string): Promise<void> {
   const target = vscode.workspace.workspaceFolders?.length
     ? vscode.ConfigurationTarget.Workspace
     : vscode.ConfigurationTarget.Global;
@@ -41,7 +51,7 @@ export async function selectInterpreter(): Promise<void> {
   }
 }
 
-async function choices(): Promise<Choice[]> {
+async function choices(first: readonly Choice[]): Promise<Choice[]> {
   const folders = vscode.workspace.workspaceFolders ?? [];
   const found = new Set<string>();
   if (vscode.workspace.isTrusted) {
@@ -64,7 +74,7 @@ async function choices(): Promise<Choice[]> {
       );
     }),
   );
-  return [AUTOMATIC, BROWSE, ...described.filter((each) => each !== undefined)];
+  return [...first, ...described.filter((each) => each !== undefined)];
 }
 
 async function browse(): Promise<string | undefined> {

@@ -43,7 +43,7 @@ export type Found =
   /** Reason that nothing can be started, and the setting that causes it. */
   | { readonly missing: string; readonly setting?: string };
 
-const OLDEST = [3, 10] as const;
+export const OLDEST = [3, 10] as const;
 export const PATH_SETTING = "swarmdsl.server.path";
 export const INTERPRETER_SETTING = "swarmdsl.server.interpreter";
 
@@ -71,10 +71,10 @@ export async function find(
   for (const [interpreter, origin] of interpreters) {
     const python = await probe.python(interpreter);
     log(`${interpreter}, ${origin}: ${described(python)}`);
-    if (python?.hasServer && recent(python)) {
+    if (python?.hasServer && isRecent(python)) {
       return { launch: installed(interpreter, ["-m", "swarmdsl"], origin) };
     }
-    if (python && recent(python)) {
+    if (python && isRecent(python)) {
       usable.push([interpreter, origin]);
     }
   }
@@ -97,10 +97,10 @@ export async function find(
   for (const interpreter of places.pythons) {
     const python = await probe.python(interpreter);
     log(`${interpreter}, on the PATH: ${described(python)}`);
-    if (python?.hasServer && recent(python)) {
+    if (python?.hasServer && isRecent(python)) {
       return { launch: installed(interpreter, ["-m", "swarmdsl"], "the PATH") };
     }
-    if (python && recent(python)) {
+    if (python && isRecent(python)) {
       usable.push([interpreter, "the PATH"]);
     }
   }
@@ -124,7 +124,7 @@ function bundled(bundle: string, interpreter: string, origin: string): Launch {
   return { command: interpreter, args: ["-I", bundle], origin: whole, bundled: true };
 }
 
-function recent({ version: [major, minor] }: Python): boolean {
+export function isRecent({ version: [major, minor] }: Python): boolean {
   return major > OLDEST[0] || (major === OLDEST[0] && minor >= OLDEST[1]);
 }
 

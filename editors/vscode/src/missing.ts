@@ -2,6 +2,7 @@
 
 import * as vscode from "vscode";
 
+const INSTALL = "Install swarmc";
 const SELECT = "Select Interpreter";
 const SETTINGS = "Open Settings";
 const LOG = "Show Log";
@@ -31,8 +32,13 @@ function openSettings(setting: string): Thenable<unknown> {
 
 /** Show that the bundled copy lacks a feature. */
 export function showBundledLimit(what: string): void {
-  const text = `To ${what}, install the Python package swarmdsl, and select its interpreter.`;
-  void vscode.window.showErrorMessage(text, SELECT).then((chosen) =>
-    chosen ? vscode.commands.executeCommand("swarmdsl.selectInterpreter") : undefined,
-  );
+  const text = `To ${what}, install the Python package swarmdsl, or select an interpreter that has it.`;
+  void vscode.window.showErrorMessage(text, INSTALL, SELECT).then((chosen) => {
+    if (chosen === INSTALL) {
+      return vscode.commands.executeCommand("swarmdsl.install");
+    }
+    return chosen === SELECT
+      ? vscode.commands.executeCommand("swarmdsl.selectInterpreter")
+      : undefined;
+  });
 }

@@ -132,6 +132,8 @@ export class Server implements vscode.Disposable {
             "swarmdsl.preview",
             "swarmdsl.simulate",
             "swarmdsl.verify",
+            "swarmdsl.build",
+            "swarmdsl.test",
           ],
         },
         middleware: {

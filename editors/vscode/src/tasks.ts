@@ -1,8 +1,11 @@
 // Tasks of type `swarmdsl`, with diagnostics in the problems view.
 
+import { dirname } from "node:path";
+
 import * as vscode from "vscode";
 
 import type { Launch } from "./launch.ts";
+import { showBundledLimit } from "./missing.ts";
 import type { Server } from "./server.ts";
 
 interface Definition extends vscode.TaskDefinition {
@@ -38,16 +41,25 @@ export function provideTasks(server: Server): vscode.Disposable {
   });
 }
 
-function createTask(definition: Definition, folder: vscode.WorkspaceFolder, launch: Launch): vscode.Task {
+/** A task that runs in a folder of the workspace, or in another one by its path. */
+function createTask(
+  definition: Definition,
+  folder: vscode.WorkspaceFolder | string,
+  launch: Launch,
+): vscode.Task {
   const { command, watch = false, args = [] } = definition;
   const line = [command, ...(watch ? ["--watch"] : []), ...args];
   const reported = command === "check" || command === "build";
+  const [scope, path] =
+    typeof folder === "string"
+      ? ([vscode.TaskScope.Workspace, folder] as const)
+      : ([folder, folder.uri.fsPath] as const);
   const task = new vscode.Task(
     definition,
-    folder,
+    scope,
     line.join(" "),
     "swarmc",
-    run(launch, [...line, ...(reported ? ["--format", "concise"] : [])], folder.uri.fsPath),
+    run(launch, [...line, ...(reported ? ["--format", "concise"] : [])], path),
     reported ? MATCHERS.map((each) => (watch ? `${each}-watch` : each)) : [],
   );
   task.isBackground = watch;
@@ -57,6 +69,40 @@ function createTask(definition: Definition, folder: vscode.WorkspaceFolder, laun
     task.group = vscode.TaskGroup.Build;
   }
   return task;
+}
+
+/** Build the models in the folder of a file, for the targets of its project. */
+export async function build(server: Server, file: vscode.Uri): Promise<void> {
+  const launch = await server.swarmc();
+  if (!launch) {
+    return;
+  }
+  if (launch.bundled) {
+    showBundledLimit("build a model");
+    return;
+  }
+  // swarmc reads files from disk.
+  await vscode.workspace.saveAll(false);
+  const definition = { type: "swarmdsl", command: "build", args: [dirname(file.fsPath)] };
+  const folder = vscode.workspace.getWorkspaceFolder(file);
+  await vscode.tasks.executeTask(createTask(definition, folder ?? dirname(file.fsPath), launch));
+}
+
+/** Run a task until its process ends; return the exit code, undefined without one. */
+export function finished(task: vscode.Task): Promise<number | undefined> {
+  const running = vscode.tasks.executeTask(task);
+  return new Promise((resolve, reject) => {
+    const ended = vscode.tasks.onDidEndTaskProcess(async ({ execution, exitCode }) => {
+      if (execution === (await running)) {
+        ended.dispose();
+        resolve(exitCode);
+      }
+    });
+    running.then(undefined, (error: unknown) => {
+      ended.dispose();
+      reject(error);
+    });
+  });
 }
 
 /** Execution of swarmc in a task. */
