@@ -82,11 +82,13 @@ def test_lenses_use_commands_of_the_editor(tmp_path):
     assert command["arguments"] == [uri, uses["range"]["start"], []]
 
 
-def test_properties_and_swarms_have_lenses_that_check_and_verify_them(tmp_path):
+def test_properties_and_swarms_have_lenses_that_run_them(tmp_path):
+    (tmp_path / "a.swarmtest.toml").touch()
     uri = (tmp_path / "a.swarm").as_uri()
     text = "swarm event Go : std_msgs/Empty\nswarm One { }\nproperty Quiet of One : never Go\n"
     document = {"uri": uri, "languageId": "swarm", "version": 1, "text": text}
-    commands = ["swarmdsl.simulate", "swarmdsl.verify"]
+    offers = ("simulate", "verify", "build", "test")
+    commands = [f"swarmdsl.{each}" for each in offers]
     options = {"capabilities": {}, "initializationOptions": {"commands": commands}}
     process = subprocess.Popen(SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     for each in (
@@ -104,6 +106,8 @@ def test_properties_and_swarms_have_lenses_that_check_and_verify_them(tmp_path):
     assert [(each["range"]["start"]["line"], *each["command"].values()) for each in lenses] == [
         (1, "Simulate", "swarmdsl.simulate", [uri, swarm]),
         (1, "Verify", "swarmdsl.verify", [uri, swarm]),
+        (1, "Build", "swarmdsl.build", [uri, swarm]),
+        (1, "Test", "swarmdsl.test", [uri, swarm]),
         (2, "Check in simulation", "swarmdsl.simulate", [uri, quiet]),
         (2, "Verify", "swarmdsl.verify", [uri, quiet]),
     ]

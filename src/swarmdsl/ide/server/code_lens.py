@@ -1,4 +1,4 @@
-"""Code lenses above declarations: references, preview, simulation, verification."""
+"""Code lenses above declarations: references, preview, and commands that run or build them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Literal
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.references import owners
+from swarmdsl.execution.testing.discovery import SUFFIX
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     Component,
@@ -31,13 +32,15 @@ _KINDS: dict[type[TopLevel], Kind] = {
 _PREVIEWED: tuple[Kind, ...] = ("machine", "member", "swarm")
 _SIMULATED: tuple[Kind, ...] = ("machine", "swarm", "property")
 _VERIFIED: tuple[Kind, ...] = ("swarm", "property")
+# A build is of all that a swarm has, and its tests are beside it.
+_BUILT: tuple[Kind, ...] = ("swarm",)
 
 
 @dataclass(frozen=True)
 class CodeLens:
     """Lens at the name of a declaration; `kind` is None if it cannot be previewed."""
 
-    offer: Literal["references", "preview", "simulate", "verify"]
+    offer: Literal["references", "preview", "simulate", "verify", "build", "test"]
     name: Span
     kind: Kind | None = None
 
@@ -57,3 +60,13 @@ def code_lenses(file: File) -> Iterator[CodeLens]:
             yield CodeLens("simulate", name, kind)
         if kind in _VERIFIED:
             yield CodeLens("verify", name, kind)
+        if kind in _BUILT:
+            yield CodeLens("build", name, kind)
+            if _has_tests(file):
+                yield CodeLens("test", name, kind)
+
+
+def _has_tests(file: File) -> bool:
+    """Return True if there are behaviour tests beside a file."""
+    path = file.source.path
+    return path is not None and any(path.parent.glob(f"*{SUFFIX}"))
