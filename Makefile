@@ -32,7 +32,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-xmpp test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser tree-sitter dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-xmpp test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser tree-sitter schemas dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o build/demo
@@ -132,6 +132,9 @@ parser: $(READY) ## Make the parser from the grammar.
 tree-sitter: parser ## Make the parser for tree-sitter from its grammar: TREE_SITTER=path/of/tree-sitter.
 	cd editors/tree-sitter && $(TREE_SITTER) generate --abi 14 src/grammar.json
 
+schemas: $(READY) ## Write the JSON Schemas of swarm.toml, scenarios and tests to build/schemas.
+	$(BIN)/python -m swarmdsl.tools.toml_schemas build/schemas
+
 bless: $(READY) ## Take today's output as what the golden tests expect.
 	$(BIN)/pytest --bless
 
@@ -141,6 +144,7 @@ dist: $(READY) ## Build the source distribution and the wheel.
 vsix: $(READY) $(EXTENSION_READY) ## Package the VS Code extension, with a server; needs Node 20.
 	mkdir -p $(VSIX_DIR)
 	$(BIN)/python $(EXTENSION)/bundle/make.py
+	$(BIN)/python -m swarmdsl.tools.toml_schemas $(EXTENSION)/schemas
 	cd $(EXTENSION) && TZ=UTC SOURCE_DATE_EPOCH=$(SOURCE_DATE_EPOCH) \
 		npm run package -- --out $(abspath $(VSIX_DIR))/ $(VSCE)
 

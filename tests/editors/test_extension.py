@@ -30,7 +30,8 @@ NAMED = {
     *(f"walkthrough/{path.name}" for path in (EXTENSION / "walkthrough").iterdir()),
 }
 BUILT = {"dist/extension.js", "dist/licences.txt", "dist/preview.js"}
-SHIPPED = {"package.json", "templates/model.swarm", "swarmdsl.zip", *NAMED, *BUILT}
+SCHEMAS = {f"schemas/{each}.schema.json" for each in ("project", "scenario", "tests")}
+SHIPPED = {"package.json", "templates/model.swarm", "swarmdsl.zip", *NAMED, *BUILT, *SCHEMAS}
 
 
 def read(path: str) -> Any:

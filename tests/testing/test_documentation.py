@@ -6,14 +6,13 @@ import re
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.catalog import CODES
-from swarmdsl.execution.testing import reading, steps
+from swarmdsl.execution.testing.keys import ACTIONS, CLAIM, FILE, TEST, TIMES
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "testing.md").read_text(encoding="utf-8")
 
 
 def test_all_keys() -> None:
-    keys = {*reading._FILE, *reading._TEST, *steps._ACTIONS, *steps._CLAIM, *steps._TIMES}
-    keys |= {key for others in steps._ACTIONS.values() for key in others}
+    keys = {*FILE, *TEST, *CLAIM, *TIMES, *(key for step in ACTIONS.values() for key in step)}
     code = " ".join(re.findall(r"```.*?```|`[^`]+`", PAGE, re.DOTALL))
 
     assert {"passing", "sends", "as"} <= keys

@@ -11,6 +11,7 @@ import { Preview } from "./preview.ts";
 import { newProject } from "./projects.ts";
 import { onSelect } from "./python.ts";
 import { type Place, showReferences } from "./references.ts";
+import { renewSchemas, useSchemas } from "./schemas.ts";
 import { Server } from "./server.ts";
 import { simulate } from "./simulate.ts";
 import { showStatus } from "./status.ts";
@@ -40,6 +41,7 @@ export function activate(context: vscode.ExtensionContext): void {
     command("selectInterpreter", selectInterpreter),
     command("install", () => install(started, context.extensionUri)),
     command("showLog", () => log.show()),
+    command("useSchemas", () => useSchemas(context)),
     command("getStarted", () =>
       vscode.commands.executeCommand("workbench.action.openWalkthrough", WALKTHROUGH),
     ),
@@ -98,6 +100,7 @@ export function activate(context: vscode.ExtensionContext): void {
       void onSelect(refresh).then((listening) => context.subscriptions.push(listening));
     }),
   );
+  void renewSchemas(context);
 }
 
 export function deactivate(): Promise<void> | undefined {

@@ -271,6 +271,22 @@ def test_new_model(window: Window) -> None:
     assert "package night_watch\n" in path.read_text(encoding="utf-8")
 
 
+def test_first_steps(window: Window) -> None:
+    window.command("Swarm: Get Started")
+    steps = window.page.locator(".getting-started")
+    expect(steps.get_by_text("Get Started with Swarm").first).to_be_visible()
+    expect(steps.locator(".step-title", has_text="Verify it")).to_have_count(1)
+    window.command("Swarm: New Project...")
+    told = window.page.locator(".notification-toast", has_text="To create a project")
+    told.get_by_role("button", name="Install swarmc").click()
+    window.choose("New environment")
+    consent = window.page.locator(".monaco-dialog-box", has_text="Install swarmc?")
+    expect(consent).to_contain_text("swarmdsl.zip")
+    window.press("Escape")
+    expect(consent).to_have_count(0)
+    assert not (window.folder / ".venv").exists()
+
+
 def test_invalid_server_path_is_reported(window: Window) -> None:
     window.open("behaviours.swarm")
     with window.settings({"swarmdsl.server.path": "/bin/false"}):

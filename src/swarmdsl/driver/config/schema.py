@@ -17,19 +17,12 @@ from swarmdsl.codegen import registry
 from swarmdsl.codegen.api import Generator
 from swarmdsl.codegen.options import Option, options_of, parse_options
 from swarmdsl.driver.config.lint import find_diagnostic, may_have, similar_diagnostic
+from swarmdsl.driver.config.project_keys import BUILD, LINT, PACKAGE, PROJECT, TABLES
 from swarmdsl.driver.config.settings import FILE_NAME, ModelSource, Settings
 from swarmdsl.driver.config.toml import Document, Keys
 from swarmdsl.ir.function_models import MODELS
 
-_KEYS: dict[str, tuple[str, ...]] = {
-    "project": ("name", "sources", "libraries"),
-    "targets": (),
-    "models": (),
-    "lint": tuple(level.value for level in Level),
-    "build": ("out",),
-}
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-_PACKAGE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z_][A-Za-z0-9_]*)*")
 
 # In the order of `isinstance`: a bool is an int, a datetime is a date.
 _KINDS: dict[type | tuple[type, ...], str] = {
@@ -55,9 +48,9 @@ class _Reader:
         self._report = report
 
     def read(self) -> Settings:
-        self._check_keys(self._document.values, (), _KEYS)
-        project = self._table("project", _KEYS["project"])
-        build = self._table("build", _KEYS["build"])
+        self._check_keys(self._document.values, (), TABLES)
+        project = self._table("project", PROJECT)
+        build = self._table("build", BUILD)
         targets = dict(self._targets())
         return Settings(
             name=self._name() if "name" in project else None,
@@ -75,7 +68,7 @@ class _Reader:
     def _name(self) -> str | None:
         keys = ("project", "name")
         name = self._text(keys)
-        if name is not None and not _PACKAGE.fullmatch(name):
+        if name is not None and not PACKAGE.fullmatch(name):
             self._report_wrong(keys, "a name like `sar` or `rescue.sea`", f"`{name}`")
         return name
 
@@ -172,7 +165,7 @@ class _Reader:
 
     def _levels(self) -> dict[str, Level]:
         given: dict[str, tuple[Level, Span]] = {}
-        table = self._table("lint", _KEYS["lint"])
+        table = self._table("lint", LINT)
         for level in Level:
             for keys in self._items(("lint", level.value)) if level.value in table else ():
                 word, place = self._text(keys), self._value_place(keys)

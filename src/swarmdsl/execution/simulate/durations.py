@@ -14,7 +14,7 @@ MICROSECOND = UNITS["us"]
 MILLISECOND = UNITS["ms"]
 SECOND = UNITS["s"]
 
-_WRITTEN = re.compile(rf"\s*([0-9]+(?:\.[0-9]+)?)\s*({'|'.join(UNITS)})\s*")
+WRITTEN = re.compile(rf"\s*([0-9]+(?:\.[0-9]+)?)\s*({'|'.join(UNITS)})\s*")
 # 292 years: the maximum in ROS.
 _LONGEST = 2**63 - 1
 # The sum of 12 uniform numbers has a variance of 1 and is nearly normal.
@@ -23,7 +23,7 @@ _ADDED = 12
 
 def duration(text: str) -> int | None:
     """Parse a duration like `1.5 min` into nanoseconds; None if invalid."""
-    found = _WRITTEN.fullmatch(text)
+    found = WRITTEN.fullmatch(text)
     if found is None or len(found[1]) > len(str(_LONGEST)):
         return None
     length = nanoseconds(found[1], found[2])
@@ -41,7 +41,7 @@ def written_duration(length: int) -> str:
 
 def is_too_long(text: str) -> bool:
     """Return True if a string is a duration that is too long for ROS."""
-    return _WRITTEN.fullmatch(text) is not None and duration(text) is None
+    return WRITTEN.fullmatch(text) is not None and duration(text) is None
 
 
 def format_duration(length: int) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -12,26 +12,23 @@ from swarmdsl.execution.simulate.actors import params, words
 from swarmdsl.execution.simulate.choose_space import KINDS
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
 from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Message, Robot, Scenario
+from swarmdsl.execution.simulate.scenario_keys import (
+    FAULT,
+    FUNCTION,
+    FUNCTION_OF_MEMBER,
+    MESSAGE,
+    NETWORK,
+    SELF,
+    SHARES,
+    TABLES,
+    WORLD,
+)
 from swarmdsl.execution.simulate.scenario_model import model_setting
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.values import Way, fitted, fitted_result
 from swarmdsl.ir import Communication, Type
 
-TABLES = (
-    "seed",
-    "until",
-    "self",
-    "count",
-    "params",
-    "network",
-    "world",
-    "functions",
-    "messages",
-    "faults",
-)
-_SHARES = ("aborted", "preempted", "never")
-_FUNCTION = ("duration", "stopping", *_SHARES, "results", "model", "arguments", "of")
 
 
 def read_scenario(document: Document, subject: Subject, report: Diagnostics) -> Scenario:
@@ -56,9 +53,9 @@ class _Reader:
         self.robots = self.subject.create_robots(counts, alone)
         self.members = list(dict.fromkeys(w for robot in self.robots for w in robot.words))
         network = top.inside("network")
-        network.check_keys(("latency", "loss"), "`[network]`")
+        network.check_keys(NETWORK, "`[network]`")
         world = top.inside("world")
-        world.check_keys(("kind", "step"), "`[world]`")
+        world.check_keys(WORLD, "`[world]`")
         found: dict[str, Any] = {
             "seed": top.whole("seed") if "seed" in top else None,
             "until": top.duration("until") if "until" in top else None,
@@ -116,7 +113,7 @@ class _Reader:
             place = self.top.key_place("self")
             self.report.report("unknown-key", place, name="self", owner="a scenario", help=help_)
             return Robot()
-        table.check_keys(("id", "count"), "`[self]`")
+        table.check_keys(SELF, "`[self]`")
         name = table.text("id", "the id of a robot") if "id" in table else None
         robot = Robot.called(name) if name else Robot()
         count = table.whole("count", robot.index + 1) if "count" in table else None
@@ -165,20 +162,20 @@ class _Reader:
                 top.unknown(top.key_place(name), name, known, "function")
                 continue
             table = top.inside(name)
-            found[name, ""] = self.behavior(table, known[name], _FUNCTION)
+            found[name, ""] = self.behavior(table, known[name], FUNCTION)
             others = table.inside("of")
             for member in others.values:
                 if member not in self.members:
                     others.unknown(others.key_place(member), member, self.members, "member")
                     continue
                 inner = others.inside(member)
-                found[name, member] = self.behavior(inner, known[name], _FUNCTION[:-1])
+                found[name, member] = self.behavior(inner, known[name], FUNCTION_OF_MEMBER)
                 self.check_shares(inner, {**found[name, ""], **found[name, member]})
             self.check_shares(table, found[name, ""])
         return found
 
     def behavior(
-        self, table: Table, call: Communication | None, keys: tuple[str, ...]
+        self, table: Table, call: Communication | None, keys: Iterable[str]
     ) -> dict[str, Any]:
         """Read the valid settings of a function."""
         table.check_keys(keys, "a function")
@@ -186,7 +183,7 @@ class _Reader:
         for key in table.values:
             if key in ("duration", "stopping"):
                 found[key] = table.length(key)
-            elif key in _SHARES:
+            elif key in SHARES:
                 found[key] = table.share(key)
             elif key == "results":
                 found[key] = self.results(table, call)
@@ -208,8 +205,8 @@ class _Reader:
 
     def check_shares(self, table: Table, said: Mapping[str, Any]) -> None:
         """Check that the probabilities of all outcomes but success are at most 1."""
-        given = [share for share in _SHARES if share in table]
-        together = sum(said.get(share, 0.0) for share in _SHARES)
+        given = [share for share in SHARES if share in table]
+        together = sum(said.get(share, 0.0) for share in SHARES)
         if given and together > 1 + 1e-9:
             expected = "at most the remaining probability"
             table.wrong((given[-1],), expected, table.values[given[-1]])
@@ -228,7 +225,7 @@ class _Reader:
 
     def message(self, table: Table) -> Message | None:
         """Read an event from outside."""
-        table.check_keys(("event", "at", "every", "to", "data", "sender"), "a message")
+        table.check_keys(MESSAGE, "a message")
         if not self.needs(table, "event", "at"):
             return None
         system = self.subject.system
@@ -261,7 +258,7 @@ class _Reader:
 
     def fault(self, table: Table) -> Fault | None:
         """Read a fault."""
-        table.check_keys(("at", "lost", "apart", "silent", "of", "lasts"), "a fault")
+        table.check_keys(FAULT, "a fault")
         if not self.needs(table, "at"):
             return None
         at = table.length("at")

@@ -19,7 +19,8 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ir.operations import OPERATIONS
 from swarmdsl.syntax.types import DURATION
 
-_WRITTEN = re.compile(r"\s*(==|!=|<=|>=|<|>)?(.*)", re.DOTALL)
+COMPARISON = "==|!=|<=|>=|<|>"
+_WRITTEN = re.compile(rf"\s*({COMPARISON})?(.*)", re.DOTALL)
 _NUMBER = re.compile(r"\s*[-+]?[0-9]+(?:\.[0-9]+)?(?:[eE][-+]?[0-9]+)?\s*")
 
 

@@ -19,6 +19,7 @@ from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.testing.case import Case, End, InvalidTest, Step, TestFile
+from swarmdsl.execution.testing.keys import FILE, IMPOSSIBLE, MOST_SEEDS, TEST
 from swarmdsl.execution.testing.measures import read_measures
 from swarmdsl.execution.testing.models import Model, Models
 from swarmdsl.execution.testing.names import Names
@@ -26,12 +27,7 @@ from swarmdsl.execution.testing.steps import StepReader
 from swarmdsl.ir import Property
 from swarmdsl.project.read_source import read_source
 
-_SHARED = ("swarm", "machine", "scenario", "seeds", "passing", "properties", "impossible")
-_FILE = ("model", *_SHARED, "test")
-_TEST = ("name", *_SHARED, "steps", "always", "violates", "measures")
 _NEVER = {"aborted": 0.0, "preempted": 0.0, "never": 1.0}
-# Upper limit that is reasonable for a test.
-_MOST_SEEDS = 10_000
 
 
 def read_tests(source: Source, models: Models, report: Diagnostics) -> TestFile | None:
@@ -60,7 +56,7 @@ class _Reader:
 
     def read(self) -> list[Case | InvalidTest]:
         """Return the tests; none if the model has errors."""
-        self._top.check_keys(_FILE, "a test file")
+        self._top.check_keys(FILE, "a test file")
         if self._top.values.get("test", []) == []:
             help_ = "a test begins with `[[test]]`"
             self._report.report("no-tests", path=self._top.document.source.name, help=help_)
@@ -82,7 +78,7 @@ class _Reader:
     ) -> Case | InvalidTest:
         report = Diagnostics()
         table = Table(self._top.document, keys, report)
-        table.check_keys(_TEST, "a test")
+        table.check_keys(TEST, "a test")
         name = self._name(table, names)
         case = self._case(table, name or "", model)
         if case is None or report.has_errors:
@@ -210,11 +206,11 @@ class _Reader:
         holder = self._holder(table, "impossible")
         if "impossible" not in holder:
             return False
-        return holder.name("impossible", ("fail", "skip"), "way") == "skip"
+        return holder.name("impossible", IMPOSSIBLE, "way") == "skip"
 
     def _whole(self, table: Table, key: str) -> int:
         holder = self._holder(table, key)
-        return (holder.whole(key, 1, _MOST_SEEDS) or 1) if key in holder else 1
+        return (holder.whole(key, 1, MOST_SEEDS) or 1) if key in holder else 1
 
     def _holder(self, table: Table, key: str) -> Table:
         """Return the table with a key: the test, else the file."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -31,25 +30,15 @@ from swarmdsl.execution.testing.case import (
 )
 from swarmdsl.execution.testing.data import describe_fields
 from swarmdsl.execution.testing.expected_data import event_data, variables
+from swarmdsl.execution.testing.keys import ACTIONS, CLAIM, COUNT, TIMES, VERBS
 from swarmdsl.execution.testing.names import Names
 
-_ACTIONS: Mapping[str, tuple[str, ...]] = {
-    "send": ("to", "data", "sender"),
-    "end": ("of", "as", "result"),
-    "pass": (),
-    "lose": (),
-    "hear": ("by", "from"),
-    "drop": ("by", "from"),
-}
 _SUBJECTS: Mapping[str, Quantity] = {"who": ALL, "all": ALL, "any": ANY, "no": NONE}
 _ACTION_KINDS: Mapping[str, ActionKind] = {
     "sends": "sends",
     "starts": "starts",
     "cancels": "cancels",
 }
-_VERBS = ("in", "has", *_ACTION_KINDS)
-_TIMES = ("within", "for")
-_CLAIM = (*_SUBJECTS, "count", "of", *_VERBS, "data", "to")
 # Words of other tools and languages.
 _OTHER_WORDS = {
     **dict.fromkeys(("wait", "sleep", "delay", "after", "advance", "elapse"), "pass"),
@@ -66,7 +55,6 @@ _OTHER_WORDS = {
     **dict.fromkeys(("during", "always", "lasting"), "for"),
     **dict.fromkeys(("member", "by", "robot"), "who"),
 }
-_COUNT = re.compile(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}|\*))?")
 
 
 class StepReader:
@@ -82,11 +70,11 @@ class StepReader:
 
     def step(self, table: Table) -> Step | None:
         """Read a step: an action or an expectation."""
-        verbs = [key for key in table.values if key in _ACTIONS]
+        verbs = [key for key in table.values if key in ACTIONS]
         if not verbs:
             return self._expect(table)
         verb = verbs[0]
-        self._check_keys(table, (verb, *_ACTIONS[verb]), f"a step with `{verb}`")
+        self._check_keys(table, ACTIONS[verb], f"a step with `{verb}`")
         read: dict[str, Callable[[Table], Step | None]] = {
             "send": self._send,
             "end": self._end,
@@ -99,7 +87,7 @@ class StepReader:
 
     def claim(self, table: Table) -> Claim | None:
         """Read a claim that must hold all the time."""
-        self._check_keys(table, _CLAIM, "what is always so")
+        self._check_keys(table, CLAIM, "what is always so")
         return self._claim(table)
 
     def _check_keys(self, table: Table, known: Iterable[str], owner: str) -> None:
@@ -223,16 +211,16 @@ class StepReader:
     # ---- expectations
 
     def _expect(self, table: Table) -> Expect | None:
-        self._check_keys(table, (*_ACTIONS, *_CLAIM, *_TIMES), "a step")
+        self._check_keys(table, (*ACTIONS, *CLAIM, *TIMES), "a step")
         claim = self._claim(table)
-        times = [key for key in _TIMES if key in table]
+        times = [key for key in TIMES if key in table]
         lengths = {key: table.duration(key) for key in times}
         if len(times) > 1:
             self._one_of(table, times)
             return None
         if claim is None or None in lengths.values():
             return None
-        within, lasting = (lengths.get(key) for key in _TIMES)
+        within, lasting = (lengths.get(key) for key in TIMES)
         text = claim.text
         if within is not None:
             text += f" within {format_duration(within)}"
@@ -248,7 +236,7 @@ class StepReader:
         return Expect(claim.place, replace(claim, text=text), within, lasting)
 
     def _claim(self, table: Table) -> Claim | None:
-        verb = self._only(table, _VERBS, "what is expected")
+        verb = self._only(table, VERBS, "what is expected")
         subjects = [key for key in (*_SUBJECTS, "count") if key in table]
         if len(subjects) > 1:
             self._one_of(table, subjects)
@@ -340,7 +328,7 @@ class StepReader:
         given = table.values["count"]
         found = None
         if isinstance(given, (int, str)) and not isinstance(given, bool):
-            found = _COUNT.fullmatch(str(given))
+            found = COUNT.fullmatch(str(given))
         if found is None or (found[2] not in (None, "*") and int(found[1]) > int(found[2])):
             table.wrong(("count",), 'a number, or a range like "1..3" or "2..*"', given)
             return None
@@ -370,20 +358,20 @@ class StepReader:
         word = table.text(key, "the name of a member, of a role or of a type of member")
         return self._names.members(word, table.value_place((key,))) if word is not None else []
 
-    def _only(self, table: Table, keys: tuple[str, ...], what: str) -> str | None:
+    def _only(self, table: Table, keys: Iterable[str], what: str) -> str | None:
         given = [key for key in keys if key in table]
         if len(given) == 1:
             return given[0]
         if given:
             self._one_of(table, given)
-        elif not any(key not in (*_ACTIONS, *_CLAIM, *_TIMES) for key in table.values):
+        elif not any(key not in (*ACTIONS, *CLAIM, *TIMES) for key in table.values):
             place = table.value_place(())
             self._report.report(
                 "missing-key",
                 place,
                 name="in",
                 help=f"say {what} with {listed(list(keys))}, or what is done with "
-                f"{listed(list(_ACTIONS))}",
+                f"{listed(list(ACTIONS))}",
             )
         return None
 
