@@ -5,7 +5,7 @@ import { join } from "node:path";
 import * as vscode from "vscode";
 
 import { askInterpreter, BROWSE, type Choice, storeInterpreter } from "./interpreter.ts";
-import { isRecent, OLDEST } from "./launch.ts";
+import { INTERPRETER_SETTING, isRecent, OLDEST, PATH_SETTING } from "./launch.ts";
 import { interpreterIn, onPath, probe } from "./probe.ts";
 import type { Server } from "./server.ts";
 import { finished } from "./tasks.ts";
@@ -47,7 +47,11 @@ export async function install(server: Server, extension: vscode.Uri): Promise<vo
   }
   const interpreter = created ? await interpreterIn(created) : creator;
   if (interpreter && (await succeeds("install swarmc", interpreter, pip))) {
-    await storeInterpreter(interpreter);
+    const settings = vscode.workspace.getConfiguration();
+    // The search finds the new one, unless a setting names another.
+    if (!created || settings.get(PATH_SETTING) || settings.get(INTERPRETER_SETTING)) {
+      await storeInterpreter(interpreter);
+    }
     await server.refresh();
     void vscode.window.showInformationMessage(`swarmc is installed for ${interpreter}.`);
   }
