@@ -33,6 +33,7 @@ _RUN = (
     "cd",
     "pip",
     "pytest",
+    "python",
 )
 _NOT_RUN = (
     "python3 -m venv",
