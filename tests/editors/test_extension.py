@@ -94,9 +94,7 @@ def test_first_steps_have_a_command_and_end_with_it() -> None:
     assert contents.keys() == {view["id"], "workbench.explorer.emptyView"}
 
 
-def test_first_steps_show_valid_models(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_first_steps_show_valid_models(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     blocks = {
         path.stem: re.findall(r"^```(\w+)\n(.*?)^```", path.read_text("utf-8"), re.M | re.S)
         for path in (EXTENSION / "walkthrough").iterdir()

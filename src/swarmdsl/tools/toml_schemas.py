@@ -64,7 +64,9 @@ def _targets() -> Shape:
 
 
 def _option(option: Option) -> Shape:
-    return one_of(option.choices) if option.choices else {"type": _TYPES[option.type]}
+    if option.choices:
+        return {"enum": [option.type(each) for each in option.choices]}
+    return {"type": _TYPES[option.type]}
 
 
 def _lint() -> Shape:

@@ -30,7 +30,6 @@ from swarmdsl.execution.simulate.values import Way, fitted, fitted_result
 from swarmdsl.ir import Communication, Type
 
 
-
 def read_scenario(document: Document, subject: Subject, report: Diagnostics) -> Scenario:
     """Read the scenario in a document; incomplete if errors were reported."""
     return _Reader(document, subject, report).read()
