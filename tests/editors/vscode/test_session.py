@@ -273,9 +273,9 @@ def test_new_model(window: Window) -> None:
 
 def test_first_steps(window: Window) -> None:
     window.command("Swarm: Get Started")
-    steps = window.page.locator(".getting-started")
-    expect(steps.get_by_text("Get Started with Swarm").first).to_be_visible()
-    expect(steps.locator(".step-title", has_text="Verify it")).to_have_count(1)
+    steps = window.page.locator(".gettingStartedSlideDetails")
+    expect(steps.get_by_role("heading", name="Get Started with Swarm")).to_be_visible()
+    expect(steps.get_by_role("heading", name="Verify it")).to_be_visible()
     window.command("Swarm: New Project...")
     told = window.page.locator(".notification-toast", has_text="To create a project")
     told.get_by_role("button", name="Install swarmc").click()
