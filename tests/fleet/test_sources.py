@@ -174,9 +174,37 @@ def test_a_trace_that_ends_ends_the_lines(
     assert "robot[0] there Off start" in capsys.readouterr().out.splitlines()
 
 
+@pytest.mark.parametrize("name", ["later.jsonl", "ros3:/crew"])
+def test_a_trace_that_is_not_there_is_told(name: str, model: Path, tmp_path: Path) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "swarmdsl", "fleet", model, "--follow", name, "--terminal"],
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        assert process.stderr is not None
+        said = process.stderr.readline()
+        assert said.startswith(f"waiting for `{name}`: there is no such file")
+        assert "`ros2:NAME`" in said
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@pytest.mark.parametrize("more", [[], ["--terminal"]])
+def test_a_folder_is_no_trace(
+    more: list[str], model: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["fleet", str(model), "--follow", str(tmp_path), *more]) == 1
+    assert "error[SW0002]" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
+        (["--follow", ""], "`--follow` names nothing"),
         (["--host", "0.0.0.0"], "`--host` needs `--token`"),
         (["--token", ""], "a token has letters"),
         (["--token", "one&two"], "a token has letters"),

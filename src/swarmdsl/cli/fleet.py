@@ -84,6 +84,8 @@ def fleet(
     others = [each for each in sources if not each.startswith(PREFIX)]
     if len(others) > 1 or (others and names):
         raise click.UsageError("`--follow` takes one trace or recording, or nodes of ROS 2")
+    if "" in others:
+        raise click.UsageError("`--follow` names nothing: give `ros2:NAME`, a file, `-` or a bag")
     if token is not None and _TOKEN.fullmatch(token) is None:
         raise click.UsageError("a token has letters, digits, and `-`, `.`, `_` or `~`")
     if terminal and (opens or port or host != _LOOPBACK):
@@ -122,7 +124,7 @@ def _begun(
     stack: ExitStack,
 ) -> Watch | None:
     """Return the watch over the robots of a source; None if it cannot be read, which is told."""
-    from swarmdsl.ide.fleet.followed import follow_trace
+    from swarmdsl.ide.fleet.followed import follow_trace, wait_or_refuse
     from swarmdsl.ide.fleet.recorded import BagClock, UnreadableBagError, is_bag, read_bag
     from swarmdsl.ide.fleet.ros2_graph import listen_to
     from swarmdsl.ide.fleet.watch import RECORDED, Watch
@@ -149,6 +151,10 @@ def _begun(
         watch.turn("ended")
     else:
         watch = Watch(source, subject, recording, tell)
+        if not wait_or_refuse(source, watch, tell):
+            return None
+        if watch.waiting:
+            click.echo(watch.waiting, err=True)
         follow_trace(source, watch, tell)
     return watch
 

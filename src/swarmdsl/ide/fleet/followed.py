@@ -6,10 +6,26 @@ import threading
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.read_files import OddFileError
+from swarmdsl.base.read_files import OddFileError, open_file
 from swarmdsl.ide.fleet.watch import Tell, Watch
-from swarmdsl.ide.preview.trace_file import Turn, read_growing
+from swarmdsl.ide.preview.trace_file import STDIN, Turn, read_growing
 from swarmdsl.project.read_source import report_unreadable
+
+
+def wait_or_refuse(name: str, watch: Watch, tell: Tell) -> bool:
+    """Return False if a trace can never be read, which is told; let a missing one be waited for."""
+    if name == STDIN:
+        return True
+    try:
+        open_file(Path(name)).close()
+    except FileNotFoundError:
+        watch.waiting = (
+            f"waiting for `{name}`: there is no such file (nodes of ROS 2 are named `ros2:NAME`)"
+        )
+    except OSError as error:
+        _refuse(name, error, tell)
+        return False
+    return True
 
 
 def follow_trace(name: str, watch: Watch, tell: Tell) -> None:
@@ -27,6 +43,10 @@ def _read(name: str, watch: Watch, tell: Tell) -> None:
             elif chunk:
                 watch.read(chunk)
     except OddFileError as error:
-        report = Diagnostics()
-        report_unreadable(Path(name), error, None, report, "a trace")
-        tell(report)
+        _refuse(name, error, tell)
+
+
+def _refuse(name: str, error: OSError, tell: Tell) -> None:
+    report = Diagnostics()
+    report_unreadable(Path(name), error, None, report, "a trace")
+    tell(report)

@@ -98,7 +98,7 @@ def _drawing(watch: Watch, said: str) -> Group:
     keys = [f"{number} {each.name}" for number, each in enumerate(watch.events, 1)]
     can = f" ({watch.no_sending})" if watch.no_sending and keys else ""
     foot = Text(printable("   ".join([*keys, "q quit"]) + can), "bold")
-    return Group(*alarms, table, *verdicts, Text(printable(said)), foot)
+    return Group(*alarms, table, *verdicts, Text(printable(said or watch.waiting)), foot)
 
 
 def _cells(row: Mapping[str, Any]) -> tuple[str, ...]:

@@ -34,7 +34,8 @@ class NotSentError(Exception):
 class Watch:
     """State of a fleet as far as it is known: sources add to it, pages and terminals show it.
 
-    `no_sending` is the reason why nothing can be sent, until a source gives a way to do it.
+    `no_sending` is the reason why nothing can be sent, until a source gives a way to do it;
+    `waiting` tells of a trace that is not there yet.
     """
 
     def __init__(
@@ -49,6 +50,7 @@ class Watch:
         self.feed = Feed()
         self.events = operator_events(subject)
         self.no_sending = no_sending
+        self.waiting = ""
         self._tell = tell
         self._lock = threading.RLock()
         model = Model(subject) if subject is not None else None
@@ -80,6 +82,7 @@ class Watch:
     def begin_again(self) -> None:
         """Begin a new trace."""
         with self._lock:
+            self.waiting = ""
             self._lines, self._standing = self._begun()
             self.feed.begin()
             self._publish()
