@@ -128,6 +128,7 @@ def test_it_is_called_otherwise_wherever_it_is_named(old, new, parts, model, swa
         ("Camera", "on", "SW1505", "is a keyword"),
         ("Camera", "My-Eye", "SW1505", "is not a valid name"),
         ("Going.Busy.Drive", "Going.Busy.Roll", "SW1505", "give the unqualified name: `Roll`"),
+        ("Cart.camera", "camera", "SW1505", "it has this name already"),
         ("Camera", "Cart", "SW1505", "cannot rename"),
         ("Going.Done", "Idle", "SW1505", "cannot rename"),
     ],

@@ -58,6 +58,10 @@ def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) 
     found = _resolve(workspace, old, report)
     if found is None:
         return RenameResult(report, workspace.files)
+    if new == found.path[-1]:
+        reason, hint = "it has this name already", "choose another name"
+        report.report("cannot-rename", found.name_span, what=str(found), reason=reason, help=hint)
+        return RenameResult(report, workspace.files)
     namesakes = _namesakes(workspace, found)
     try:
         spans = places_of(workspace, found.file, found.name_span.start, new)
