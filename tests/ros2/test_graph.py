@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from swarmdsl.cli import run
+from swarmdsl.importing import ros_graph
 
 MODEL = """
 package lab
@@ -117,6 +118,28 @@ service wave_msgs/Wave { request { } response { } }
     )
     assert faults["cmd/wave"] == "no service server runs"
     assert faults["cmd/takeoff"] == faults["std_srvs/Empty"] == ""
+
+
+def test_doctor_compares_topics_that_are_only_heard(
+    sourced: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    fakes = sourced.fakes()
+    fakes.do("subscribe", topic="/sar/uav_0/go", kind="std_msgs/msg/Empty")
+    model = tmp_path / "model.swarm"
+    model.write_text("swarm operator event Go : std_msgs/String", encoding="utf-8")
+    assert run(["doctor", "--model", str(model), "--running"]) == 1
+    fault = "/sar/uav_0/go is std_msgs/Empty, but std_msgs/String in the model"
+    assert f"  --  go  {fault}\n" in capsys.readouterr().out
+
+
+def test_doctor_tells_that_nothing_was_compared(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(ros_graph, "read_graph", lambda quiet: ros_graph.Graph())
+    model = tmp_path / "model.swarm"
+    model.write_text("statemachine Quiet { initial Idle; final Idle }", encoding="utf-8")
+    assert run(["doctor", "--model", str(model), "--running"]) == 0
+    assert capsys.readouterr().out.count("\n  nothing is compared: none of those") == 2
 
 
 def test_no_python_has_rclpy(

@@ -24,6 +24,7 @@ from swarmdsl.syntax.types import Array
 PARTS = ("fields", "request", "response", "goal", "result", "feedback")
 # Services and topics that ROS itself has in each node.
 _OF_ROS = {"lifecycle_msgs", "rcl_interfaces", "type_description_interfaces"}
+_KINDS = ("actions", "services", "topics", "every_topic")
 _TIMEOUT = 60
 _NO_RCLPY = 3
 # Reads the graph until nothing new has been seen for a while.
@@ -38,16 +39,15 @@ rclpy.init()
 node = rclpy.create_node('swarmc_import', enable_rosout=False, start_parameter_services=False)
 found, since, quiet = None, time.monotonic(), float(sys.argv[1])
 while time.monotonic() - since < quiet:
-    topics = [
-        [name, types] for name, types in node.get_topic_names_and_types()
-        if node.count_publishers(name)
-    ]
-    now = [get_action_names_and_types(node), node.get_service_names_and_types(), topics]
+    there = node.get_topic_names_and_types()
+    sent = [[name, types] for name, types in there if node.count_publishers(name)]
+    every = [[name, [type_]] for name, types in there for type_ in types]
+    now = [get_action_names_and_types(node), node.get_service_names_and_types(), sent, every]
     if now != found:
         found, since = now, time.monotonic()
     time.sleep(0.05)
 own = node.get_fully_qualified_name() + '/'
-kinds = ('actions', 'services', 'topics')
+kinds = ('actions', 'services', 'topics', 'every_topic')
 print(json.dumps({
     kind: [[name, types[0]] for name, types in sorted(each) if not name.startswith(own)]
     for kind, each in zip(kinds, found)
@@ -59,11 +59,15 @@ rclpy.shutdown()
 
 @dataclass(frozen=True)
 class Graph:
-    """Actions, services and topics with publishers: each a name with its type."""
+    """Actions, services and topics with publishers: each a name with its type.
+
+    `every_topic` has topics without publishers, too, and each of the types of a topic.
+    """
 
     actions: tuple[tuple[str, Named], ...] = field(default=())
     services: tuple[tuple[str, Named], ...] = field(default=())
     topics: tuple[tuple[str, Named], ...] = field(default=())
+    every_topic: tuple[tuple[str, Named], ...] = field(default=())
 
 
 def read_graph(quiet: float) -> Graph:
@@ -80,7 +84,7 @@ def read_graph(quiet: float) -> Graph:
             said = done.stderr.strip().rpartition("\n")[2]
             raise UsageError(f"{python} cannot read the graph of ROS 2: {said}")
         data = json.loads(done.stdout)
-        return Graph(*(tuple(_typed(data[kind])) for kind in ("actions", "services", "topics")))
+        return Graph(*(tuple(_typed(data[kind])) for kind in _KINDS))
     raise UsageError(
         "no Python has rclpy: source the setup file of ROS 2 (`. /opt/ros/DISTRO/setup.sh`)"
     )

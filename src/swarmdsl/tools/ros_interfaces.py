@@ -81,7 +81,7 @@ def _kind(interface: Interface) -> str:
 def compare_running(system: System, graph: Graph) -> Iterator[Compared]:
     """Compare the servers of functions, and the topics of events, with those that run.
 
-    Those of each robot are in its namespace. A topic that nobody publishes is no fault.
+    Those of each robot are in its namespace. A topic that no node has is no fault.
     """
     for function in system.functions:
         call = function.communication
@@ -92,7 +92,7 @@ def compare_running(system: System, graph: Graph) -> Iterator[Compared]:
         yield from (_typed(call.name, place, call.type, type_) for place, type_ in found)
     for event in system.events:
         if isinstance(event.type, Named) and not event.predefined:
-            for place, type_ in _called(event.topic, graph.topics):
+            for place, type_ in _called(event.topic, graph.every_topic):
                 yield _typed(event.topic, place, event.type, type_)
 
 
@@ -109,8 +109,10 @@ def _typed(name: str, place: str, ours: Named, running: Named) -> Compared:
 
 
 def as_text(title: str, compared: list[Compared]) -> Iterator[str]:
-    """Yield a line for each interface or server, below a title."""
+    """Yield a line for each interface, server or topic, below a title; one if there are none."""
     width = max((len(each.name) for each in compared), default=0)
     yield title
+    if not compared:
+        yield "  nothing is compared: none of those that the model names were found"
     for each in compared:
         yield f"  {'--' if each.fault else 'ok'}  {each.name:<{width}}  {each.fault or each.place}"
