@@ -104,6 +104,12 @@ class PackageView:
     variant: Variant
 
     @property
+    def shares_roles(self) -> bool:
+        """True if a robot of several swarms may have the same name."""
+        names = [role.name for launch in self.launches for role in launch.roles]
+        return len(names) > len(set(names))
+
+    @property
     def has_watchdogs(self) -> bool:
         """True if the death of a node has consequences."""
         roles = (role for launch in self.launches for role in launch.roles)

@@ -290,13 +290,57 @@ swarm Others { rover : Rover }
     words = ["ros2", "launch", "lab_behavior", "robot.launch.py", "member:=rover_0"]
     assert robot["command"].split()[:6] == [*words, "swarm:=others"]
     assert robot["network_mode"] == robot["ipc"] == "host"
+    # Robots of two swarms with one name share no folder, and the unit asks for the swarm.
+    assert "log_dir:=/output/others/logs/rover_0" in robot["command"]
+    assert "trace_dir:=/output/rovers/traces" in robots["rovers.rover_0"]["command"]
     unit = files["lab_behavior/deploy/lab_behavior@.service"].text
-    assert " robot.launch.py member:=%i " in unit
+    assert ' robot.launch.py member:=%i swarm:="$SWARM" ' in unit
+    assert "# SWARM is the swarm of the robot: rovers or others." in unit
+    assert "#   echo SWARM=rovers | sudo tee -a /etc/default/lab_behavior" in unit
     assert "glob('deploy/*')" in files["lab_behavior/setup.py"].text
     assert not any("/deploy/" in path for path in generate(model))
+    verify_unit(unit)
+
+
+def verify_unit(unit: str) -> None:
+    """Let systemd judge a unit, if it is there."""
     if shutil.which("systemd-analyze") is not None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "lab_behavior@.service")
             path.write_text(unit, encoding="utf-8")
             done = subprocess.run(["systemd-analyze", "verify", path], capture_output=True)
         assert (done.returncode, done.stdout, done.stderr) == (0, b"", b"")
+
+
+@pytest.mark.parametrize("second", ["", "swarm Others { rover : Rover }"])
+def test_started_robots_have_the_profiles_of_their_network(
+    second: str, generate: Callable[..., Any]
+) -> None:
+    behavior = MACHINE + "member Rover { behavior Work }\nswarm Rovers { rover : Rover }\n"
+    watched = "property Ends of Rovers : never some rover in B\n"
+    files = generate(
+        HEAD + behavior + watched + second,
+        systemd="true",
+        compose="true",
+        network="wifi",
+        monitors="true",
+    )
+    unit = files["lab_behavior/deploy/lab_behavior@.service"].text
+    swarm = "$SWARM" if second else "rovers"
+    assert f"/share/lab_behavior/config/{swarm}/network" in unit
+    assert 'FASTDDS_DEFAULT_PROFILES_FILE="$network/$FASTDDS"' in unit
+    assert ("ExecStartPre=" in unit) == bool(second)
+    verify_unit(unit)
+    started = yaml.safe_load(files["lab_behavior/deploy/compose.yaml"].text)["services"]
+    robot = started["rovers.rover_0" if second else "rover_0"]
+    monitor = started["rovers_monitor"]
+    words = "ros2 run lab_behavior rovers_monitor --ros-args -r __ns:=/rovers -r __node:=monitor"
+    assert monitor["command"] == words
+    for each in (robot, monitor):
+        told = each["environment"]
+        folder = "/ws/install/lab_behavior/share/lab_behavior/config/rovers/network"
+        assert told["FASTDDS_DEFAULT_PROFILES_FILE"] == f"{folder}/${{FASTDDS:-fastdds.xml}}"
+        assert told["ROS_DOMAIN_ID"] == "${ROS_DOMAIN_ID:-0}"
+    readme = files["lab_behavior/README.md"].text
+    assert "## Network of rovers" in readme
+    assert "export FASTDDS_DEFAULT_PROFILES_FILE=$network/fastdds.xml" in readme
