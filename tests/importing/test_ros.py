@@ -138,3 +138,43 @@ def test_real_packages(folders: list[Path], tmp_path: Path) -> None:
     packages = {path.parent.name for path in read if path.suffix == ".yaml"}
     assert len(checked.system.interfaces) == len(interfaces)
     assert len(checked.system.functions) + len(checked.system.components) == len(packages)
+
+
+@pytest.mark.parametrize(
+    ("name", "advice"),
+    [
+        ("nav2_msgs", "AMENT_PREFIX_PATH is not set"),
+        ("std_msgs", "the interfaces of `std_msgs` come with swarmdsl, and need no import"),
+    ],
+)
+def test_packages_by_name_without_ros(
+    name: str, advice: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    assert run(["import", "ros", name]) == 1
+    assert advice in capsys.readouterr().err
+
+
+def test_packages_by_name_with_ros(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("std_msgs", "sensor_msgs", "uav_msgs"):
+        for index in ("packages", "rosidl_interfaces"):
+            path = tmp_path / "share/ament_index/resource_index" / index / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text("", encoding="utf-8")
+    make(tmp_path, share__std_msgs__msg__Empty_msg="")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    model = tmp_path / "model.swarm"
+
+    def advice(name: str) -> str:
+        model.write_text(f'import ros "{name}"\nevent Go : std_msgs/Empty\n', encoding="utf-8")
+        assert run(["check", str(model)]) == 1
+        return capsys.readouterr().out
+
+    assert "help: did you mean `std_msgs`?" in advice("std_msg")
+    assert "help: did you mean `uav_msgs`?" in advice("uaw_msgs")
+    # An ending that all of them have makes no name similar.
+    assert "did you mean" not in advice("nav2_msgs")
+    assert run(["import", "ros", "std_msgs"]) == 1
+    assert "interfaces of `std_msgs` come with swarmdsl, and" in capsys.readouterr().err

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Literal
 
@@ -14,7 +15,7 @@ from swarmdsl.base.rewriting import Layout
 from swarmdsl.driver.format_files import write as write_layouts
 from swarmdsl.driver.write_bounds import may_write_models
 from swarmdsl.importing.files import package_of, read_files
-from swarmdsl.importing.ros import import_ros, library_functions
+from swarmdsl.importing.ros import import_ros, library_functions, why_empty
 from swarmdsl.importing.text import check_model, model_text
 from swarmdsl.importing.update import Guess
 from swarmdsl.importing.update.on_disk import read_existing, update_files
@@ -74,7 +75,8 @@ def run(
     else:
         known = existing.system if existing is not None and format_ == "scxml" else None
         system, files = read_files(format_, paths, described, name, known, guesses, report)
-    text = model_text(system, paths[0], report)
+    why = partial(why_empty, paths) if format_ == "ros" else lambda: None
+    text = model_text(system, paths[0], report, why)
     if text is None:
         return ImportResult(report, files)
     if existing is not None:

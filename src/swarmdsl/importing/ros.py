@@ -11,7 +11,7 @@ from pathlib import Path
 
 from swarmdsl.analysis.resolve.type_names import written_type
 from swarmdsl.base import resources
-from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.read_files import MOST_DATA, exists, is_folder
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
@@ -61,7 +61,7 @@ def import_ros(
     for named in folders:
         folder = named if exists(named) else installed_package(str(named)) or named
         parameters = find_parameters(folder) if is_folder(folder) else []
-        found = find_interfaces(folder, None, report, required=not parameters)
+        found = find_interfaces(folder, None, report, required=not parameters, named=str(named))
         files += len(found) + len(parameters)
         for each in found:
             source = read_source(each.path, None, report, "a file", MOST_DATA)
@@ -83,6 +83,17 @@ def import_ros(
         components=tuple(_components(owners, functions)),
     )
     return system, files
+
+
+def why_empty(folders: Sequence[Path]) -> str | None:
+    """Return the reason for which nothing is imported from packages of ROS itself."""
+    known: set[str] = set()
+    for named in folders:
+        folder = named if exists(named) else installed_package(str(named)) or named
+        found = find_interfaces(folder, None, Diagnostics(), required=False)
+        known.update(each.package for each in found)
+    names = listed(sorted(known), "and")
+    return f"the interfaces of {names} come with swarmdsl, and need no import" if known else None
 
 
 def _add(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from swarmdsl.analysis.checks import validate
@@ -14,10 +15,18 @@ from swarmdsl.project.loader import Project
 from swarmdsl.syntax.formatter import format_source
 
 
-def model_text(system: System, path: Path, report: Diagnostics) -> str | None:
-    """Return the formatted text of a system; None if it is empty or cannot be printed."""
+def model_text(
+    system: System,
+    path: Path,
+    report: Diagnostics,
+    why_empty: Callable[[], str | None] = lambda: None,
+) -> str | None:
+    """Return the formatted text of a system; None if it is empty or cannot be printed.
+
+    `why_empty` returns the reason for a system that is empty.
+    """
     if not (report.has_errors or _has_content(system)):
-        report.report("nothing-to-import", path=path.as_posix())
+        report.report("nothing-to-import", path=path.as_posix(), help=why_empty())
     if report.has_errors:
         return None
     try:

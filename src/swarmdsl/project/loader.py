@@ -224,8 +224,9 @@ class _Loader:
 
                 if not exists(place):
                     place = installed_package(target) or place
-
-                found = find_interfaces(place, target.span, self._report, look=self._reader.look)
+                found = find_interfaces(
+                    place, target.span, self._report, look=self._reader.look, named=target
+                )
                 for interface in found:
                     yield _Step(interface.path, file, statement, interface)
             case ImportLibrary():

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from swarmdsl.base.read_files import is_file
+from swarmdsl.base.suggest import closest, did_you_mean
+from swarmdsl.project.rosidl.standard import packages
 
 PREFIXES = "AMENT_PREFIX_PATH"
 """Environment variable that the setup file of ROS 2 sets: the folders with packages."""
@@ -34,6 +36,27 @@ def installed_packages() -> list[str]:
         except OSError:
             continue  # a folder with other packages, or one that is gone
     return sorted(filter(_NAME.fullmatch, found))
+
+
+def advice(name: str) -> str | None:
+    """Return why no installed package has a name, and a way out; None if it is no such name."""
+    if _NAME.fullmatch(name) is None:
+        return None
+    if name in packages():
+        return f"the interfaces of `{name}` come with swarmdsl, and need no import"
+    if PREFIXES not in os.environ:
+        return (
+            "name the folder of a ROS package; or, to name a package that is installed, source the "
+            f"setup file of ROS 2 before: {PREFIXES} is not set"
+        )
+    stem = closest(_stem(name), map(_stem, installed_packages()))
+    similar = (each for each in installed_packages() if _stem(each) == stem)
+    return did_you_mean(name, similar)
+
+
+def _stem(name: str) -> str:
+    """Return the part of a name that tells packages apart."""
+    return re.sub("_(msg|srv|interface|action)s?$", "", name)
 
 
 def _prefixes() -> Iterator[str]:

@@ -13,6 +13,7 @@ from swarmdsl.base.read_files import MOST_DATA, exists, is_folder, read_file
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.project.libraries import SUFFIX
+from swarmdsl.project.rosidl.installed import advice
 from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS, Kind
 from swarmdsl.project.search import report_too_many
 
@@ -68,8 +69,11 @@ def find_interfaces(
     *,
     required: bool = True,
     look: Callable[[Path], None] | None = None,
+    named: str = "",
 ) -> list[InterfacePath]:
     """Return the interfaces in a folder by package, kind and name; report errors at `at`.
+
+    `named` is the folder as the user named it, which may be the name of an installed package.
 
     The folder is a package, with the files in it or in `msg`, `srv` and `action`, or has several
     packages below it, like a ROS workspace. If interfaces are `required`, it is an error to find
@@ -78,7 +82,7 @@ def find_interfaces(
     if look is not None:
         look(folder)
     if not exists(folder):
-        report.report("file-not-found", at, path=folder, help=_WANTED)
+        report.report("file-not-found", at, path=folder, help=advice(named) or _WANTED)
         return []
     if not is_folder(folder):
         report.report(
