@@ -51,6 +51,7 @@ _MIXED = (
     ),
 )
 _TAIL = re.compile(r"(?P<guard>\[[^]\n]*\][ \t]*)?(?:/(?:[^\n;}/]|/(?!/))*)?")
+_NAMELESS = re.compile(rf"{_BEGIN}(?P<token>contract)[ \t]*:[ \t]*(?=on\b)", re.MULTILINE)
 _TWO_WORDS = re.compile(
     r"^[ \t]*(?:(?:var|param)[ \t]+)?[A-Za-z_]\w*[ \t]*:[ \t]*(?P<first>[a-z]\w*)[ \t]+"
     r"(?P<token>[a-z]\w*(?:/\w+)?)[ \t]*$",
@@ -77,6 +78,10 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
                 one, other = f"on {found['events']} {rest}", f"after {found['delay']} {rest}"
                 message = "a transition waits for events or for a delay, not for both"
                 return _delayed(found, message, f"write two: `{one}` and `{other}`")
+    for found in _NAMELESS.finditer(text, near, at + 2):
+        if found.end() == at:
+            help_ = "name it before the `:`, as in `contract Stops : on Stop within 2 s reach Home`"
+            return _delayed(found, "expected a name after `contract`", help_)
     if (found := _TWO_WORDS.match(text, line)) and found.end("token") > before:
         message = f"expected the end of the line, found `{found['token']}`"
         unit = f"write `{found['first']} in {found['token']}`" if found["token"] in UNITS else None

@@ -8,16 +8,15 @@ import unicodedata
 from swarmdsl.base.diagnostics.collector import listed
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.errors.foreign_tokens import symbol_hint
-from swarmdsl.syntax.parser.keywords import RESERVED
 from swarmdsl.syntax.types import PRIMITIVES
-from swarmdsl.syntax.units import UNITS, meant_unit
+from swarmdsl.syntax.units import UNITS
 
 _NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
 SIZES = "write `[]` for any number of elements, `[4]` for exactly 4, `[<=4]` for at most 4"
 _ARROWS = {"->", "=>", "-", "=", ">", ":", "\N{RIGHTWARDS ARROW}"}
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # Similarity to a keyword: `Start` is too far from `state`.
-_MIN_SIMILARITY = 0.85
+MIN_SIMILARITY = 0.85
 _PARAMETER = re.compile(r"[(,]\s*(?:inout|(?:in|out)\s+(?:in|out))$")
 _UPDATES = (":=", "+=", "-=", "*=", "/=", "++", "--")
 
@@ -53,16 +52,13 @@ def token_hint(
     if token == "/" and joined:
         return "complete the name of the type, as in `std_msgs/Empty`"
     if last[:1].isdigit() and token[0].isalpha() and expected & {"`->`", "`+`"}:
-        unit = meant_unit(token)
-        return f"write `{last} {unit}`" if unit else f"the units are {listed(list(UNITS), 'and')}"
+        return f"the units are {listed(list(UNITS), 'and')}"
     if token in "})]" and "`struct`" in expected:
         return "delete it: there is no open bracket"
     if hint := symbol_hint(token):
         return hint
-    # The parser took a misspelled keyword for the name of a part or field.
-    slip, meant = (last, RESERVED) if "`:`" in expected else (token, _literals(expected))
-    keyword = closest(slip, meant, _MIN_SIMILARITY)
-    return f"did you mean `{keyword}`?" if keyword and keyword != slip else None
+    keyword = closest(token, _literals(expected), MIN_SIMILARITY) if "`:`" not in expected else None
+    return f"did you mean `{keyword}`?" if keyword and keyword != token else None
 
 
 def _literals(expected: set[str]) -> list[str]:

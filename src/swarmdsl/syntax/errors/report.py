@@ -13,6 +13,7 @@ from swarmdsl.syntax.errors.foreign_statements import foreign_statement_hint
 from swarmdsl.syntax.errors.foreign_tokens import foreign_token_hint
 from swarmdsl.syntax.errors.hints import strange_character, token_hint
 from swarmdsl.syntax.errors.property_hints import fact_hint, property_hint
+from swarmdsl.syntax.errors.slips import find_keyword, find_unit
 from swarmdsl.syntax.parser.keywords import FIRST, RESERVED
 from swarmdsl.syntax.parser.patched_text import PatchedText
 
@@ -162,17 +163,27 @@ def report_syntax_error(
         message = f"expected {_either(expected)} after `{before[0]}`"
         end = before.end()
         help_ = foreign_statement_hint(words, text, end) or fact_hint(words, text, end)
-        report.report("syntax-error", place(before), message=message, help=help_)
+        span = place(before)
+        number = _token_before(text, before.start())
+        # The parser took a unit for the name of a role or field.
+        if help_ is None and number is not None and (slip := find_unit(number, before)):
+            start, end, message, help_ = slip
+            span = Span(source, patched.origins[start], patched.origins[end])
+        report.report("syntax-error", span, message=message, help=help_)
         return before.start()
     else:
         what = f"`{found[0]}`" if found else "the end of the file"
         end = len(source.text)
-        report.report(
-            "syntax-error",
-            place(found) if found else Span(source, end, end),
-            message=f"expected {_either(expected)}, found {what}",
-            help=_hint(words, before, found) if found else None,
-        )
+        span = place(found) if found else Span(source, end, end)
+        message = f"expected {_either(expected)}, found {what}"
+        slip = find_unit(before, found) if before and found else None
+        help_ = _hint(words, before, found) if found and slip is None else None
+        if before and found and slip is None and help_ is None:
+            slip = find_keyword(words, before)
+        if slip is not None:
+            start, end, message, help_ = slip
+            span = Span(source, patched.origins[start], patched.origins[end])
+        report.report("syntax-error", span, message=message, help=help_)
     return min(at, len(text))
 
 
