@@ -16,6 +16,7 @@ from swarmdsl.syntax.ast import (
     Choice,
     Communication,
     DoneTrigger,
+    EventTrigger,
     Function,
     OutcomeTrigger,
     Parallel,
@@ -95,7 +96,9 @@ def _check_outcomes(state: State, transitions: Sequence[Transition], context: Co
             for trigger in transition.triggers
             if isinstance(trigger, OutcomeTrigger) and trigger.outcome == outcome
         ]
-        if all(transition.guard is not None for transition in handled):
+        if all(transition.guard is not None for transition in handled) and not any(
+            _means_outcome(trigger, outcome) for each in transitions for trigger in each.triggers
+        ):
             unhandled.append(outcome)
             guarded += handled
     # A state with two kinds of content is reported first.
@@ -113,6 +116,16 @@ def _check_outcomes(state: State, transitions: Sequence[Transition], context: Co
             help=f"add {listed([f'on {outcome} -> ...' for outcome in unhandled], 'and')} "
             f"to state `{state.name}`",
         )
+
+
+def _means_outcome(trigger: Trigger, outcome: str) -> bool:
+    """Return True for an unknown event, reported already, whose name is nearly an outcome."""
+    if not isinstance(trigger, EventTrigger) or trigger.event.target is not None:
+        return False
+    from swarmdsl.analysis.resolve.hints import misspelled_outcome, other_outcome
+
+    name = trigger.event.name
+    return outcome in (other_outcome(name), misspelled_outcome(name))
 
 
 def _check_preempted(state: State, transitions: Sequence[Transition], context: Context) -> None:

@@ -13,6 +13,7 @@ from pathlib import Path
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import states_by_name
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.suggest import closest
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Declaration, EnumType, ImportLibrary, Node, TypeRef, Vertex
 from swarmdsl.syntax.types import PRIMITIVES
@@ -42,10 +43,18 @@ _CALLED = ("elapsed", "present")
 # Names of an absent value in other languages.
 _NULL = ("null", "none", "nil", "undefined")
 
+# `Abort` is too far from `aborted`: it is an event.
+_LIKE_OUTCOME = 0.85
+
 
 def other_outcome(name: str) -> str | None:
     """Return the outcome that other tools call by this name: `aborted` for `failure`."""
     return _OTHER_OUTCOMES.get(name.lower())
+
+
+def misspelled_outcome(name: str) -> str | None:
+    """Return the outcome of an activity that a name is nearly: `succeeded` for `suceeded`."""
+    return closest(name, ("succeeded", "aborted", "preempted"), _LIKE_OUTCOME)
 
 
 def declared_elsewhere(

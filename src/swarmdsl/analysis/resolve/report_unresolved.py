@@ -114,18 +114,22 @@ def report_reference(
 ) -> None:
     """Report a reference from `owner` to a declaration of a kind."""
     name = ref.name
+    built_in: tuple[str, ...] = ()
     if isinstance(owner, EventTrigger) and isinstance(found, Missing):
-        from swarmdsl.analysis.resolve.hints import other_outcome
+        from swarmdsl.analysis.resolve.hints import misspelled_outcome, other_outcome
 
         outcome = other_outcome(name)
         if outcome is not None and name not in scope.skipped_names:
             help_ = f"for the outcome of an activity, write `{outcome}`"
             report.report("unresolved-name", ref.span, kind="event", name=name, help=help_)
             return
+        built_in = tuple(filter(None, [misspelled_outcome(name)]))
     instead = None
     if isinstance(owner, Part) and isinstance(found, WrongKind):
         instead = f"write `behavior {name}`" if type(found.node) is StateMachine else None
-    _report_declaration(found, name, ref.span, (kind,), scope, report, instead=instead)
+    _report_declaration(
+        found, name, ref.span, (kind,), scope, report, built_in=built_in, instead=instead
+    )
 
 
 def report_activity(
