@@ -17,7 +17,7 @@ from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.base.diagnostics.collector import Diagnostics, Level, Severity
 from swarmdsl.driver.config.settings import Settings
 from swarmdsl.driver.fixes import fixes_of
-from swarmdsl.driver.fixes.application import texts_with
+from swarmdsl.driver.fixes.trial import texts_with
 from swarmdsl.driver.workspace import Workspace
 
 FOLDER = Path(__file__).parents[1] / "diagnostics"

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.driver.fixes import fixes_of
-from swarmdsl.driver.fixes.application import texts_with
+from swarmdsl.driver.fixes.trial import texts_with
 from swarmdsl.driver.workspace import Workspace
 
 MODEL = """\

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 from swarmdsl.base.diagnostics.render import WITH_FIXES, counted
 from swarmdsl.base.rewriting import Layout
 from swarmdsl.cli.exit_code import ERRORS, conclude
@@ -18,6 +18,9 @@ from swarmdsl.driver.pipeline import Result
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.write_bounds import may_write_models
 
+_TRIALS = 40
+"""Trials of fixes to tell how many there are; each takes a check of what has changed."""
+
 
 def with_fixes(settings: Settings) -> Result:
     """Check a model; each diagnostic has its fixes."""
@@ -26,18 +29,29 @@ def with_fixes(settings: Settings) -> Result:
 
 
 def fixable(settings: Settings) -> str | None:
-    """Return how many problems of a model have fixes, and which options write them."""
+    """Return how many problems of a model can be fixed, and which options do so.
+
+    The fixes are tried, as `--fix` does, unless this takes too many trials.
+    """
     workspace = Workspace(settings.sources, settings)
     # It takes long to find out which new names fit.
-    found = [each for each in workspace.report if each.name != SLOW]
-    fixes = [made for each in found if (made := fixes_of(each, workspace))]
-    if not fixes:
+    kept = [each for each in workspace.report if each.name != SLOW]
+    if not any(fixes_of(each, workspace) for each in kept):
         return None
-    problems = f"{counted(len(fixes), 'problem')} can be fixed with `--fix"
-    safe = sum(any(fix.safe for fix in made) for made in fixes)
-    if safe == len(fixes):
+    bound = "at least " if len(kept) < len(list(workspace.report)) else ""
+    every = fix_all(workspace, unsafe=True, slow=False, trials=_TRIALS)
+    workspace = Workspace(settings.sources, settings)
+    safe = fix_all(workspace, slow=False, trials=_TRIALS)
+    if not (every.complete and safe.complete):
+        return "some problems can be fixed: `--diff` and `--diff --unsafe-fixes` show which"
+    count = len(every.applied)
+    if not count:
+        return None
+    problems = f"{bound}{counted(count, 'problem')} can be fixed with `--fix"
+    if len(safe.applied) == count:
         return f"{problems}`"
-    return f"{problems} --unsafe-fixes`" + (f", {safe} of them with `--fix` alone" if safe else "")
+    alone = f", {len(safe.applied)} of them with `--fix` alone" if safe.applied else ""
+    return f"{problems} --unsafe-fixes`{alone}"
 
 
 def write_fixes(paths: Sequence[Path], settings: Settings, format_: str, *, unsafe: bool) -> int:
@@ -49,11 +63,10 @@ def write_fixes(paths: Sequence[Path], settings: Settings, format_: str, *, unsa
     if layouts is None or not write(layouts, failed):
         return conclude(Result(failed, workspace.files), format_, sys.stdout)
     for found, fix in fixed.applied:
-        place = found.primary.span if found.primary is not None else None
-        where = f"{place.source.name}:{place.line}: " if place is not None else ""
-        sys.stderr.write(f"{where}{found.code}: {fix.title}\n")
+        sys.stderr.write(f"{_where(found)}{found.code}: {fix.title}\n")
     if fixed.applied:
         sys.stderr.write(f"{_counted(fixed)} fixed\n")
+    _tell_refused(fixed)
     report = workspace.report
     if format_ in WITH_FIXES:
         report = add_fixes(report, workspace)
@@ -72,6 +85,7 @@ def show_fixes(paths: Sequence[Path], settings: Settings, format_: str, *, unsaf
         sys.stdout.write(layout.diff())
     if fixed.applied:
         sys.stderr.write(f"{_counted(fixed)} would be fixed\n")
+    _tell_refused(fixed)
     code = conclude(Result(workspace.report, workspace.files), format_, sys.stderr)
     return ERRORS if fixed.after else code
 
@@ -85,3 +99,15 @@ def _layouts(fixed: Fixed, paths: Sequence[Path], failed: Diagnostics) -> list[L
 
 def _counted(fixed: Fixed) -> str:
     return f"{counted(len(fixed.applied), 'problem')} in {counted(len(fixed.after), 'file')}"
+
+
+def _tell_refused(fixed: Fixed) -> None:
+    """Print the fixes that were undone, each with the reason."""
+    for each in fixed.refused:
+        title = f"{each.found.code}: {each.fix.title}"
+        sys.stderr.write(f"{_where(each.found)}not fixed: {title}: {each.reason}\n")
+
+
+def _where(found: Diagnostic) -> str:
+    place = found.primary.span if found.primary is not None else None
+    return f"{place.source.name}:{place.line}: " if place is not None else ""

@@ -3,98 +3,124 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import accumulate
 from pathlib import Path
 
-from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Fix, Severity
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Fix
 from swarmdsl.base.line_matching import line_matcher
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.rewriting import Change, Layout
 from swarmdsl.base.source import Source
-from swarmdsl.base.text_edits import Edits
 from swarmdsl.driver.edit_files import edited
-from swarmdsl.driver.fixes import fixes_of
+from swarmdsl.driver.fixes import SLOW, fixes_of
+from swarmdsl.driver.fixes.trial import SYNTAX, Proposal, Refused, texts_of, try_fixes
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.syntax.formatter import format_source
 
 # A fix can cause a problem with a fix of its own, but not for ever.
 _MOST_ROUNDS = 500
-_SYNTAX = "SW01"
-
-Proposal = tuple[Diagnostic, Fix]
-Kind = tuple[str, str]
+_Identity = tuple[str, str, str, int]
 
 
 @dataclass(frozen=True)
 class Fixed:
-    """Fixes that were applied, and the texts of the changed files before and after."""
+    """Fixes that were applied, and the texts of the changed files before and after.
+
+    `refused` are those that were undone, of diagnostics that remain. If not `complete`, more fixes
+    could have been tried.
+    """
 
     applied: Sequence[Proposal]
     before: dict[Path, str]
     after: dict[Path, str]
+    refused: Sequence[Refused] = ()
+    complete: bool = True
 
 
-def fix_all(workspace: Workspace, *, unsafe: bool = False, only: Path | None = None) -> Fixed:
+def fix_all(
+    workspace: Workspace,
+    *,
+    unsafe: bool = False,
+    only: Path | None = None,
+    slow: bool = True,
+    trials: int | None = None,
+) -> Fixed:
     """Apply the best fix of each diagnostic, and leave the workspace with the new texts.
 
-    With `only`, no other file is changed.
+    With `only`, no other file is changed; without `slow`, slow fixes are left out. After so many
+    `trials`, no further one is made.
 
-    A fix is undone if its diagnostic stays or if another error comes. In a file with syntax errors,
-    only these are fixed. Files that were formatted stay so.
+    A fix is undone if its diagnostic stays or if another error comes, unless the wrong text has
+    hidden that one. In a file with syntax errors, only these are fixed. Files that were formatted
+    stay so.
     """
-    before = dict(_texts(workspace))
+    before = dict(texts_of(workspace))
     applied: list[Proposal] = []
-    refused: set[tuple[str, str, str, int]] = set()
+    refused: dict[_Identity, Refused] = {}
+    tried, applied_before = 0, 0
     for _ in range(_MOST_ROUNDS):
         chosen = without_overlaps(
             (found, fix)
-            for found, fix in _proposals(workspace, only, unsafe=unsafe)
+            for found, fix in _proposals(workspace, only, unsafe=unsafe, slow=slow)
             if _identity(found, fix) not in refused
         )
         if not chosen:
-            break
-        while chosen and not _apply(workspace, chosen):
+            if not refused or len(applied) == applied_before:
+                break
+            # What did harm may help now.
+            applied_before = len(applied)
+            refused.clear()
+            continue
+        while chosen and tried != trials:
+            tried += 1
+            reason = try_fixes(workspace, chosen)
+            if reason is None:
+                break
             # Together they do harm: the first half can be good.
             if len(chosen) == 1:
-                refused.add(_identity(*chosen[0]))
+                refused[_identity(*chosen[0])] = Refused(*chosen[0], reason)
             chosen = chosen[: len(chosen) // 2]
+        else:
+            if tried == trials:
+                break
         applied += chosen
         # A fix of an import brings in other files.
-        before = {**dict(_texts(workspace)), **before}
-    changed = {path: text for path, text in _texts(workspace) if before[path] != text}
+        before = {**dict(texts_of(workspace)), **before}
+    changed = {path: text for path, text in texts_of(workspace) if before[path] != text}
     texts = {path: _as_formatted(path, before[path], text) for path, text in changed.items()}
     if texts != changed:
         workspace.update(texts)
-    return Fixed(applied, {path: before[path] for path in texts}, texts)
+    remain = {(each.code, each.message) for each in workspace.report}
+    left = [each for each in refused.values() if (each.found.code, each.found.message) in remain]
+    return Fixed(
+        applied, {path: before[path] for path in texts}, texts, left, complete=tried != trials
+    )
 
 
-def _texts(workspace: Workspace) -> Iterator[tuple[Path, str]]:
-    for file in workspace.project.files:
-        if file.source.path is not None and not file.library:
-            yield file.source.path, file.source.text
-
-
-def _proposals(workspace: Workspace, only: Path | None, *, unsafe: bool) -> Iterator[Proposal]:
+def _proposals(
+    workspace: Workspace, only: Path | None, *, unsafe: bool, slow: bool
+) -> Iterator[Proposal]:
     report = list(workspace.report)
     broken = {
         each.primary.span.source.path
         for each in report
-        if each.code.startswith(_SYNTAX) and each.primary
+        if each.code.startswith(SYNTAX) and each.primary
     }
     for found in report:
+        if found.name == SLOW and not slow:
+            continue
         fix = next(iter(fixes_of(found, workspace, unsafe=unsafe)), None)
         if fix is None:
             continue
         touched = {span.source.path for span, _ in fix.edits}
         if only is not None and touched != {only}:
             continue
-        if found.code.startswith(_SYNTAX) or touched.isdisjoint(broken):
+        if found.code.startswith(SYNTAX) or touched.isdisjoint(broken):
             yield found, fix
 
 
-def _identity(found: Diagnostic, fix: Fix) -> tuple[str, str, str, int]:
+def _identity(found: Diagnostic, fix: Fix) -> _Identity:
     place = found.primary.span.start if found.primary is not None else 0
     return found.code, found.message, fix.title, place
 
@@ -115,44 +141,6 @@ def without_overlaps(proposals: Iterable[Proposal]) -> list[Proposal]:
             taken.setdefault(source, []).append((start, end))
         chosen.append((found, fix))
     return chosen
-
-
-def texts_with(fixes: Sequence[Fix]) -> dict[Path, str]:
-    """Return the texts of files after fixes that do not overlap."""
-    edits: dict[Path, Edits] = {}
-    for fix in fixes:
-        for span, text in fix.edits:
-            path = span.source.path
-            assert path is not None  # sources of a workspace are files
-            edits.setdefault(path, Edits(span.source)).replace(span, text)
-    return {path: made.text() for path, made in edits.items()}
-
-
-def _apply(workspace: Workspace, chosen: Sequence[Proposal]) -> bool:
-    """Apply fixes; undo them and return False if they do harm or do not help."""
-    old = dict(_texts(workspace))
-    new = texts_with([fix for _, fix in chosen])
-    before, errors = _counts(workspace)
-    workspace.update(new)
-    after, errors_after = _counts(workspace)
-    # Where a syntax error is gone, other errors can be seen.
-    syntax_only = all(found.code.startswith(_SYNTAX) for found, _ in chosen)
-    harm = [
-        kind for kind in errors_after - errors if not syntax_only or kind[0].startswith(_SYNTAX)
-    ]
-    cured = Counter((found.code, found.message) for found, _ in chosen)
-    if not harm and all(after[kind] <= before[kind] - number for kind, number in cured.items()):
-        return True
-    workspace.update({path: old[path] for path in new})
-    return False
-
-
-def _counts(workspace: Workspace) -> tuple[Counter[Kind], Counter[Kind]]:
-    """Return how often each diagnostic and each error is there."""
-    report = list(workspace.report)
-    errors = (each for each in report if each.severity is Severity.ERROR)
-    every = Counter((each.code, each.message) for each in report)
-    return every, Counter((each.code, each.message) for each in errors)
 
 
 def _as_formatted(path: Path, before: str, after: str) -> str:

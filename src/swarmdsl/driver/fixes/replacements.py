@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 
 from swarmdsl.base.diagnostics.collector import Fix
+from swarmdsl.base.source import Span
 from swarmdsl.driver.fixes.problem import CODE, Problem, Rule, inserting, proposed, replacing
 
 _NAME = re.compile(r"[\w./]+")
@@ -45,10 +46,38 @@ def _one_of(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
 def _written(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
     """Yield what is to stand at the place: one text is the only reading, several are proposals."""
     texts = [each for each in CODE.findall(match[0]) if "..." not in each]
-    # A number can be meant in more than one way.
-    safe = len(texts) == 1 and not problem.span.text[:1].isdigit()
+    # A number can be meant in more than one way, but not if only the name of its unit is wrong.
+    unclear = problem.span.text[:1].isdigit() and not _renames_unit(problem.span.text, texts)
+    safe = len(texts) == 1 and not unclear
     for text in texts:
-        yield replacing(problem.span, text, safe=safe)
+        yield replacing(_with_repeated(problem, text), text, safe=safe)
+
+
+def _with_repeated(problem: Problem, text: str) -> Span:
+    """Return the place with what a text repeats around it: `lost after 5 s` for `5` in `lost 5 s`.
+
+    Words around the place count as repeated if the text has them around what is there.
+    """
+    span, source = problem.span, problem.text
+    found = re.search(rf"(?<!\w){re.escape(span.text)}(?!\w)", text) if span.text else None
+    if found is None:
+        return span
+    start, end = span.start, span.end
+    words = [text[: each.end()] for each in re.finditer(r"\w+", text[: found.start()])]
+    line = source[source.rfind("\n", 0, start) + 1 : start].rstrip()
+    for each in words:
+        if re.search(rf"(?<!\w){re.escape(each)}\Z", line):
+            start -= len(source[:start]) - len(source[:start].rstrip()) + len(each)
+            break
+    if found.end() < len(text) and source.startswith(text[found.end() :], end):
+        end += len(text) - found.end()
+    return problem.part(start, end)
+
+
+def _renames_unit(text: str, texts: list[str]) -> bool:
+    """Return True if each text has the same number with another name of a unit."""
+    number, _, unit = text.partition(" ")
+    return bool(unit) and all(each.startswith(f"{number} ") for each in texts)
 
 
 def _bracketed(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
