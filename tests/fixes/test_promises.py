@@ -109,3 +109,9 @@ def test_a_refused_fix_has_a_reason(fixed):
         "field.swarm:27: not fixed: SW0101: Change to `1 s`: "
         "SW0101 would come in line 27: expected `lost`" in said
     )
+
+
+def test_a_fix_in_a_file_with_syntax_errors_has_a_reason(fixed):
+    text, said = fixed(("heartbeat 1 s lost", "heartbeat lost"), ("-> Home", "-> Hoem"))
+    assert "-> Hoem" in text
+    assert "Change to `Home`: the file has syntax errors\n" in said

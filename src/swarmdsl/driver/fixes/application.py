@@ -93,6 +93,8 @@ def fix_all(
         workspace.update(texts)
     remain = {(each.code, each.message) for each in workspace.report}
     left = [each for each in refused.values() if (each.found.code, each.found.message) in remain]
+    if only is None:
+        left += _waiting(workspace, unsafe=unsafe)
     return Fixed(
         applied, {path: before[path] for path in texts}, texts, left, complete=tried != trials
     )
@@ -101,13 +103,8 @@ def fix_all(
 def _proposals(
     workspace: Workspace, only: Path | None, *, unsafe: bool, slow: bool
 ) -> Iterator[Proposal]:
-    report = list(workspace.report)
-    broken = {
-        each.primary.span.source.path
-        for each in report
-        if each.code.startswith(SYNTAX) and each.primary
-    }
-    for found in report:
+    broken = _broken(workspace)
+    for found in list(workspace.report):
         if found.name == SLOW and not slow:
             continue
         fix = next(iter(fixes_of(found, workspace, unsafe=unsafe)), None)
@@ -118,6 +115,25 @@ def _proposals(
             continue
         if found.code.startswith(SYNTAX) or touched.isdisjoint(broken):
             yield found, fix
+
+
+def _waiting(workspace: Workspace, *, unsafe: bool) -> Iterator[Refused]:
+    """Yield the fixes of files with syntax errors, which come first."""
+    broken = _broken(workspace)
+    for found in workspace.report if broken else ():
+        if found.name == SLOW or found.code.startswith(SYNTAX):
+            continue
+        for fix in fixes_of(found, workspace, unsafe=unsafe)[:1]:
+            if not broken.isdisjoint(span.source.path for span, _ in fix.edits):
+                yield Refused(found, fix, "the file has syntax errors")
+
+
+def _broken(workspace: Workspace) -> set[Path | None]:
+    return {
+        each.primary.span.source.path
+        for each in workspace.report
+        if each.code.startswith(SYNTAX) and each.primary
+    }
 
 
 def _identity(found: Diagnostic, fix: Fix) -> _Identity:
