@@ -174,6 +174,35 @@ def test_a_trace_that_ends_ends_the_lines(
     assert "robot[0] there Off start" in capsys.readouterr().out.splitlines()
 
 
+def test_each_line_of_a_trace_that_changes_something_is_a_line(
+    model: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    lines = [
+        line(0, "robot[0]", None, "Off"),
+        line(0, "robot[1]", None, "Off"),
+        line(1, "robot[0]", "Visit", "On"),
+        line(2, "robot[0]", "Leave", "Off"),
+        line(3, "robot[9]", None, "Off"),
+    ]
+    trace = tmp_path / "run.jsonl"
+    trace.write_text("".join(f"{each}\n" for each in lines), encoding="utf-8")
+    with trace.open(encoding="utf-8") as stdin:
+        monkeypatch.setattr(sys, "stdin", stdin)
+        assert run(["fleet", str(model), "--follow", "-", "--terminal"]) == 0
+    told = capsys.readouterr().out.splitlines()
+    assert [each for each in told if "there" in each] == [
+        "robot[0] there Off start",
+        "robot[1] there Off start",
+        "robot[0] there On Visit",
+        "robot[0] there Off Leave",
+        "robot[9] there Off start",
+    ]
+    assert "alarm: robot[9] is not in the model: Crew has robot[0] to robot[1]" in told
+
+
 @pytest.mark.parametrize("name", ["later.jsonl", "ros3:/crew"])
 def test_a_trace_that_is_not_there_is_told(name: str, model: Path, tmp_path: Path) -> None:
     process = subprocess.Popen(

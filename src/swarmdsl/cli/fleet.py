@@ -99,7 +99,7 @@ def fleet(
     with ExitStack() as stack:
         stack.enter_context(forced_end())
         try:
-            watch = _begun(prepared, names, others, stack)
+            watch = _begun(prepared, names, others, terminal, stack)
         except UnavailableError as error:
             served_page.tell_of_ros(error)
             return ERRORS
@@ -121,6 +121,7 @@ def _begun(
     prepared: Prepared | None,
     names: Sequence[str],
     others: Sequence[str],
+    terminal: bool,
     stack: ExitStack,
 ) -> Watch | None:
     """Return the watch over the robots of a source; None if it cannot be read, which is told."""
@@ -131,16 +132,21 @@ def _begun(
     from swarmdsl.ide.preview.ros2 import spinning
     from swarmdsl.tools.player.record import record_nothing
 
+    each = False
+    if terminal:
+        from swarmdsl.ide.fleet.terminal import has_screen
+
+        each = not has_screen(sys.stdout)
     tell = served_page.tell
     subject = prepared.subject if prepared is not None else None
     source = others[0] if others else "ROS 2"
     recording = record_nothing(prepared, source)
     if not others:
-        watch = Watch(source, subject, recording, tell)
+        watch = Watch(source, subject, recording, tell, tells_each=each)
         stack.enter_context(spinning("fleet", names, listen_to(names, watch)))
     elif is_bag(source):
         clock = BagClock()
-        watch = Watch(source, subject, recording, tell, clock, RECORDED)
+        watch = Watch(source, subject, recording, tell, clock, RECORDED, each)
         try:
             read_bag(source, watch, clock)
         except UnreadableBagError as error:
@@ -150,7 +156,7 @@ def _begun(
             return None
         watch.turn("ended")
     else:
-        watch = Watch(source, subject, recording, tell)
+        watch = Watch(source, subject, recording, tell, tells_each=each)
         if not wait_or_refuse(source, watch, tell):
             return None
         if watch.waiting:

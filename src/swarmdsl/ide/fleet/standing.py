@@ -7,6 +7,7 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.monitor import LOST
+from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace_line import is_beside_steps
 
@@ -57,6 +58,7 @@ class Standing:
         self._verdicts: dict[str, str] = {}
         self._sent: list[dict[str, Any]] = []
         swarm = subject.swarm if subject is not None else None
+        self._swarm = swarm
         for robot in subject.create_robots({}) if subject is not None and swarm is not None else ():
             if robot.name is not None:
                 self._robots[robot.name] = _Robot()
@@ -156,9 +158,23 @@ class Standing:
         for name, robot in self._robots.items():
             if self._status(robot) == GONE:
                 yield f"{name} is lost"
+        yield from self._strangers()
         for name, verdict in self._verdicts.items():
             if verdict == "false":
                 yield f"property {name} is violated"
         told = {each for robot in self._robots.values() for each in robot.models.values()}
         if len(told) > 1:
             yield f"robots have different models: {', '.join(sorted(told))}"
+
+    def _strangers(self) -> Iterator[str]:
+        """Yield the robots with a higher number than the swarm can have."""
+        swarm = self._swarm
+        if swarm is None:
+            return
+        most = {each.name: each.multiplicity.upper for each in swarm.roles}
+        for name in self._robots:
+            robot = Robot.called(name)
+            upper = most.get(robot.role or "")
+            if upper is not None and robot.index >= upper:
+                last = f" to {robot.role}[{upper - 1}]" if upper > 1 else ""
+                yield f"{name} is not in the model: {swarm.name} has {robot.role}[0]{last}"

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from importlib.util import find_spec
+from queue import Empty, SimpleQueue
 from typing import Any, TextIO
 
 from rich.console import Console, Group
@@ -16,8 +17,7 @@ from rich.text import Text
 
 from swarmdsl.base import interrupts
 from swarmdsl.base.diagnostics.render.printable import printable
-from swarmdsl.ide.fleet.watch import RECORDED, NotSentError, Watch
-from swarmdsl.ide.preview.trace_file import Turn
+from swarmdsl.ide.fleet.watch import RECORDED, Head, NotSentError, Watch
 
 _NAP = 0.25
 """Seconds between two looks."""
@@ -27,13 +27,21 @@ _QUIT = ("q", "\x04")
 _HAS_KEYS = find_spec("termios") is not None  # not so on Windows
 
 
+def has_screen(out: TextIO) -> bool:
+    """Return True if a table can be drawn again, and keys can be read."""
+    return out.isatty() and sys.stdin.isatty() and _HAS_KEYS
+
+
 def show(watch: Watch, out: TextIO) -> None:
-    """Show the fleet until Ctrl-C, or `q` in a terminal; a recording only once without one."""
-    if not (out.isatty() and sys.stdin.isatty() and _HAS_KEYS):
+    """Show the fleet until Ctrl-C, or `q`; each change is a line if the watch tells each.
+
+    Of a recording, these are only the last ones.
+    """
+    if watch.changes is not None:
         if watch.no_sending == RECORDED:
             print(*lines_of(watch.head()).values(), sep="\n", file=out)
         else:
-            _write_changes(watch, out)
+            _write_changes(watch, watch.changes, out)
         return
     said = ""
     console = Console(file=out)
@@ -70,18 +78,22 @@ def lines_of(head: Mapping[str, Any]) -> dict[str, str]:
     return found
 
 
-def _write_changes(watch: Watch, out: TextIO) -> None:
+def _write_changes(watch: Watch, changes: SimpleQueue[Head | None], out: TextIO) -> None:
     """Write a line for each thing that has changed, to the end of the trace or forever."""
     told: dict[str, str] = {}
-    for messages in watch.feed.follow():
-        now = lines_of(watch.head())
+    while True:
+        interrupts.raise_lost()
+        try:
+            head = changes.get(timeout=_NAP)
+        except Empty:
+            head = watch.head()  # time alone makes robots late
+        if head is None:
+            return
+        now = lines_of(head)
         for key, line in now.items():
             if told.get(key) != line:
                 print(line, file=out, flush=True)
         told = now
-        if {"turn": Turn.ENDED.value} in messages:
-            return
-        interrupts.raise_lost()
 
 
 def _drawing(watch: Watch, said: str) -> Group:

@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from queue import SimpleQueue
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -14,11 +15,14 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ide.fleet.operator_events import OperatorEvent, operator_events
 from swarmdsl.ide.fleet.standing import Standing
 from swarmdsl.ide.preview.live_player import Feed
+from swarmdsl.ide.preview.trace_file import Turn
 from swarmdsl.tools.player.live_lines import LiveLines
 from swarmdsl.tools.player.model import Model
 from swarmdsl.tools.player.recording import Recording
 
 Tell = Callable[[Diagnostics], None]
+Head = dict[str, Any]
+"""Standing of the robots as plain data."""
 Send = Callable[[OperatorEvent, Mapping[str, Any]], int]
 """Sends an event with the given fields; returns how many nodes listen. Raises NotSentError."""
 _PATIENCE = 1000
@@ -35,7 +39,8 @@ class Watch:
     """State of a fleet as far as it is known: sources add to it, pages and terminals show it.
 
     `no_sending` is the reason why nothing can be sent, until a source gives a way to do it;
-    `waiting` tells of a trace that is not there yet.
+    `waiting` tells of a trace that is not there yet. If `tells_each`, `changes` gets the standing
+    after each line that changes it, and None at the end of a trace.
     """
 
     def __init__(
@@ -46,11 +51,13 @@ class Watch:
         tell: Tell,
         clock: Callable[[], float] = time.monotonic,
         no_sending: str = FOLLOWED,
+        tells_each: bool = False,
     ) -> None:
         self.feed = Feed()
         self.events = operator_events(subject)
         self.no_sending = no_sending
         self.waiting = ""
+        self.changes: SimpleQueue[Head | None] | None = SimpleQueue() if tells_each else None
         self._tell = tell
         self._lock = threading.RLock()
         model = Model(subject) if subject is not None else None
@@ -61,7 +68,7 @@ class Watch:
 
         self._begun = begun
         self._lines, self._standing = begun()
-        self._told: dict[str, Any] = {}
+        self._told: Head = {}
         self._send: Send | None = None
         self._recording = recording
 
@@ -71,11 +78,12 @@ class Watch:
         """Add more complete lines of traces."""
         report = Diagnostics()
         with self._lock:
-            message = self._lines.read(lines, report)
-            self._standing.read(message.get("lines", ()))
-            if message:
-                self.feed.add(message)
-            self._publish()
+            for part in [lines] if self.changes is None else ([line] for line in lines):
+                message = self._lines.read(part, report)
+                self._standing.read(message.get("lines", ()))
+                if message:
+                    self.feed.add(message)
+                self._publish()
         if len(report):
             self._tell(report)
 
@@ -90,6 +98,8 @@ class Watch:
     def turn(self, what: str) -> None:
         """Tell what becomes of the trace."""
         self.feed.add({"turn": what})
+        if self.changes is not None and what == Turn.ENDED.value:
+            self.changes.put(None)
 
     @contextmanager
     def noting(self) -> Iterator[Standing]:
@@ -114,7 +124,7 @@ class Watch:
             }
         return replace(self._recording, views={**self._recording.views, "fleet": head})
 
-    def head(self) -> dict[str, Any]:
+    def head(self) -> Head:
         """Return the standing of the robots as it is now."""
         with self._lock:
             return self._standing.head()
@@ -136,3 +146,5 @@ class Watch:
         if head != self._told:
             self._told = head
             self.feed.show({"fleet": head})
+            if self.changes is not None:
+                self.changes.put(head)
