@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import time
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,8 @@ import pytest
 from swarmdsl.cli import run
 from swarmdsl.importing import ros_graph
 
+PATIENCE = 60.0
+"""Seconds for nodes to find each other on a busy machine."""
 MODEL = """
 package lab
 import ros "uav_mavros_takeoff"
@@ -36,10 +39,32 @@ def sourced(ros: Any, monkeypatch: pytest.MonkeyPatch) -> Any:
     return ros
 
 
+@pytest.fixture
+def awaited(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Let the graph be read until it has some names: discovery takes time."""
+    read = ros_graph.read_graph
+
+    def await_(*names: str) -> None:
+        def read_again(quiet: float) -> ros_graph.Graph:
+            end = time.monotonic() + PATIENCE
+            while True:
+                graph = read(quiet)
+                parts = (graph.actions, graph.services, graph.topics, graph.every_topic)
+                missing = {*names} - {name for part in parts for name, _ in part}
+                if not missing:
+                    return graph
+                assert time.monotonic() < end, missing
+
+        monkeypatch.setattr(ros_graph, "read_graph", read_again)
+
+    return await_
+
+
 def test_functions_and_events_of_a_running_graph(
-    sourced: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    sourced: Any, awaited: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     fakes = sourced.fakes()
+    awaited(*(f"/sar/uav_0/{name}" for name in ("cmd/takeoff", "cmd/land", "mission_start")))
     fakes.action("/sar/uav_0/cmd/takeoff", "uav_mavros_takeoff/action/TakeOff", "succeeded")
     fakes.service("/sar/uav_0/cmd/land", "std_srvs/srv/Trigger")
     fakes.publisher("/sar/uav_0/mission_start", "swarmros/msg/SimpleEvent")
@@ -84,9 +109,10 @@ def test_models_import_installed_packages_by_their_names(
 
 
 def test_doctor_compares_a_model_with_what_is_installed_and_runs(
-    sourced: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    sourced: Any, awaited: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     fakes = sourced.fakes()
+    awaited("/sar/uav_0/cmd/takeoff", "/sar/uav_0/cmd/land")
     fakes.action("/sar/uav_0/cmd/takeoff", "uav_mavros_takeoff/action/TakeOff", "succeeded")
     fakes.service("/sar/uav_0/cmd/land", "std_srvs/srv/Trigger")
     model = tmp_path / "model.swarm"
@@ -121,9 +147,10 @@ service wave_msgs/Wave { request { } response { } }
 
 
 def test_doctor_compares_topics_that_are_only_heard(
-    sourced: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    sourced: Any, awaited: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     fakes = sourced.fakes()
+    awaited("/sar/uav_0/go")
     fakes.do("subscribe", topic="/sar/uav_0/go", kind="std_msgs/msg/Empty")
     model = tmp_path / "model.swarm"
     model.write_text("swarm operator event Go : std_msgs/String", encoding="utf-8")
