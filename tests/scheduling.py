@@ -12,6 +12,11 @@ from hypothesis import strategies as st
 
 # Files that write to one folder of the checkout, or share a fixture that is slow to make.
 TOGETHER = ("tests/editors/",)
+# They need ROS 2, whose interfaces may still be built when the tests begin.
+LATER = (
+    "tests/ros2/", "tests/skeleton/test_ros2_run.py", "tests/docs/test_tutorial.py",
+    "tests/injection/test_real_readers.py",
+)  # fmt: skip
 # Their tests wait for processes, often long: they are not to be the last ones.
 WAITING = {"editors", "preview", "ros1", "ros2", "skeleton"}
 
@@ -25,15 +30,19 @@ def unit(nodeid: str) -> str:
 def spread(units: Iterable[str]) -> dict[str, float]:
     """The place of each unit between 0 and 1, at even distances within its folder.
 
-    Folders whose tests wait are through a little earlier.
+    Folders whose tests wait are through a little earlier, what needs ROS 2 begins later.
     """
     folders: dict[str, list[str]] = {}
     for each in dict.fromkeys(units):
         folders.setdefault(each.split("/")[1], []).append(each)
-    return {
+    places = {
         each: (number + 0.5) / len(found) * (0.8 if folder in WAITING else 1)
         for folder, found in folders.items()
         for number, each in enumerate(found)
+    }
+    return {
+        each: 0.3 + 0.5 * place if each.startswith(LATER) else place
+        for each, place in places.items()
     }
 
 
@@ -66,7 +75,10 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         units = [unit(item.nodeid) for item in items]
         places = spread(units)
         keys = {
-            id(item): (item.get_closest_marker("long") is None, places[each])
+            id(item): (
+                item.get_closest_marker("long") is None or each.startswith(LATER),
+                places[each],
+            )
             for item, each in zip(items, units, strict=True)
         }
         items.sort(key=lambda item: keys[id(item)])

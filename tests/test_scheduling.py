@@ -4,13 +4,24 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .scheduling import TOGETHER, spread, unit
+from .scheduling import LATER, TOGETHER, spread, unit
 
 ROOT = Path(__file__).resolve().parents[1]
 
 
 def test_folders_that_share_a_worker_are_there() -> None:
     assert all((ROOT / folder).is_dir() for folder in TOGETHER)
+    assert all((ROOT / each).exists() for each in LATER)
+
+
+def test_files_that_need_ros_2_are_known() -> None:
+    """Each of them begins later: the others are those that ask for it."""
+    asking = [
+        str(path.relative_to(ROOT)) for path in (ROOT / "tests").rglob("*.py")
+        if "ros2.installed import" in path.read_text(encoding="utf-8") and path != Path(__file__)
+    ]  # fmt: skip
+    assert asking
+    assert [each for each in asking if not each.startswith(LATER)] == []
 
 
 def test_a_file_shares_a_worker() -> None:

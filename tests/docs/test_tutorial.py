@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from ..ros2.domains import free_domain
+from ..ros2.installed import installed
 from .pages import ROOT, Block, Page
 from .walk import Walk, commands, matches
 
@@ -74,9 +75,7 @@ def test_what_is_started_is_there(
 @pytest.mark.timeout(660)
 def test_on_ros_2(walked: Path) -> None:
     """Build the workspace, let two drones fly, and hold what they did against the model."""
-    ros = os.environ.get("SWARMDSL_ROS2")
-    if ros is None:
-        pytest.skip("no ROS 2: `make test-ros2`")
+    ros = str(installed())
     folder = walked / "generated"
     # The packages of CPSwarm are there already, and only Python uses the others.
     words = ["-GNinja", "-DCMAKE_BUILD_TYPE=None", "-DBUILD_TESTING=OFF"]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -14,6 +13,7 @@ from typing import Any
 import pytest
 from lxml import etree
 
+from ..ros2.installed import installed
 from .conftest import Make
 from .model import DOCS, ENDS, HOSTILE, model
 
@@ -42,9 +42,7 @@ def ros1() -> Callable[[str, Any], Any]:
 @pytest.fixture(scope="session")
 def ros2() -> Callable[[str, Any], Any]:
     """Run a script with the tools of ROS 2."""
-    folder = os.environ.get("SWARMDSL_ROS2")
-    if folder is None:
-        pytest.skip("no ROS 2: `make test-ros2`")
+    folder = installed()
     shell = f'. "{folder}/setup.sh" && exec python "$@"'
 
     def run(script: str, given: Any) -> Any:

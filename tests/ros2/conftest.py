@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import importlib.util
 import json
-import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -25,6 +24,7 @@ from swarmdsl.ir import System
 from swarmdsl.syntax.types import DURATION
 
 from .domains import free_domain
+from .installed import installed
 
 HERE = Path(__file__).parent
 
@@ -83,11 +83,9 @@ def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str,
 @pytest.fixture(scope="session")
 def ros_folder() -> Path:
     """The environment with ROS 2, which `make test-ros2` makes."""
-    folder = os.environ.get("SWARMDSL_ROS2")
-    if folder is None:
-        pytest.skip("no ROS 2: `make test-ros2`")
-    assert load_module("environment").ready(Path(folder)), f"{folder} is not of today"
-    return Path(folder)
+    folder = installed()
+    assert load_module("environment").ready(folder), f"{folder} is not of today"
+    return folder
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ machine that they were built on; these places are put right.
 
 from __future__ import annotations
 
+import fcntl
 import hashlib
 import os
 import re
@@ -56,8 +57,14 @@ def ready(folder: Path) -> bool:
 
 def make(folder: Path) -> None:
     """Make what is missing."""
-    if ready(folder):
-        return
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder / "lock").open("w") as lock:  # `installed.py` waits for it
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not ready(folder):
+            _make(folder)
+
+
+def _make(folder: Path) -> None:
     today = _fingerprint()
     install(folder)
     source = folder / "ws" / "src"

@@ -21,6 +21,7 @@ import pytest
 from swarmdsl.cli import run as swarmc
 
 from ..ros2.domains import free_domain
+from ..ros2.installed import installed
 from .conftest import MODEL, load_module
 
 HERE = Path(__file__).parent
@@ -136,12 +137,10 @@ def ros2(
     write: Write, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[tuple[Path, dict[str, str]]]:
     """The Python of an environment with ROS 2, and the variables with the interfaces built."""
-    given = os.environ.get("SWARMDSL_ROS2")
-    if given is None:
-        pytest.skip("no ROS 2: `make test-ros2`")
+    given = installed()
     environment = load_module("skeleton_environment", ROS2 / "environment.py")
     folder = tmp_path_factory.mktemp("interfaces")
-    (folder / "venv").symlink_to(Path(given) / "venv")
+    (folder / "venv").symlink_to(given / "venv")
     write(folder / "made", ros="2")
     (folder / "ws" / "src").mkdir(parents=True)
     shutil.copytree(folder / "made" / "demo", folder / "ws" / "src" / "demo")
@@ -423,9 +422,7 @@ def test_a_message_goes_through_connectors(
     write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The nodes run with the names and remappings that the launch file gives them."""
-    given = os.environ.get("SWARMDSL_ROS2")
-    if given is None:
-        pytest.skip("no ROS 2: `make test-ros2`")
+    given = installed()
     made = tmp_path / "src"
     write(made, model=HERE / "connected.swarm", ros="2")
     for name, code in (("camera", CAMERA), ("stereo", STEREO)):
@@ -437,7 +434,7 @@ def test_a_message_goes_through_connectors(
     harness = load_module("skeleton_harness", ROS2 / "harness.py")
     with ExitStack() as stack:
         domain = stack.enter_context(free_domain())
-        ros = harness.Ros(Path(given), [made / "camera", made / "stereo"], domain, tmp_path)
+        ros = harness.Ros(given, [made / "camera", made / "stereo"], domain, tmp_path)
         stack.callback(ros.close)
         for node in nodes:
             if node["package"] != "memory":
@@ -480,9 +477,7 @@ bow.node.main()
 
 def test_a_robot_does_not_take_for_done_what_is_not_implemented(tmp_path: Path) -> None:
     """The response `std_srvs/Empty` has no field that could say so."""
-    given = os.environ.get("SWARMDSL_ROS2")
-    if given is None:
-        pytest.skip("no ROS 2: `make test-ros2`")
+    given = installed()
     model = tmp_path / "greeting.swarm"
     model.write_text(GREETING, encoding="utf-8")
     words = ["--target", "ros2", "--target", "skeleton", "--option", "skeleton.ros=2"]
@@ -491,7 +486,7 @@ def test_a_robot_does_not_take_for_done_what_is_not_implemented(tmp_path: Path) 
     packages = [tmp_path / "src" / "ros2" / "greeting_behavior"]
     packages.append(tmp_path / "src" / "skeleton" / "bow")
     with ExitStack() as stack:
-        ros = harness.Ros(Path(given), packages, stack.enter_context(free_domain()), tmp_path)
+        ros = harness.Ros(given, packages, stack.enter_context(free_domain()), tmp_path)
         stack.callback(ros.close)
         ros.start("-c", BOW)
         for _ in range(2):
