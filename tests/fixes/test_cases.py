@@ -46,6 +46,7 @@ HOLES = {
     "declare it in the model, or `import ros": "the definition is elsewhere",
     "declare both in": "it says which unit two declarations share",
     "only arrays have items": "the guard is meant, or another variable",
+    "a contract belongs": "there may be several members",
     "begin the ": "which robots are meant is unknown",
     "declare a fitness": "what it measures is unknown",
 }
@@ -63,7 +64,6 @@ FURTHER = {
     ("SW0202_nothing_follows", "flly"): "its fields are used",
     ("SW0202_nothing_follows", "Camra"): "its ports are used",
     ("SW0202_port", "oder"): "the ports do not fit",
-    ("SW0202_role_in_address", "base"): "nothing is similar",
     ("SW0202_type", "Staus"): "the type is in itself",
     ("SW0311_robots", "rover"): "that one is there already",
     ("SW0406_equipment", "rang"): "that one is there already",

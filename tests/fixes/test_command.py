@@ -173,6 +173,24 @@ def test_files_of_corrected_imports_are_fixed(swarmc, model):
     assert "std_msgs/Empty" in modes.read_text()
 
 
+def test_declarations_of_files_beside_are_imported(swarmc, model):
+    """Nothing is declared a second time; one that several files have is no certain choice."""
+    events = model.with_name("events.swarm")
+    events.write_text("package events\n\nswarm operator event Go : std_msgs/Empty\n")
+    wrong = MODEL.replace("Brihgt", "Bright").replace("event Go : std_msgs/Empty\n\n", "")
+    model.write_text(wrong)
+    assert swarmc("check", model, "--fix")[0] == 0
+    assert model.read_text().count("Go : ") == 0
+    assert 'import "events.swarm"\n' in model.read_text()
+    model.with_name("more.swarm").write_text("package more\n\nevent Go : std_msgs/Empty\n")
+    model.write_text(wrong)
+    assert swarmc("check", model, "--fix")[0] == 1
+    assert "import" not in model.read_text()
+    _, out, _ = swarmc("check", model)
+    assert 'add `import "events.swarm"` or `import "more.swarm"`\n' in out
+    assert swarmc("check", model, "--fix", "--unsafe-fixes")[0] == 0
+
+
 def test_files_outside_of_the_project_stay_as_they_are(swarmc, model):
     other = model.parent / "elsewhere" / "other.swarm"
     inside = model.parent / "inside" / "lamps.swarm"

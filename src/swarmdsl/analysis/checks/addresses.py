@@ -16,6 +16,7 @@ from swarmdsl.analysis.resolve.addresses import (
 )
 from swarmdsl.analysis.resolve.identities import robot_named
 from swarmdsl.analysis.resolve.multiplicity import greatest
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.suggest import suggest
 from swarmdsl.project.loader import Project
@@ -120,6 +121,8 @@ def _report_missing(found: list[NamedRole], context: Context) -> None:
         help_ = suggest(found[0].name, roles, "roles")
         if not found[0].name:
             help_ = "an empty address is that of nobody: leave out `to` to send to all others"
+        elif found[0].name == "sender":
+            help_ = write("event.sender")
         elif found[0].name in EVERYBODY:
             help_ = "leave out `to` to send to all others"
     swarms = listed([str(each.swarm.name) for each in found], "or")

@@ -70,10 +70,11 @@ class Answers:
         """Return True if one of the guards so far holds whenever that of the contract does."""
         own, guard = self._guard, transition.guard
         assert guard is not None
-        if guard.tree is None or (own is not None and own.tree is None):
+        if not _is_known(guard) or (own is not None and not _is_known(own)):
             return True  # reported elsewhere
         if own is not None and self._is_same(own, guard):
             return True
+        assert guard.tree is not None  # it is known
         guards.append(negate(guard_condition(guard.tree, self._typing)))
         assumed = [guard_condition(own.tree, self._typing)] if own is not None and own.tree else []
         return not satisfiable(*assumed, *guards)
@@ -92,6 +93,14 @@ class Answers:
             or (isinstance(first.target, Param) and second.target in self._params)
             for first, second in zip(*uses, strict=True)
         )
+
+
+def _is_known(guard: Expression) -> bool:
+    """Return True if a guard is complete, and all names in it are declared."""
+    names = (each for each in walk(guard) if isinstance(each, NameUse))
+    return guard.tree is not None and all(
+        each.is_predefined or each.target is not None for each in names
+    )
 
 
 def _is_event(event: Event, other: object) -> bool:

@@ -14,6 +14,7 @@ from swarmdsl.analysis.checks.state_places import Place, inside, places_of
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.properties import machines_of_member
 from swarmdsl.analysis.resolve.states import all_resolved
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
@@ -27,6 +28,7 @@ from swarmdsl.syntax.ast import (
     Member,
     Node,
     Parallel,
+    Part,
     Region,
     Send,
     ServiceType,
@@ -53,7 +55,7 @@ def check_contracts(member: Member, context: Context) -> None:
             continue
         context.expect(contract.guard, BOOL, context.with_event([*contract.triggers]))
         _check_time(contract, context)
-        if not machines:
+        if not machines and not _misses_machine(member):
             reason = f"member `{member.name}` runs no state machine"
             help_ = "add `behavior` with the name of its state machine"
             _report_idle(contract, contract.name.span, reason, help_, context)
@@ -64,6 +66,16 @@ def check_contracts(member: Member, context: Context) -> None:
         for contract in all_items(member, Contract):
             if contract.function is None and contract not in contracts:
                 _check_inherited(contract, member, context)
+
+
+def _misses_machine(member: Member) -> bool:
+    """Return True if a name is wrong that may stand for a state machine of a member."""
+    extends = member.base is not None and member.base.target is None
+    return (
+        extends
+        or any(use.machine.target is None for use in all_items(member, BehaviorUse))
+        or any(part.component.target is None for part in all_items(member, Part))
+    )
 
 
 def _is_among(targets: Set[Vertex | None], place: Place) -> bool:
@@ -107,6 +119,8 @@ def _check_machines(
     if not complete or any(each.event.target is None for each in contract.triggers):
         return
     within = _time(contract, context)
+    if within is not None and within < 0:
+        within = None  # reported as such
     own = {use.machine.target for use in all_items(member, BehaviorUse)}
     for machine in machines:
         params = [*machine.items] if machine in own else []
@@ -273,11 +287,10 @@ class _MachineCheck:
         self, trigger: EventTrigger, event: Event, found: Sequence[tuple[Place, Answer]]
     ) -> None:
         names = [f"`{leaf.name}`" for leaf, _ in found]
-        shown = (
-            names
-            if len(names) <= _MOST_LABELS
-            else [*names[:_MOST_LABELS], f"{len(names) - _MOST_LABELS} other states"]
-        )
+        shown = names
+        # One more is no longer than "1 other state".
+        if len(names) > _MOST_LABELS + 1:
+            shown = [*names[:_MOST_LABELS], f"{len(names) - _MOST_LABELS} other states"]
         labels = [_label(leaf, answer) for leaf, answer in found[:_MOST_LABELS]]
         around = _common(found)
         where = (
@@ -285,9 +298,11 @@ class _MachineCheck:
             if around is not None
             else "each of them, or put them into a state that has it"
         )
+        places = [around] if around is not None else [leaf for leaf, _ in found]
         first = self._contract.states[0].state.name
         guard = self._contract.guard
         condition = f" [{guard.span.text}]" if guard is not None else ""
+        line = f"on {event.name}{condition} -> {first}"
         self._context.report.report(
             "ignored-contract",
             trigger.span,
@@ -296,7 +311,12 @@ class _MachineCheck:
             verb="ignores" if len(found) == 1 else "ignore",
             event=event.name,
             related=tuple(labels),
-            help=f"add `on {event.name}{condition} -> {first}` to {where}",
+            help=Advice(
+                f"add `{line}` to {where}",
+                "insert",
+                line,
+                *(each.node.name.span for each in places),
+            ),
         )
 
     def _check_kept(self) -> None:

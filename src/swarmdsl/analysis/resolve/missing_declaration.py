@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from functools import cache
+from functools import cache, lru_cache
+from itertools import islice
+from pathlib import Path
 
 from swarmdsl.base import resources
 from swarmdsl.base.find_files import files_below
 from swarmdsl.base.read_files import read_text
 from swarmdsl.project.libraries import SUFFIX
-from swarmdsl.project.loader import Project
+from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import (
     AliasType,
     Component,
@@ -21,6 +23,7 @@ from swarmdsl.syntax.ast import (
     Fitness,
     Function,
     Member,
+    MessageType,
     Node,
     StateMachine,
     StructType,
@@ -36,15 +39,18 @@ _WORDS: dict[str, type[Node]] = {
     "fitness": Fitness,
     "function": Function,
     "member": Member,
+    "message": MessageType,
     "statemachine": StateMachine,
     "struct": StructType,
     "type": AliasType,
 }
 _DECLARATION = re.compile(
-    rf"^(?:swarm |endless )?({'|'.join(_WORDS)}) +([A-Za-z]\w*)\b", re.MULTILINE
+    rf"^(?:(?:swarm|operator|endless) +)*({'|'.join(_WORDS)}) +([A-Za-z]\w*)\b", re.MULTILINE
 )
 _PACKAGE = re.compile(r"^package +([\w.]+)", re.MULTILINE)
 
+# Files of a folder that are searched for a declaration.
+_MOST_SIBLINGS = 50
 # The shortest correct declarations.
 _LINES: dict[type[Node], str] = {
     Component: "sensor {0} {{ }}",
@@ -68,6 +74,37 @@ def suggest_import(name: str, kinds: tuple[type[Node], ...], project: Project) -
     if used:
         packages = [package for package in packages if _root(package) in used]
     return f"import {packages[0]}.{name}" if len(packages) == 1 else None
+
+
+def sibling_imports(name: str, kinds: tuple[type[Node], ...], file: File) -> list[str]:
+    """Return the imports of the files in the folder of a file that declare a name.
+
+    A folder with many files is no model, and reading them all takes a while.
+    """
+    path = file.source.path
+    if path is None:
+        return []
+    siblings = sorted(islice(path.parent.glob(f"*{SUFFIX}"), _MOST_SIBLINGS + 1))
+    return [
+        f'import "{each.name}"'
+        for each in (siblings if len(siblings) <= _MOST_SIBLINGS else ())
+        if each != path
+        and any(found == name and issubclass(kind, kinds) for kind, found in _declared_in(each))
+    ]
+
+
+def _declared_in(path: Path) -> tuple[tuple[type[Node], str], ...]:
+    """Return the kinds and names of the declarations of a file; none if it cannot be read."""
+    try:
+        return _declared_at(path, path.stat().st_mtime_ns)
+    except (OSError, ValueError):
+        return ()
+
+
+@lru_cache(maxsize=_MOST_SIBLINGS)
+def _declared_at(path: Path, _time: int) -> tuple[tuple[type[Node], str], ...]:
+    # A wrong model in an editor is checked at each letter.
+    return tuple((_WORDS[word], name) for word, name in _DECLARATION.findall(read_text(path)))
 
 
 def library_imports(kinds: tuple[type[Node], ...], project: Project) -> Iterator[tuple[str, str]]:

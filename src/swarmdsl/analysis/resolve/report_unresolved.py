@@ -12,6 +12,7 @@ from typing import TypeVar
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.analysis.resolve.scopes import Ambiguous, FileScope, Missing, Unresolved, WrongKind
 from swarmdsl.analysis.resolve.states import Level
+from swarmdsl.base.diagnostics.advice import add_import, meant
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import closest
@@ -26,12 +27,14 @@ from swarmdsl.syntax.ast import (
     Function,
     History,
     Initial,
+    Member,
     NameUse,
     Node,
     Operation,
     Parallel,
     Part,
     Port,
+    Property,
     Ref,
     State,
     StateMachine,
@@ -83,7 +86,7 @@ def report_missing(
     """
     close = closest(name, candidates) if report.wants_hint("unresolved-name") else None
     other = hint() if hint is not None and not close else None
-    help_ = f"did you mean `{close}`?" if close else other
+    help_ = meant(close) if close else other
     report.report("unresolved-name", at, kind=kind, name=name, help=help_)
 
 
@@ -217,23 +220,29 @@ def _suggestion(
 ) -> tuple[tuple[Label, ...], str | None]:
     """Return the place and the help of the best hint for a missing declaration."""
     from swarmdsl.analysis.resolve.hints import candidates_for, declared_elsewhere
-    from swarmdsl.analysis.resolve.missing_declaration import suggest_declaration, suggest_import
+    from swarmdsl.analysis.resolve.missing_declaration import (
+        sibling_imports,
+        suggest_declaration,
+        suggest_import,
+    )
 
     elsewhere = declared_elsewhere(name, kinds, scope)
     if elsewhere is not None:
         node, line = elsewhere
         label = Label(node.name.span, "declared in a file that is not imported")
-        return (label,), f"add `{line}`"
+        return (label,), add_import(line)
     qualified = "." in name
+    if not qualified and (beside := sibling_imports(name, kinds, scope.file)):
+        return (), add_import(*beside)
     if not qualified and (library := suggest_import(name, kinds, scope.project)) is not None:
-        return (), f"add `{library}`"
+        return (), add_import(library)
     nodes = candidates_for(name, kinds, scope)
     close = closest(name, [*built_in, *nodes])
     if close is None:
         return (), None if qualified else suggest_declaration(name, kinds)
     similar = nodes.get(close)
     label_of = (Label(similar.name.span, "this has a similar name"),) if similar else ()
-    return label_of, f"did you mean `{close}`?"
+    return label_of, meant(close)
 
 
 def _may_be_skipped(name: str, scope: FileScope) -> bool:
@@ -322,10 +331,18 @@ def report_value(
 
         return robot_as_value(base, owner) or suggest_variable(base, within, owner, scope)
 
-    known = [*values, "true", "false"]
+    # Only these have fields without a declaration.
+    known = [*values, *(_predefined(owner) if fields else ("true", "false"))]
     _report_declaration(
         found, name, at, kinds, scope, report, built_in=known, instead=instead, hint=hint
     )
+
+
+def _predefined(owner: TopLevel) -> tuple[str, ...]:
+    """Return the names with fields that expressions of a declaration need not declare."""
+    if isinstance(owner, StateMachine):
+        return ("event", "self")
+    return ("event",) if isinstance(owner, (Member, Property)) else ()
 
 
 def report_type_as_value(name: str, at: Span, type_: Type, report: Diagnostics) -> None:

@@ -10,16 +10,20 @@ import re
 from functools import cache
 from pathlib import Path
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Fix
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
 from swarmdsl.driver.fixes import insertions, missing_values, removals, replacements
 from swarmdsl.driver.fixes.new_names import renamed
-from swarmdsl.driver.fixes.problem import Problem, Rule
+from swarmdsl.driver.fixes.problem import Act, Problem, Rule
 from swarmdsl.driver.workspace import Workspace
 
 SLOW = "naming-style"
 """Diagnostic whose fix is tried on the whole model, since a new name may mean something else."""
+
+
+_ACTS: dict[str, Act] = {**insertions.ACTS, **replacements.ACTS}
 
 
 @cache
@@ -41,6 +45,9 @@ def fixes_of(found: Diagnostic, workspace: Workspace, *, unsafe: bool = True) ->
     problem = Problem(found, workspace, file, Span(file.source, span.start, span.end))
     if found.name == SLOW:  # and never safe
         return renamed(problem) if unsafe else ()
+    if isinstance(found.help, Advice):
+        act = _ACTS[found.help.act]
+        return tuple(each for each in act(problem, *found.help.arguments) if unsafe or each.safe)
     for pattern, rule in _rules():
         if (match := pattern.fullmatch(found.help)) is not None:
             return tuple(each for each in rule(problem, match) if unsafe or each.safe)

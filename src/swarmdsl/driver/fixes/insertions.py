@@ -9,7 +9,7 @@ from swarmdsl.base.diagnostics.collector import Fix
 from swarmdsl.base.rewriting import Change
 from swarmdsl.base.source import Span
 from swarmdsl.driver.fixes.bodies import insert, insertion, opening_brace
-from swarmdsl.driver.fixes.problem import CODE, Problem, Rule, inserting, proposed, replacing
+from swarmdsl.driver.fixes.problem import CODE, Act, Problem, Rule, inserting, proposed, replacing
 from swarmdsl.driver.line_insertion import below_head, import_statement
 from swarmdsl.syntax.ast import (
     Choice,
@@ -40,9 +40,24 @@ from swarmdsl.syntax.ast import (
 _REST = re.compile(r"[ \t]*(?://[^\n]*)?(?=\n|\Z)")
 
 
-def _import(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    edit = _edit(problem, import_statement(problem.file, match[1]))
-    yield Fix(f"Add `{match[1]}`", (edit,), safe=True)
+def _import(problem: Problem, *statements: str) -> Iterator[Fix]:
+    for statement in statements:
+        edit = _edit(problem, import_statement(problem.file, statement))
+        yield Fix(f"Add `{statement}`", (edit,), safe=len(statements) == 1)
+
+
+def _into_all(problem: Problem, line: str, *names: Span) -> Iterator[Fix]:
+    """Add a line to the states with these names."""
+    edits = []
+    for name in names:
+        span = name.absolute
+        states: list[State | Parallel] = [*problem.every(State), *problem.every(Parallel)]
+        found = (each for each in states if each.name.span.absolute == span)
+        edit = insertion(state, line) if (state := next(found, None)) is not None else None
+        if edit is None:
+            return
+        edits.append(edit)
+    yield Fix(f"Add `{line}`", tuple(edits))
 
 
 def _declaration(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
@@ -303,8 +318,8 @@ def _something(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
     yield Fix("Declare `event Start`", (edit,))
 
 
+ACTS: dict[str, Act] = {"import": _import, "insert": _into_all}
 RULES: tuple[tuple[str, Rule], ...] = (
-    (r"add `(import [^`]+)`", _import),
     (r"declare something, .*", _something),
     (r"declare it in `(\w+)`: `([^`]+)`", _variable),
     (r"declare it above `(\w+)`: `([^`]+)`", _constant),

@@ -118,6 +118,9 @@ class Problem:
         return None
 
 
+Act = Callable[..., Iterator[Fix]]
+"""Makes the fixes of a problem from the arguments of its advice."""
+
 Rule = Callable[[Problem, "re.Match[str]"], Iterator[Fix]]
 """Makes the fixes of a problem from its help, which a pattern matches."""
 

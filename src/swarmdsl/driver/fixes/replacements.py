@@ -7,15 +7,15 @@ from collections.abc import Iterator
 
 from swarmdsl.base.diagnostics.collector import Fix
 from swarmdsl.base.source import Span
-from swarmdsl.driver.fixes.problem import CODE, Problem, Rule, inserting, proposed, replacing
+from swarmdsl.driver.fixes.problem import CODE, Act, Problem, Rule, inserting, proposed, replacing
 
 _NAME = re.compile(r"[\w./]+")
 _NUMBER = re.compile(r"(-?[\d.]+(?:e[+-]?\d+)?) *([^\d\s.].*)?")
 
 
-def _meant(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
+def _meant(problem: Problem, name: str) -> Iterator[Fix]:
     """`did you mean`: the similar name, in quotes where the wrong one is."""
-    yield _renamed(problem, match[1])
+    yield _renamed(problem, name)
 
 
 def _renamed(problem: Problem, name: str, *, safe: bool = False) -> Fix:
@@ -43,9 +43,9 @@ def _one_of(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
         yield _renamed(problem, names[0])
 
 
-def _written(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
+def _written(problem: Problem, *written: str) -> Iterator[Fix]:
     """Yield what is to stand at the place: one text is the only reading, several are proposals."""
-    texts = [each for each in CODE.findall(match[0]) if "..." not in each]
+    texts = [each for each in written if "..." not in each]
     # A number can be meant in more than one way, but not if only the name of its unit is wrong.
     unclear = problem.span.text[:1].isdigit() and not _renames_unit(problem.span.text, texts)
     safe = len(texts) == 1 and not unclear
@@ -274,8 +274,9 @@ def _closing_brace(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
     yield Fix(f"Add `{match[1]}`", (edit,))
 
 
+ACTS: dict[str, Act] = {"rename": _meant, "write": _written}
 RULES: tuple[tuple[str, Rule], ...] = (
-    (r"did you mean `([^`]+)`\?", _meant),
+    (r"did you mean `([^`]+)`\?", lambda p, m: _meant(p, m[1])),
     (r"the (?:roles|params|settings|arguments) are .*", _one_of),
     (r"it has (`\w+`(?:, | and )?)+", _one_of),
     (r"begin it on a line of its own, or write `(.)` before it;.*", _separator),
@@ -309,16 +310,22 @@ RULES: tuple[tuple[str, Rule], ...] = (
     (r"write the lower left corner first, .*", _corners),
     (r"items are counted from 0: the last one is `\[(\d+)\]`", proposed),
     (r"the last one is `([^`]+)`", _last_robot),
-    (r"this is a robot; its role is `([^`]+)`", _meant),
-    (r"this is a role; its robots are `([^`]+)` and so on", _meant),
+    (r"this is a robot; its role is `([^`]+)`", lambda p, m: _meant(p, m[1])),
+    (r"this is a role; its robots are `([^`]+)` and so on", lambda p, m: _meant(p, m[1])),
     (r"choose another name, for example `([^`]+)`", proposed),
     (r"the values of an enum are whole numbers: `([^`]+)` for instance", proposed),
     (r"write `([^`]+)` for a string of any length", proposed),
     (r"(?:name one of its values|compare it|name an item of an array): `([^`]+)`", proposed),
     (r"for the outcome of an activity, write `([^`]+)`", proposed),
-    (r"(?:it is a function|paths leave out regions|.* is a string): write `([^`]+)`", _written),
+    (
+        r"(?:it is a function|paths leave out regions|.* is a string): write `([^`]+)`",
+        lambda p, m: _written(p, *CODE.findall(m[0])),
+    ),
     (r"leave it out, or write `([^`]+)`", proposed),
     (r"write `([^`]+)`, or (?!give the param|`|if it).*", proposed),
-    (r"write (?:`[^`]+`(?:, | or )?)+(?: for an interface of ROS)?", _written),
+    (
+        r"write (?:`[^`]+`(?:, | or )?)+(?: for an interface of ROS)?",
+        lambda p, m: _written(p, *CODE.findall(m[0])),
+    ),
 )
 """The first pattern that matches the whole help of a diagnostic makes its fixes."""

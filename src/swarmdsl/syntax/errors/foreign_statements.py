@@ -263,6 +263,14 @@ _HINTS = (
     (r"^ *\w+@\.\w+ *->", "", "begin a connector with `connect`"),
     # swarms
     (
+        r"^ *contract +@\w+ *(?:\[|:? *on\b)",
+        "`:`",
+        (
+            "a contract belongs to the robots of a `member`: write it there, as in "
+            "`contract Stops : on Stop within 2 s reach Home`"
+        ),
+    ),
+    (
         r"(?:^|[{;]) *@(\d+) *[x*]? *([a-z_]\w*) *: *([\w.]+)",
         "`heartbeat`",
         r"write the number after the member: `\2 : \3[\1]`",

@@ -179,7 +179,7 @@ def report_syntax_error(
         slip = find_unit(before, found) if before and found else None
         help_ = _hint(words, before, found) if found and slip is None else None
         if before and found and slip is None and help_ is None:
-            slip = find_keyword(words, before)
+            slip = find_keyword(words, before, found)
         if slip is not None:
             start, end, message, help_ = slip
             span = Span(source, patched.origins[start], patched.origins[end])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.diagnostics.advice import meant
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.errors.delayed import DelayedError
 from swarmdsl.syntax.errors.hints import MIN_SIMILARITY
@@ -22,11 +23,16 @@ def find_unit(before: re.Match[str], found: re.Match[str]) -> DelayedError | Non
     return DelayedError(before.start(), found.end(), message, f"write `{number} {unit}`")
 
 
-def find_keyword(expected: set[str], before: re.Match[str]) -> DelayedError | None:
-    """Find a misspelled keyword that the parser took for the name of a part or field."""
+def find_keyword(
+    expected: set[str], before: re.Match[str], found: re.Match[str]
+) -> DelayedError | None:
+    """Find a misspelled keyword that the parser took for the name of a part, field or swarm."""
     word = before[0]
-    keyword = closest(word, RESERVED, MIN_SIMILARITY) if "`:`" in expected else None
+    known = RESERVED if "`:`" in expected else frozenset[str]()
+    if found[0] == "event" and "`{`" in expected:
+        known = frozenset(("operator",))
+    keyword = closest(word, known, MIN_SIMILARITY)
     if keyword is None or keyword == word:
         return None
     message = f"expected `{keyword}`, found `{word}`"
-    return DelayedError(*before.span(), message, f"did you mean `{keyword}`?")
+    return DelayedError(*before.span(), message, meant(keyword))

@@ -36,6 +36,7 @@ _MAX_PARSED_LENGTH = 2_000_000
 # If one of these is expected, the text before is complete.
 _COMPLETE = frozenset({"`}`", "EOF"})
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
+_SEPARATOR = re.compile(r"[;{}]")
 
 
 def parse_with_recovery(
@@ -119,8 +120,11 @@ class _Recovery:
         return parsed
 
     def _follows(self, known: set[int], at: int) -> bool:
-        """Return True for the rest of a line after the block of a statement with an error."""
+        """Return True for the rest of a statement with an error, or of a line after its block."""
         before = self._source.text[:at].rstrip(" \t")
+        line = before.rfind("\n") + 1
+        if any(line <= each < at and not _SEPARATOR.search(before, each) for each in known):
+            return True
         if not before.endswith("}"):
             return False
         block = statement_at(self._source.text, len(before) - 1)
