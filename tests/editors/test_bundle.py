@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -90,6 +92,18 @@ async def test_bundle_serves_an_editor(client: LanguageClient, tmp_path: Path) -
         lsp.DocumentFormattingParams(document, options)
     )
     assert edits
+
+
+def test_bundle_runs_tests(tmp_path: Path) -> None:
+    for path in (ROOT / "examples" / "minimal").glob("*.*"):
+        shutil.copy(path, tmp_path)
+    program = [*BARE, "test", "--results", "-", "--coverage", "--play", "run.html"]
+    program.append(f"{tmp_path / 'blinker.swarmtest.toml'}::it blinks until it is told to stop")
+    ran = subprocess.run(program, capture_output=True, text=True, cwd=tmp_path)
+    kinds = [json.loads(line)["type"] for line in ran.stdout.splitlines()]
+    assert kinds == ["file", "started", "result", "coverage", "end"]
+    assert ran.returncode == 0
+    assert (tmp_path / "run.html").is_file()
 
 
 def test_bundle_rejects_build() -> None:

@@ -28,6 +28,8 @@ class _Place(click.Path):
 
 
 PLACE = _Place(path_type=Path)
+TEXT_PLACE = _Place(path_type=str)
+"""A path as it was written: an id has one in it."""
 
 
 class Number(click.FloatRange):

@@ -76,8 +76,8 @@ def play_runs(runs: Sequence[tuple[Request, Path]], report: Diagnostics) -> Iter
             yield out
 
 
-def play_failed(verdict: Verdict, out: Path) -> None:
-    """Write the page of a test that fails, whose failure has been told."""
+def play_verdict(verdict: Verdict, out: Path) -> None:
+    """Write the page of a test, whose failure has been told."""
     from swarmdsl.tools.player.command import play_test
 
     report = Diagnostics()

@@ -158,7 +158,7 @@ class Coverage:
                     known.transitions[_identity(transition)] = row, key
 
     def _key(self, origin: object, machine: Machine, number: int) -> Key:
-        place = _place(origin)
+        place = place_of(origin)
         if place is None:
             # Two documents may have machines with the same name.
             return self._files.get(machine, machine.name), number
@@ -171,14 +171,14 @@ def _identity(transition: Transition) -> int:
     return id(transition.origin if modelled else transition)
 
 
-def _place(origin: object) -> Span | None:
+def place_of(origin: object) -> Span | None:
     """Return the span of an element in the model."""
     place = origin if isinstance(origin, Span) else getattr(origin, "origin", None)
     return place if isinstance(place, Span) else None
 
 
 def _words(transition: Transition) -> str:
-    place = _place(transition.origin)
+    place = place_of(transition.origin)
     if place is not None:
         return " ".join(place.text.split())
     return " ".join([*transition.events, "->", *transition.targets])

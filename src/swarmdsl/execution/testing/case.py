@@ -163,6 +163,7 @@ class InvalidTest:
     """A test that cannot run, with its errors."""
 
     name: str
+    place: Span
     problems: tuple[Diagnostic, ...]
 
 

@@ -82,7 +82,7 @@ class _Reader:
         name = self._name(table, names)
         case = self._case(table, name or "", model)
         if case is None or report.has_errors:
-            return InvalidTest(name or f"test {number + 1}", tuple(report))
+            return InvalidTest(name or f"test {number + 1}", _place(table), tuple(report))
         self._report.include(report)
         return case
 
@@ -124,7 +124,7 @@ class _Reader:
         spaces = choose_space(scenario.world, subject, played, table.report)
         return Case(
             name,
-            table.value_place(("name",)) if name else table.value_place(()),
+            _place(table),
             subject,
             played,
             tuple(steps),
@@ -225,6 +225,11 @@ class _Reader:
                 table.wrong(way, "a path", each)
             else:
                 yield Path(os.path.normpath(self._path.parent / each)), table.value_place(way)
+
+
+def _place(table: Table) -> Span:
+    """Return the place of the name of a test, else that of the test."""
+    return table.value_place(("name",) if "name" in table else ())
 
 
 def _part(table: Table, key: str) -> Document:

@@ -119,11 +119,16 @@ def play_traces(
 
 
 def play_test(verdict: Verdict, out: Path, tell: Tell) -> Played:
-    """Run a test again with the first seed with which it fails, and write the page of that run."""
+    """Run a test again with the first seed with which it fails, if any, and write its page."""
 
     def run(keep: Tell, recorder: RunRecorder) -> bool:
         report = Diagnostics()
-        run_case(verdict.case, next(iter(verdict.failures)), lambda line: None, recorder)
+        run_case(
+            verdict.case,
+            next(iter(verdict.failures), verdict.seeds[0]),
+            lambda line: None,
+            recorder,
+        )
         verdict.report(report)
         keep(report)
         return True

@@ -12,30 +12,34 @@ from swarmdsl.base.diagnostics.collector import Diagnostic, Fix, Label
 def render(found: Iterable[Diagnostic], stream: TextIO) -> None:
     """Write the diagnostics; lines and columns count from 1, ends are exclusive."""
     for diagnostic in found:
-        stream.write(json.dumps(_as_json(diagnostic)) + "\n")
+        stream.write(json.dumps(as_json(diagnostic)) + "\n")
 
 
-def _as_json(diagnostic: Diagnostic) -> dict[str, Any]:
+def as_json(diagnostic: Diagnostic) -> dict[str, Any]:
+    """Return a diagnostic as plain data."""
     return {
-        **_place(diagnostic.primary),
+        **place_as_json(diagnostic.primary),
         "severity": diagnostic.severity.value,
         "code": diagnostic.code,
         "name": diagnostic.name,
         "message": diagnostic.message,
         "label": diagnostic.primary.message if diagnostic.primary else "",
         "help": diagnostic.help,
-        "related": [{**_place(label), "message": label.message} for label in diagnostic.related],
+        "related": [
+            {**place_as_json(label), "message": label.message} for label in diagnostic.related
+        ],
         "notes": list(diagnostic.notes),
         "fixes": [_fix(fix) for fix in diagnostic.fixes],
     }
 
 
 def _fix(fix: Fix) -> dict[str, Any]:
-    edits = [{**_place(Label(span)), "text": text} for span, text in fix.edits]
+    edits = [{**place_as_json(Label(span)), "text": text} for span, text in fix.edits]
     return {"title": fix.title, "safe": fix.safe, "edits": edits}
 
 
-def _place(label: Label | None) -> dict[str, Any]:
+def place_as_json(label: Label | None) -> dict[str, Any]:
+    """Return a place as plain data; it has no file and no numbers if it is None."""
     if label is None:
         return dict.fromkeys(("file", "line", "column", "end_line", "end_column"))
     source, start, end = label.span
