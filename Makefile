@@ -89,7 +89,7 @@ witnesses: $(VENV)/.storm ## Compare `swarmc verify` with other model checkers o
 	$(PARALLEL) tests/agreement/test_witnesses.py --agreement --swarms $(SWARMS) $(ARGS)
 
 proofs: $(READY) ## Compare `swarmc verify` with all runs of random swarms on the engine: SWARMS=500.
-	$(PARALLEL) tests/verify/test_random.py tests/verify/test_random_duties.py tests/verify/test_faults_random.py \
+	$(PARALLEL) tests/verify/test_random.py tests/verify/test_random_duties.py tests/verify/test_faults_random.py tests/verify/test_returns.py \
 		tests/verify/test_timed_random.py tests/verify/test_any_size.py -k "are_those_of_all" --proofs $(SWARMS) $(ARGS)
 
 test-ray: $(READY) ## Run the tests of the engine for Ray with Ray itself, of 260 MB.

@@ -163,7 +163,7 @@ def test_loss_and_faults_are_those_of_the_scenario(
     found, told = verified(
         tmp_path, capsys, base + lost.format("tower") + 'lasts = "3 s"\n', "never drone[0] in Bad"
     )
-    assert "leave out `lasts` of the scenario" in told
+    assert (found, "of `tower[0]`, at any time, until it starts anew" in told) == (["fails"], True)
     silent = '[[faults]]\nat = "5 s"\nsilent = "land"\n'
     found, told = verified(
         tmp_path, capsys, base + silent, "each drone : in Land leads to in Down or in Bad"

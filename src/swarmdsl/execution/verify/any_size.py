@@ -65,6 +65,8 @@ def differs(property_: ir.Property, model: Model, bounds: Bounds) -> Doubt | Non
     """Return the reason why swarms of other sizes may have other kinds of robots, or None."""
     if model.demands.identity:
         return Doubt("robots are told apart, by who they are or who has sent an event")
+    if model.returns or model.guesses:
+        return Doubt("lost robots come back, or heartbeats may be lost")
     for actor in model.cast:
         machine = model.machines[actor.machine.name]
         place = _place_of(machine, _is_count)

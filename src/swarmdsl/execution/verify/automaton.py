@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import reduce
 from operator import or_
 from typing import Any, TypeVar
@@ -19,6 +19,7 @@ from swarmdsl.execution.verify.holding import Holding
 from swarmdsl.execution.verify.kind import Kind
 from swarmdsl.execution.verify.moments import moments_of
 from swarmdsl.execution.verify.moves import Look, Move, Slot
+from swarmdsl.execution.verify.presence import Presence
 from swarmdsl.execution.verify.slots import Occupied, carried, occupied
 from swarmdsl.execution.verify.state_key import StateKey
 from swarmdsl.execution.verify.tasks import Input, Task
@@ -63,6 +64,7 @@ class Automaton:
         self.values: list[tuple[tuple[str, Any], ...]] = []
         """For each state, the values of the variables that decide on anything."""
         self._holding = Holding(kind)
+        self._presence = Presence(kind, alphabet)
         self.gone = self._holding.gone
         self._listening: dict[str, bool] = {}
         self._begin()
@@ -72,10 +74,9 @@ class Automaton:
     def expand(self, number: int) -> None:
         """Find the moves of a state, without those that other robots cause."""
         body = self._at(number)
-        given = list(body.inputs()) if body.running else []
         made = []
-        for each in given:
-            for choice in self._choices(each):
+        for each in (*body.inputs(), *self._presence.guesses(body)):
+            for choice in self.kind.choices(each):
                 made += self._tries(number, choice)
         if body.running:
             for event, messages in self.kind.outside.messages.items():
@@ -92,7 +93,7 @@ class Automaton:
         """Find the move of a state when a message arrives."""
         event = self.alphabet.messages[message].event
         given = Input("hear", -1, event.name, message)
-        if event.name == DEPARTED and not self._misses(self._at(number), event):
+        if event.name == DEPARTED and self._presence.departure(self._at(number), event) is None:
             # All of them are missed: it cannot be on its way.
             self.late[number].add(message)
         elif self._is_late(number, given):
@@ -135,11 +136,17 @@ class Automaton:
 
     def configurations(self) -> Iterator[Any]:
         """Yield for each state which states of its machines are active, unless it is lost."""
-        yield from (tuple(each[:3] for each in key[0]) for key, _ in self._keys if key != LOST)
+        yield from (tuple(each[:3] for each in key[0]) for key in self._there())
 
     def waiting(self) -> Iterator[Any]:
         """Yield for each state the deferred events, unless it is lost."""
-        yield from (tuple(each[4] for each in key[0]) for key, _ in self._keys if key != LOST)
+        yield from (tuple(each[4] for each in key[0]) for key in self._there())
+
+    def _there(self) -> Iterator[Any]:
+        """Yield the keys of all states in which the robot is not lost."""
+        yield from (
+            key for (key, _), lost in zip(self._keys, self.is_lost, strict=True) if not lost
+        )
 
     @property
     def is_complete(self) -> bool:
@@ -175,41 +182,30 @@ class Automaton:
                 body.receive(Event(given.name, messages[given.choice]))
             case "lose":
                 body.lose()
+            case "return":
+                body.come_back()
+            case "view":
+                body.receive(self._presence.guessed(body, given))
             case "hear":
                 body.receive(event or self._heard_event(body, given.choice))
 
     def _shows_loss(self, body: Body) -> bool:
-        """Return True if anybody can tell that a robot is lost; not of all machines that ended."""
+        """Return True if anybody can tell that a robot is lost; not of all machines that ended.
+
+        One that starts anew is lost as often as the scenario has it.
+        """
+        if self.kind.absences:
+            return len(body.absences) < len(self.kind.absences)
         return body.running or self.kind.has_heartbeat
-
-    def _misses(self, body: Body, event: Event) -> bool:
-        """Return True if one more robot can be given up."""
-        return self.kind.departure(body, event, by_name=self._by_name) is not None
-
-    @property
-    def _by_name(self) -> bool:
-        """True if it counts which robot is lost."""
-        return any(path[:1] in ((), ("id",)) for path in self.alphabet.demands.fields(DEPARTED))
 
     def _heard_event(self, body: Body, message: int) -> Event:
         event = self.alphabet.messages[message].event
         if event.name == DEPARTED:
-            found = self.kind.departure(body, event, by_name=self._by_name)
+            found = self._presence.departure(body, event)
             assert found is not None, "nobody is given up twice"
             return found
         envelope = Envelope(event.envelope.sender, 0, event.envelope.to)
         return Event(event.name, event.data, envelope=envelope)
-
-    def _choices(self, given: Input) -> Iterable[Input]:
-        if given.kind != "end":
-            yield given
-            return
-        state = given.choice
-        ends = self.kind.ends[given.name]
-        for index in range(len(ends.results)):
-            yield given._replace(choice=(state, "succeeded", index))
-        for outcome in ends.others:
-            yield given._replace(choice=(state, outcome, None))
 
     def _path(self, number: int) -> list[Input]:
         path: list[Input] = []
@@ -234,7 +230,8 @@ class Automaton:
     def _body_at_rest(self) -> Body:
         kind = self.kind
         system = self.alphabet.system
-        return Body(kind.cast, system, Clock(), kind.crew, kind.silent, kind.others)
+        clock = Clock()
+        return Body(kind.cast, system, clock, kind.crew, kind.silent, kind.others, kind.absences)
 
     def _begin(self) -> None:
         body = self._body_at_rest()
@@ -297,6 +294,8 @@ class Automaton:
             shown.append((actor, reduce(or_, held, momentary)))
 
         body.seen = see
+        if given.kind == "return":
+            held[:] = [0] * len(held)
         before, running = list(body.tasks()), occupied(body, self._key.waiting)
         act()
         left = {id(each) for _, each in body.tasks()}

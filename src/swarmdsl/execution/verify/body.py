@@ -28,7 +28,7 @@ from swarmdsl.execution.simulate.members import DEPARTED, JOINED, Roster
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.verify.crew import Crew
 from swarmdsl.execution.verify.nearness import Nearness
-from swarmdsl.execution.verify.tasks import Delay, Input, Task, Wait
+from swarmdsl.execution.verify.tasks import Absence, Delay, Input, Task, Wait
 
 
 class Body:
@@ -42,6 +42,7 @@ class Body:
         crew: Crew | None = None,
         silent: frozenset[str] = frozenset(),
         others: int = 0,
+        absences: Sequence[int] = (),
     ) -> None:
         self.seen: Callable[[Line], None] | None = None
         """Listener to the lines, called when the data are as after the line."""
@@ -60,26 +61,20 @@ class Body:
         self.steps = 0
         self._system = system
         self._trace = Trace(clock, [self._see])
-        servers = Servers()
-        self.instances = [
-            Instance(actor.machine, _Desk(self, number), data=deepcopy(actor.data), servers=servers)
-            for number, actor in enumerate(cast)
-        ]
         self.used: set[tuple[str, int]] = set()
         """Events from outside that have come, of those that come once."""
         self.is_lost = False
+        self.absences: list[Absence] = []
+        """Times in which the robot was lost, if it starts anew after each."""
+        self._lengths = absences
         self.near = Nearness(others)
         self._silent = silent
-        self._crew = crew
+        self.crew = crew
         self.roster: Roster | None = None
         """Robots that it takes for present; None if none of its machines asks."""
         if crew is not None and any(map(crew.observes, cast)):
             self.roster = Roster(crew.robots)
-        for instance, actor in zip(self.instances, cast, strict=True):
-            self._trace.watch(instance, actor)
-            instance.data[NEIGHBORS] = self.near.count
-            if self.roster is not None:
-                instance.data[PRESENT] = self.roster.count
+        self.instances = self._made()
 
     @property
     def missed(self) -> int:
@@ -99,7 +94,11 @@ class Body:
         self._forget_ended()
 
     def inputs(self) -> Iterator[Input]:
-        """Yield what can happen by itself: ends of activities and delays, and inner events."""
+        """Yield what can happen by itself: ends of activities and delays, inner events, returns."""
+        if self._is_away:
+            yield Input("return", -1, "")
+        if not self.running:
+            return
         for number, run in self.runs:
             yield Input("end", number, run.activity.name, run.state)
         seen: set[tuple[int, str]] = set()
@@ -123,6 +122,8 @@ class Body:
 
     def all_tasks(self) -> Iterator[tuple[Task, object]]:
         """Yield what is running or waits, also a function that may never answer."""
+        if self._is_away:
+            yield ("return", -1, ""), self.absences[-1]
         if not self.running:
             return
         for number, run in self.runs:
@@ -181,15 +182,45 @@ class Body:
                 self._trace.flush()
         for delay in self.delays:
             delay.ended = self.steps
+        for wait in self.waits:
+            wait.ended = wait.ended if wait.ended is not None else self.steps
         self.is_lost = True
         self.runs.clear()
         self.delays.clear()
         self.inside.clear()
-        if self._crew is not None and self._crew.has_heartbeat:
+        if len(self.absences) < len(self._lengths):
+            self.absences.append(Absence(self.steps, self._lengths[len(self.absences)]))
+        if self.crew is not None and self.crew.tells:
             robot = self.cast[0].robot
             self.sent.append(Event(DEPARTED, {"id": robot.name or "", "role": robot.role}))
 
+    def come_back(self) -> None:
+        """Start all machines anew; the robot takes all others for present."""
+        self._begin()
+        self.is_lost = False
+        self.absences[-1].ended = self.steps
+        if self.roster is not None:
+            self.roster.clear()
+        self.instances = self._made()
+        self.start()
+
     # ---- internal
+
+    @property
+    def _is_away(self) -> bool:
+        return bool(self.absences) and self.absences[-1].ended is None
+
+    def _made(self) -> list[Instance]:
+        """Return new instances of the machines."""
+        servers = Servers()
+        made = []
+        for number, actor in enumerate(self.cast):
+            data = {**deepcopy(actor.data), NEIGHBORS: self.near.count}
+            if self.roster is not None:
+                data[PRESENT] = self.roster.count
+            made.append(Instance(actor.machine, _Desk(self, number), data=data, servers=servers))
+            self._trace.watch(made[-1], actor)
+        return made
 
     def _see(self, line: Line) -> None:
         self.lines.append(line)
@@ -208,7 +239,7 @@ class Body:
         if is_about_member and self.roster is not None:
             self.roster.note(event.name, event.data)
         for instance, actor in zip(self.instances, self.cast, strict=True):
-            observes = is_about_member and self._crew is not None and self._crew.observes(actor)
+            observes = is_about_member and self.crew is not None and self.crew.observes(actor)
             if instance.running and (observes or actor.listens(event.name)):
                 self._trace.begin(instance, event.name, event.data, event.envelope)
                 self._guarded(partial(instance.receive, event))

@@ -37,6 +37,12 @@ class Robot:
     moments: list[int] = field(default_factory=list)
     """Numbers of the steps of the run at which it did something."""
 
+    @property
+    def order(self) -> tuple[str, int]:
+        """Order of the robots of a run: by their roles and numbers."""
+        role, _, number = (self.name or "").partition("[")
+        return role, int(number[:-1]) if number else 0
+
     def is_at(self, state: int, bag: tuple[int, ...]) -> bool:
         """Return True if it is at a place of the network."""
         mine = tuple(sorted(copy.number for copy in self.bag))

@@ -192,13 +192,15 @@ def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str
         but = f", but {listed(silent, 'and')} may never end" if silent else ""
         yield f"functions and delays end some time{but}, and events that are not lost arrive"
         yield "a function may end in the same way each time, and nothing need come from outside"
-        if environment.faults:
+        if environment.faults and not model.returns:
             yield "what each robot must do is asked of one that is not lost"
     elif silent:
         yield f"{listed(silent, 'and')} may never end"
     if any(automaton.asks_who_is_near for automaton in model.kinds):
         yield "any number of other robots may be near a robot that counts them"
     yield from _losses_of_robots(model, is_answered=not silent)
+    if model.guesses:
+        yield "robots may take any others for lost, and hear them again, at any time"
     yield from _from_outside(model)
     if environment.said:
         yield f"values from outside: {', '.join(environment.said)}"
@@ -249,10 +251,11 @@ def _losses_of_robots(model: Model, *, is_answered: bool) -> Iterator[str]:
         if len(may) == len({a.robot.name for a in model.cast})
         else " of " + listed([name or "it" for name in may], "and")
     )
-    yield f"{with_losses(faults)}{of}, at any time, for ever"
+    ends = "until it starts anew" if model.returns else "for ever"
+    yield f"{with_losses(faults)}{of}, at any time, {ends}"
     if is_answered:
         yield "no answer of a function is lost"
-    if model.subject.heartbeat is not None:
+    if model.subject.heartbeat is not None and not model.guesses:
         yield "each other robot gets `member_lost` some time after a loss"
 
 

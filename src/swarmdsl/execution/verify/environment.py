@@ -95,6 +95,12 @@ class Environment:
             chosen = [r for r in robots if any(is_selected(r, each.of) for each in lost)]
             self._losable = {robot.name for robot in chosen}
             self.faults = len(chosen)
+        self.guesses = any(each.apart for each in self._faults) or (
+            options.faults is None and any(each.lasts is not None for each in lost)
+        )
+        """True if robots can lose sight of others that are there, or are there again."""
+        self.is_deaf = self._scenario is not None and self._scenario.loss >= 1
+        self.guesses |= self.is_deaf
         self.lossy = options.lossy or any(each.apart for each in self._faults)
         if self._scenario is not None:
             self.lossy |= self._scenario.loss > 0
@@ -120,15 +126,23 @@ class Environment:
         """Return True if a robot can be lost."""
         return self.faults > 0 and robot.name in self._losable
 
+    def absences(self, robot: Robot) -> tuple[int, ...]:
+        """Return how long a robot is lost each time; nothing if it does not come back."""
+        if self._options.faults is not None:
+            return ()
+        mine = [each for each in self._losses_of(robot) if each.lasts is not None]
+        return tuple(f.lasts for f in sorted(mine, key=lambda f: f.at.bounds[0]) if f.lasts)
+
     def key(self, robot: Robot, functions: Iterable[str], events: Iterable[str]) -> str:
         """Return what tells a robot from others: what can happen to it."""
         if self._scenario is None:
             return str(self.can_be_lost(robot))
+        absences = self.absences(robot)
         behaviors = [
             (self._scenario.behavior(f, robot), self._falls_silent(f, robot)) for f in functions
         ]
         messages = [list(self._messages(event, robot)) for event in events]
-        return repr((self.can_be_lost(robot), behaviors, messages))
+        return repr((self.can_be_lost(robot), behaviors, messages, absences))
 
     def ends(self, function: str, robot: Robot, doubts: list[Doubt]) -> Ends:
         """Return how a function of a robot can end."""
@@ -166,11 +180,9 @@ class Environment:
                 doubts += self._demands.sender_of(name)
         return found
 
-    def doubts(self, robot: Robot, *, follows: bool) -> Iterator[Doubt]:
-        """Yield what a scenario says and proofs do not cover.
-
-        `follows` says if the robot asks who is there.
-        """
+    def doubts(self, cast: Sequence[Actor]) -> Iterator[Doubt]:
+        """Yield what a scenario says of a robot and proofs do not cover."""
+        robot = cast[0].robot
         if self._scenario is None:
             return
         for message in self._scenario.messages:
@@ -178,13 +190,20 @@ class Environment:
                 yield Doubt(f"`{message.event}` in the name of `{message.sender}` is not covered")
             elif self._system.event(message.event).predefined:
                 yield Doubt(f"`{message.event}` from the scenario is not covered")
-        if any(fault.is_loss and fault.lasts is not None for fault in self._faults):
-            yield Doubt("robots that come back are not covered: leave out `lasts` of the scenario")
-        lost = "prove what robots do without each other with `--faults`, instead of"
-        if follows and any(fault.apart for fault in self._faults):
-            yield Doubt(f"heartbeats between robots apart are not covered: {lost} `apart`")
-        if follows and self._scenario.loss >= 1:
-            yield Doubt(f"heartbeats that are lost are not covered: {lost} `loss = 1`")
+        absences = self.absences(robot)
+        if not absences:
+            return
+        name = robot.name or "the robot"
+        if len(absences) < len(list(self._losses_of(robot))):
+            yield Doubt(f"`{name}` comes back from some losses only: give each of them `lasts`")
+        _, most = self._options.timing.message(repeats=False)
+        if most is None or most >= min(absences):
+            # What is on its way to it arrives when it is back.
+            yield Doubt(f"`{name}` is back before events arrive: shorten `latency`, or let it last")
+        for event in self._system.events:
+            is_kept = event.swarm and event.delivery is not None and event.delivery.latest
+            if is_kept and any(actor.listens(event.name) for actor in cast):
+                yield Doubt(f"`{event.name}` is sent again to robots that come back", event.origin)
 
     def noted(self, found: Values, doubts: list[Doubt]) -> Sequence[dict[str, Any]]:
         """Return representatives; keep what is said of them."""
@@ -193,6 +212,9 @@ class Environment:
         return found.values
 
     # ---- internal
+
+    def _losses_of(self, robot: Robot) -> Iterator[Fault]:
+        yield from (f for f in self._faults if f.is_loss and is_selected(robot, f.of))
 
     def _falls_silent(self, function: str, robot: Robot) -> bool:
         return any(

@@ -12,13 +12,14 @@ from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.verify.explore import Graph, explore
 from swarmdsl.execution.verify.failures import MOST_RUNS, Failures, failures
 from swarmdsl.execution.verify.finding import Finding
+from swarmdsl.execution.verify.flaws import OPEN
 from swarmdsl.execution.verify.groups import Group, Local, Step
 from swarmdsl.execution.verify.influence import apart
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.livelock import livelock
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.play import NEAR, play
+from swarmdsl.execution.verify.play import play
 from swarmdsl.execution.verify.reached import Reached, place_of_taken
 from swarmdsl.execution.verify.run import Run, steps_between
 from swarmdsl.execution.verify.verdict import unfinished
@@ -58,8 +59,8 @@ def survey(model: Model, budget: Budget) -> Survey:
         full |= network.full
         part = _Part(model, graph)
         failed = part.failures()
-        if any(flaw == NEAR for _, flaw in failed.flaws.values()):
-            # Robots can be far from each other: a longer run, in which they are, may show it.
+        if any(flaw in OPEN for _, flaw in failed.flaws.values()):
+            # A longer run, in which robots are far from each other and hear of all, may show it.
             lonely = explore(model.network(groups, lonely=True), budget)
             failed.add(_Part(model, lonely).failures())
         found = [*failed.found.values(), *part.findings(sure=sure, budget=budget)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import Event
@@ -11,6 +11,7 @@ from swarmdsl.execution.simulate.members import DEPARTED
 from swarmdsl.execution.verify.body import Body
 from swarmdsl.execution.verify.crew import Crew
 from swarmdsl.execution.verify.environment import Arrivals, Ends
+from swarmdsl.execution.verify.tasks import Input
 from swarmdsl.ir import Count, Fact
 
 
@@ -29,6 +30,8 @@ class Kind:
     losses: int = 0
     """Number of robots that can be lost, as far as such a robot can tell."""
     can_be_lost: bool = False
+    absences: Sequence[int] = ()
+    """How long it is lost each time; empty if for ever."""
     others: int = 0
     """Number of other robots of the swarm."""
     robots: dict[str | None, Sequence[Actor]] = field(default_factory=dict)
@@ -40,15 +43,32 @@ class Kind:
         return frozenset(name for name, ends in self.ends.items() if ends.is_silent)
 
     @property
+    def is_deaf(self) -> bool:
+        """True if other robots are taken for lost some time, since no heartbeat arrives."""
+        return self.crew is not None and self.crew.is_deaf
+
+    @property
     def has_heartbeat(self) -> bool:
         """True if other robots notice when one of them is lost."""
-        return self.crew is not None and self.crew.has_heartbeat
+        return self.crew is not None and self.crew.tells
 
     def listens(self, event: str) -> bool:
         """Return True if a machine gets an event."""
         if event == DEPARTED:
             return self.crew is not None and any(map(self.crew.observes, self.cast))
         return any(actor.listens(event) for actor in self.cast)
+
+    def choices(self, given: Input) -> Iterator[Input]:
+        """Yield an input, or each end of an activity with its outcome and result."""
+        if given.kind != "end":
+            yield given
+            return
+        state = given.choice
+        ends = self.ends[given.name]
+        for index in range(len(ends.results)):
+            yield given._replace(choice=(state, "succeeded", index))
+        for outcome in ends.others:
+            yield given._replace(choice=(state, outcome, None))
 
     def departure(self, body: Body, event: Event, *, by_name: bool) -> Event | None:
         """Return an event that gives up a robot, None if there is none left to give up.

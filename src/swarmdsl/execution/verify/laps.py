@@ -16,10 +16,11 @@ from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.verify.copies import Robot
+from swarmdsl.execution.verify.flaws import ELSEWHERE, VIEWS, exceeding
 from swarmdsl.execution.verify.lap_times import lap_times
 from swarmdsl.execution.verify.lassos import Lasso
 from swarmdsl.execution.verify.network import Network
-from swarmdsl.execution.verify.play import ELSEWHERE, Play, exceeding, play
+from swarmdsl.execution.verify.play import Play, play
 from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.times import in_step
 from swarmdsl.ir import Property
@@ -33,6 +34,8 @@ _UNFAIR = "what is running on one of the robots is never over in it"
 
 def endless(network: Network, lasso: Lasso, property_: Property, robot: str | None) -> Run:
     """Run a lasso on the engine: it violates a property, of one robot if it is about each."""
+    if any(g.automaton.whole.kind.is_deaf for g in network.groups):
+        return Run((), flaw=VIEWS)
     if not lasso.loop:
         return replace(play(network, lasso.stem, property_, is_whole=True), loop=0)
     found = repeated(network, lasso)
@@ -69,7 +72,7 @@ def repeated(network: Network, lasso: Lasso, *, fair: bool = True) -> Lasso | st
         if laps.departs:
             return laps.departs
         if laps.exceeds or laps.late:
-            return exceeding(network, laps.exceeds or laps.late)
+            return exceeding(network.capacity, laps.exceeds or laps.late)
         if laps.overtakes:
             return f"an event overtakes an earlier one on `{laps.overtakes}`"
         marks.append(laps.mark())

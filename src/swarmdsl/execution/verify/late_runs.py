@@ -14,9 +14,10 @@ from swarmdsl.execution.monitor import FALSE
 from swarmdsl.execution.simulate.durations import MILLISECOND
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
+from swarmdsl.execution.verify.flaws import exceeding
 from swarmdsl.execution.verify.groups import Step
 from swarmdsl.execution.verify.network import Network
-from swarmdsl.execution.verify.play import Play, exceeding
+from swarmdsl.execution.verify.play import Play
 from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.timed_observer import LATE
 from swarmdsl.execution.verify.times import Constraint, fitting, in_step
@@ -79,7 +80,7 @@ def _timed(
     if timeless.departs:
         return Run((), flaw=timeless.departs)
     if timeless.exceeds:
-        return Run((), flaw=exceeding(network, timeless.exceeds))
+        return Run((), flaw=exceeding(network.capacity, timeless.exceeds))
     if timeless.overtakes:
         return Run((), flaw=f"an event overtakes an earlier one on `{timeless.overtakes}`")
     flaw = timeless.misfit
@@ -135,7 +136,7 @@ def _at(
     if timed.departs:
         return Run((), flaw=timed.departs)
     if not watch.violations and timed.late:
-        return Run((), flaw=exceeding(network, timed.late))
+        return Run((), flaw=exceeding(network.capacity, timed.late))
     (result,) = watch.results(times[-1], ended=ended)
     if result.verdict != FALSE:
         return Run((), flaw="the monitor does not see a violation in it")

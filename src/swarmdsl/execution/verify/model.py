@@ -10,14 +10,14 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
 from swarmdsl.execution.engine import Event
 from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.members import DEPARTED, JOINED, following
+from swarmdsl.execution.simulate.members import DEPARTED, JOINED
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.verify.alphabet import Alphabet
 from swarmdsl.execution.verify.automaton import Automaton
 from swarmdsl.execution.verify.casts import FactsByRole, addressed, conditions, facts_by_role, sends
 from swarmdsl.execution.verify.close import close
-from swarmdsl.execution.verify.crew import Crew
+from swarmdsl.execution.verify.crew import crew_of
 from swarmdsl.execution.verify.demands import Demands
 from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.environment import Environment, Options
@@ -87,9 +87,7 @@ class Model:
             robots,
             lambda names: self.sends(names or {each.machine.name for each in everybody}),
         )
-        self._crew = Crew(
-            tuple(robots), following(self.system), has_heartbeat=subject.heartbeat is not None
-        )
+        self._crew = crew_of(subject, robots, self.environment)
         self._doubts: dict[int, list[Doubt]] = {}
         self._addressees = set(addressed(self.machines.values()))
         self._robots: list[list[str | None]] = []
@@ -107,6 +105,16 @@ class Model:
     def silent(self) -> list[str]:
         """Functions that may never answer."""
         return sorted({name for kind in self.kinds for name in kind.kind.silent})
+
+    @property
+    def guesses(self) -> bool:
+        """True if robots that follow who is there may lose sight of any other one."""
+        return self._crew.guesses and any(self._follows(each.kind.cast) for each in self.kinds)
+
+    @property
+    def returns(self) -> bool:
+        """True if a robot is lost for a time."""
+        return any(kind.kind.absences for kind in self.kinds)
 
     # ---- groups
 
@@ -143,8 +151,8 @@ class Model:
     ) -> Network:
         """Return the network of some groups; with `timed`, runs must fit times in any case.
 
-        A robot may be spared: it is not lost. An `eager` network has only some of the runs,
-        and so has a `lonely` one: those in which nobody is near.
+        A robot may be spared: it is not lost, unless it comes back. An `eager` network has only
+        some of the runs, and so has a `lonely` one: those in which nobody is near.
         """
         options = self.options
         timing = options.timing if timed or options.exact else None
@@ -158,7 +166,7 @@ class Model:
             eager=eager,
             lonely=lonely,
             faults=self.environment.faults,
-            spared=spared,
+            spared=None if self.returns else spared,
             heartbeat=self.subject.heartbeat,
             latencies=options.timing if options.scenario is not None else None,
         )
@@ -193,9 +201,8 @@ class Model:
     def awaits_members(self, groups: Iterable[Group]) -> bool:
         """Return True if a robot follows events of members that do not come here."""
         casts = [actor for group in groups for actor in group.automaton.whole.kind.cast]
-        if self.environment.faults:
-            return any(actor.listens(JOINED) for actor in casts)
-        return self._follows(casts)
+        told = any(actor.listens(JOINED) for actor in casts)
+        return not self.guesses and (told if self.environment.faults else self._follows(casts))
 
     def one_of_each(self, property_: ir.Property) -> list[str | None]:
         """Return robots that stand for each one that a property is about; None for all together."""
@@ -319,6 +326,7 @@ class Model:
             self._crew if self.environment.faults or self._follows(cast) else None,
             self.environment.faults,
             self.environment.can_be_lost(robot),
+            self.environment.absences(robot),
             len(self._crew.robots) - 1,
             {robot.name: cast},
         )
@@ -340,4 +348,4 @@ class Model:
             yield from uncovered(machine, robot, self.options, has_heartbeat=has_heartbeat)
         yield from uncovered_lifespans(self.system, cast)
         yield from self.demands.timed()
-        yield from self.environment.doubts(robot, follows=self._follows(cast))
+        yield from self.environment.doubts(cast)

@@ -62,6 +62,11 @@ class Move(NamedTuple):
     carried: tuple[Carried, ...] = ()
 
     @property
+    def supposes(self) -> bool:
+        """True if it supposes what is open: who is near, or who is taken for lost."""
+        return any(self.given.near) or self.given.kind == "view"
+
+    @property
     def idle(self) -> bool:
         """True if the robot ignores the input."""
         return all(each.ignored for each in self.moments) and not self.sends

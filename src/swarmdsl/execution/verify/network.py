@@ -48,7 +48,8 @@ class Network:
         self.eager = eager
         """True if only runs are looked at in which messages arrive before anything else happens."""
         self._lonely = lonely
-        """True if only runs are looked at in which nobody is near another robot."""
+        """True if only runs are looked at in which nobody is near another robot, or takes one for
+        lost that it could hear."""
         self.faults = faults
         """Number of robots that can be lost."""
         self._spared = spared
@@ -254,7 +255,7 @@ class Network:
         return tuple(m for m in sends if self._somebody_hears(m, group))
 
     def _is_looked_at(self, step: Step) -> bool:
-        return not (self._lonely and step.move is not None and any(step.move.given.near))
+        return not (self._lonely and step.move is not None and step.move.supposes)
 
     def _find(self, number: int) -> Iterator[Step]:
         group, state, bag = self.places[number]

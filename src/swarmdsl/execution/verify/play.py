@@ -17,9 +17,11 @@ from swarmdsl.execution.simulate.members import DEPARTED
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.verify.absences import absences
 from swarmdsl.execution.verify.alphabet import Alphabet, Message
 from swarmdsl.execution.verify.body import Body
 from swarmdsl.execution.verify.copies import Copy, Robot, precedes
+from swarmdsl.execution.verify.flaws import ELSEWHERE, NEAR, VIEWS, exceeding
 from swarmdsl.execution.verify.groups import Step
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Network
@@ -27,10 +29,6 @@ from swarmdsl.execution.verify.run import Loss, Run
 from swarmdsl.execution.verify.times import Beats, Constraint, fitting, in_step, limits
 from swarmdsl.execution.verify.timing import AT_ONCE, Bounds
 from swarmdsl.ir import Property
-
-ELSEWHERE = "the real messages lead elsewhere"
-NEAR = "robots are near each other in it: whether they can be depends on their places"
-"""Flaw of a run that need not be one."""
 
 
 def play(
@@ -50,7 +48,7 @@ def play(
     if timeless.departs:
         return Run((), flaw=timeless.departs)
     if timeless.exceeds or (is_whole and timeless.late):
-        return Run((), flaw=exceeding(network, timeless.exceeds or timeless.late))
+        return Run((), flaw=exceeding(network.capacity, timeless.exceeds or timeless.late))
     if timeless.overtakes:
         return Run((), flaw=f"an event overtakes an earlier one on `{timeless.overtakes}`")
     times = in_step(
@@ -67,23 +65,11 @@ def play(
         return Run((), flaw=timed.departs)
     if watch is not None:
         if not watch.violations and timed.late:
-            return Run((), flaw=exceeding(network, timed.late))
+            return Run((), flaw=exceeding(network.capacity, timed.late))
         (result,) = watch.results(times[-1], ended=True)
         if result.verdict != FALSE:
             return Run((), flaw="the monitor does not see a violation in it")
     return Run(tuple(timed.lines), tuple(timed.lost), tuple(timed.gone), causes=timed.causes)
-
-
-def exceeding(network: Network, event: str) -> str:
-    """Return the flaw of a run that loses an event for lack of capacity."""
-    most = network.capacity
-    what = f"of more than {most} `{event}` on the way to a robot, one is lost in it"
-    return f"{what}: try `--channel {most + 1}`"
-
-
-def _order(name: str | None) -> tuple[str, int]:
-    role, _, number = (name or "").partition("[")
-    return role, int(number[:-1]) if number else 0
 
 
 class Play:
@@ -122,12 +108,14 @@ class Play:
                 cast = group.cast(name)
                 kind = whole.kind
                 system = self._alphabet.system
-                body = Body(cast, system, Clock(), kind.crew, kind.silent, kind.others)
+                body = Body(
+                    cast, system, Clock(), kind.crew, kind.silent, kind.others, kind.absences
+                )
                 body.seen = self.see
                 self._bodies.update(dict.fromkeys(cast, body))
                 first = whole.first.target
                 self.robots.append(Robot(name, group, first, body, moments=[0]))
-        self.robots.sort(key=lambda robot: _order(robot.name))
+        self.robots.sort(key=lambda robot: robot.order)
 
     def run(self, steps: Sequence[Step]) -> None:
         """Start all robots and take the steps."""
@@ -175,6 +163,7 @@ class Play:
                     bounds = (bounds[0], None) if slow else bounds
                 ended = at[wait.ended] if wait.ended is not None else last
                 found += limits(bounds, at[wait.began], ended, is_over=wait.fired)
+            found += absences(robot, self.network.heartbeat, last)
             for copy in (*robot.bag, *robot.late):
                 found += limits(self._bounds(copy), copy.sent, last, is_over=False)
         for step, copy in self._missed:
@@ -277,11 +266,14 @@ class Play:
 
     def _move(self, robot: Robot, move: Move, event: Event | None) -> None:
         automaton = robot.group.automaton
+        kind = automaton.whole.kind
         found = automaton.follow(robot.state, move)
         robot.moments.append(self.now)
         robot.body.clock.now = self._times[self.now]
         if found.given.kind == "lose":
             self.gone.append(Loss(len(self.lines), robot.name or "", self._times[self.now]))
+            if robot.body.crew is not None and robot.body.crew.guesses and not kind.absences:
+                self.departs = VIEWS  # All others must take it for lost some time later.
         automaton.whole.apply(robot.body, found.given, event)
         shown = tuple((m.event, m.taken, m.sent) for m in found.moments)
         called = [line.actor.machine.called for line in robot.body.lines]
@@ -291,8 +283,8 @@ class Play:
         )
         if shown != real:
             self.departs = ELSEWHERE
-        elif any(found.given.near):
-            self.departs = self.departs or NEAR
+        elif found.supposes:
+            self.departs = self.departs or (VIEWS if found.given.kind == "view" else NEAR)
         robot.state = found.target
         if not robot.body.running:
             self._missed += [(self.now, copy) for copy in (*robot.bag, *robot.late)]

@@ -68,6 +68,12 @@ def prove_possible(
         if not is_timed and (_has_delays(model, groups) or network.timing is not None):
             reason = "whether it is possible may depend on the lengths of delays"
             return Verdict(property_, "unknown", states, reason, robot=me)
+        if model.returns:
+            reason = "whether it is possible may depend on when robots come back"
+            return Verdict(property_, "unknown", states, reason, robot=me)
+        if model.guesses:
+            reason = "whether it is possible may depend on which robots are taken for lost"
+            return Verdict(property_, "unknown", states, reason, robot=me)
         if any(group.automaton.whole.asks_who_is_near for group in groups):
             reason = "whether it is possible may depend on who is near"
             return Verdict(property_, "unknown", states, reason, robot=me)

@@ -8,6 +8,7 @@ from itertools import islice
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.verify.explore import Graph, observe
+from swarmdsl.execution.verify.flaws import OPEN
 from swarmdsl.execution.verify.groups import Group, Local
 from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.laps import endless
@@ -18,7 +19,7 @@ from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.observer import Observer
-from swarmdsl.execution.verify.play import NEAR, play
+from swarmdsl.execution.verify.play import play
 from swarmdsl.execution.verify.possible import prove_possible
 from swarmdsl.execution.verify.run import Run, steps_between
 from swarmdsl.execution.verify.sentence import (
@@ -68,8 +69,8 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
 def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
     """Decide on a property, of one robot if it is about each."""
     verdict = _without_clocks(property_, model, me, budget)
-    if verdict.reason == not_run(NEAR) and property_.kind != "possible":
-        # Robots can be far from each other: a longer run, in which they are, may violate it, too.
+    if verdict.reason in map(not_run, OPEN) and property_.kind != "possible":
+        # A longer run, in which robots are far from each other and hear of all, may violate it.
         again = _without_clocks(property_, model, me, budget, lonely=True)
         verdict = again if again.outcome == "fails" else verdict
     if verdict.outcome != "unknown" or verdict.place is not None:
@@ -91,7 +92,8 @@ def _without_clocks(
 ) -> Verdict:
     """Decide on a property for functions and delays that take any time.
 
-    With `lonely`, only runs are looked at in which nobody is near another robot.
+    With `lonely`, only runs are looked at in which nobody is near another robot, or takes one for
+    lost that it could hear.
     """
     if is_about_ends(property_):
         return _in_the_end(property_, model, me, budget, lonely=lonely)

@@ -115,7 +115,7 @@ class Quotient:
         return (cut, look.ended, look.holding & self.mask, tasks, lost)
 
     def _label(self, move: Move, target: int) -> tuple[Any, ...]:
-        given, moments, near = move.given, move.moments, any(move.given.near)
+        given, moments, near = move.given, move.moments, move.supposes
         if self._thorough:
             return (given.kind, given.actor, given.name, moments, move.sends, target, near)
         shown = tuple(each.holding & self.mask for each in moments)

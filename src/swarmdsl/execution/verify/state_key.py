@@ -30,7 +30,7 @@ class StateKey:
     def of(self, body: Body) -> Any:
         """Return what decides on everything that a body does from now on."""
         if body.is_lost:
-            return LOST
+            return LOST, len(body.absences), tuple(sorted(body.used)) if body.absences else ()
         machines = tuple(
             (
                 instance.running,
@@ -49,10 +49,18 @@ class StateKey:
             )
         )
         inside = tuple(map(self.waiting, body.inside))
-        missing = sorted(body.roster.missing) if body.roster is not None and body.running else ()
+        missing = self._missing(body) if body.running else ()
         kept = self.kept(body) if body.running else ()
         used = tuple(sorted(body.used)) if body.running else ()
-        return machines, runs, delays, inside, kept, tuple(missing), used
+        return machines, runs, delays, inside, kept, tuple(missing), used, len(body.absences)
+
+    def _missing(self, body: Body) -> list[str]:
+        """Return the roles of the robots that it takes for lost, or their names if these count."""
+        if body.roster is None or body.crew is None:
+            return []
+        if body.crew.guesses and self._alphabet.demands.identity:
+            return [each.name or "" for each in body.crew.robots if body.roster.misses(each)]
+        return sorted(body.roster.missing)
 
     def waiting(self, event: Event) -> Any:
         """Return what decides of an event that waits."""

@@ -10,8 +10,9 @@ class Input(NamedTuple):
     """Input of a robot; `actor` is the number of its machine, -1 for all of them.
 
     `kind` is `end` of an activity, `time` of a delay, `inside` for an event of the robot itself,
-    `outside` for one from outside of the swarm, `hear` for one of another robot, and `lose` for the
-    loss of the robot.
+    `outside` for one from outside of the swarm, `hear` for one of another robot, `lose` for the
+    loss of the robot and `return` for its new start, and `view` if it takes another one for lost or
+    hears it again.
     """
 
     kind: str
@@ -23,7 +24,9 @@ class Input(NamedTuple):
 
 
 Task = tuple[str, int, str | int]
-"""Running activity or delay, or inner events that wait: kind of input, machine, state or timer."""
+"""What is over some time: kind of input, machine, state or timer.
+
+It is a running activity or delay, inner events that wait, or the absence of a robot."""
 
 
 class Delay:
@@ -52,3 +55,13 @@ class Wait:
         self.ended: int | None = None
         """Number of the step at which it ended or was cancelled."""
         self.fired = False
+
+
+class Absence:
+    """A time in which a robot is lost: when it began, and how long it lasts."""
+
+    def __init__(self, began: int, lasts: int) -> None:
+        self.began = began
+        self.lasts = lasts
+        self.ended: int | None = None
+        """Number of the step at which the robot started anew."""

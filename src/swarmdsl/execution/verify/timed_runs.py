@@ -11,8 +11,9 @@ from swarmdsl.execution.monitor import FALSE, Watch
 from swarmdsl.execution.simulate.properties import plan
 from swarmdsl.execution.simulate.properties import watch as watched
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
+from swarmdsl.execution.verify.flaws import exceeding
 from swarmdsl.execution.verify.groups import TICK, Step
-from swarmdsl.execution.verify.play import Play, exceeding
+from swarmdsl.execution.verify.play import Play
 from swarmdsl.execution.verify.run import Run
 from swarmdsl.execution.verify.timed_network import TimedNetwork
 from swarmdsl.ir import Property
@@ -42,12 +43,12 @@ def play_timed(
     if played.departs:
         return Run((), flaw=played.departs)
     if played.exceeds or (ended and played.late):
-        return Run((), flaw=exceeding(network, played.exceeds or played.late))
+        return Run((), flaw=exceeding(network.capacity, played.exceeds or played.late))
     if played.overtakes:
         return Run((), flaw=f"an event overtakes an earlier one on `{played.overtakes}`")
     if any(times[later] - times[earlier] < least for later, earlier, least in played.constraints()):
         late = played.late
-        return Run((), flaw=exceeding(network, late) if late else played.misfit)
+        return Run((), flaw=exceeding(network.capacity, late) if late else played.misfit)
     if watch is not None:
         (result,) = watch.results(times[-1], ended=ended)
         if result.verdict != FALSE:

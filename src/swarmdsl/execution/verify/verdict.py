@@ -10,9 +10,9 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.verify.explore import Graph
 from swarmdsl.execution.verify.explosion import explain
+from swarmdsl.execution.verify.flaws import OPEN
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.play import NEAR
 from swarmdsl.execution.verify.run import Run
 
 ESTIMATE = "estimate it with `swarmc simulate --runs 1000`"
@@ -59,7 +59,7 @@ def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> 
 
 def not_run(flaw: str) -> str:
     """Return the reason why a run that was found shows nothing."""
-    if flaw == NEAR:
+    if flaw in OPEN:
         return f"the run that was found may be impossible: {flaw}"
     return f"the run that was found cannot be: {flaw}"
 
