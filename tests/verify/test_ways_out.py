@@ -142,11 +142,9 @@ property P of S : never some a in One
 _APART = '[[faults]]\nat = "1 s"\nlasts = "9 s"\napart = [["a[0]"], ["a[1]"]]\n'
 
 
-@pytest.mark.parametrize(
-    ("scenario", "named"), [(_APART, "`apart`"), ("[network]\nloss = 1\n", "`loss = 1`")]
-)
+@pytest.mark.parametrize("scenario", [_APART, "[network]\nloss = 1\n"])
 def test_robots_can_be_lost_instead_of_their_heartbeats(
-    scenario: str, named: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    scenario: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     model, conditions = tmp_path / "model.swarm", tmp_path / "silent.toml"
     model.write_text(_BEATS, encoding="utf-8")
@@ -154,6 +152,6 @@ def test_robots_can_be_lost_instead_of_their_heartbeats(
 
     run(["verify", str(model), "--scenario", str(conditions)])
     out = capsys.readouterr().out
-    assert re.search(rf"P  unknown  heartbeats .* with `--faults`, instead of {named}", out), out
+    assert re.search("P  unknown  .* robots do without others with `--faults`, and no", out), out
     run(["verify", str(model), "--faults", "1"])
     assert "P  fails" in capsys.readouterr().out

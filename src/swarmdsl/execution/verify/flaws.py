@@ -5,7 +5,8 @@ from __future__ import annotations
 ELSEWHERE = "the real messages lead elsewhere"
 NEAR = "robots are near each other in it: whether they can be depends on their places"
 VIEWS = (
-    "robots take each other for lost in it: whether they do depends on when faults begin and end"
+    "robots take each other for lost in it: whether they do depends on when faults begin and end; "
+    "prove what robots do without others with `--faults`, and no scenario"
 )
 OPEN = (NEAR, VIEWS)
 """Flaws of runs that need not be flaws."""
