@@ -7,6 +7,7 @@ COMMANDS = (
     "check",
     "codegen",
     "completion",
+    "debug",
     "diagram",
     "diff",
     "doc",

@@ -30,11 +30,11 @@ def lsp(stdio: bool, port: int | None) -> int:
 
     if port is None:
         return serve_on_standard_streams()
-    with _connected(port) as connection:
+    with accepted(port) as connection:
         return serve(connection.makefile("rb"), connection.makefile("wb"))
 
 
-def _connected(port: int) -> socket.socket:
+def accepted(port: int) -> socket.socket:
     """Accept the first connection; others are refused."""
     with socket.socket() as listener:
         if os.name == "posix":

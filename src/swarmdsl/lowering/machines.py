@@ -74,6 +74,12 @@ def names_of_variables(machine: StateMachine, lowered: ir.StateMachine) -> dict[
     return {each: names[each.name.span] for each in nodes_of(machine, Variable)}
 
 
+def inside(machine: StateMachine, lowered: ir.StateMachine, context: Context) -> Context:
+    """Return the context of an expression that is written into a machine after it was lowered."""
+    variables = {**context.variables, **names_of_variables(machine, lowered)}
+    return replace(context, variables=variables, states=_ids(machine, ""))
+
+
 class _Builder:
     """Builder of one machine's states, which collects variables of reused machines."""
 

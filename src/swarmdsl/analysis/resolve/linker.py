@@ -6,14 +6,14 @@ reported and stays None; later phases ignore it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial
 from typing import Any, TypeVar
 
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.inheritance import all_items
-from swarmdsl.analysis.resolve.machines import link_machine
+from swarmdsl.analysis.resolve.machines import link_expression_of_machine, link_machine
 from swarmdsl.analysis.resolve.properties import (
     link_fitness,
     link_property,
@@ -41,6 +41,7 @@ from swarmdsl.syntax.ast import (
     BehaviorUse,
     Component,
     Connector,
+    Container,
     Contract,
     CountRange,
     EnumType,
@@ -70,6 +71,7 @@ from swarmdsl.syntax.ast import (
     Variable,
     nodes_of,
     references,
+    walk,
 )
 
 _TOP_LEVEL: dict[str, type[Any]] = {
@@ -127,6 +129,24 @@ class Linker:
         """Give `other` the params and parts of `machine`."""
         self._params = {**self._params, other: self._params.get(machine, {})}
         self._parts = {**self._parts, other: self._parts.get(machine, {})}
+
+    def link_expression(
+        self, expression: Expression, around: Sequence[Container], file: File, report: Diagnostics
+    ) -> None:
+        """Resolve the names of an expression as if it were in a state of a machine.
+
+        `around` are the containers around it, the machine first; what an inner one declares wins.
+        """
+        machine, scope = around[0], self._scopes[file]
+        assert isinstance(machine, StateMachine)
+        for node in walk(expression):
+            if isinstance(node, TypeRef):
+                self._types.link(node, file, report)
+        link_expression_of_machine(expression, around, scope, report)
+        values: Values = {**self._params.get(machine, {}), **_named(machine.items, Param)}
+        for each in around:
+            values = {**values, **_named(each.items, Variable)}
+        ValueLinker(scope, self._enums, report).link_only([expression], machine, values)
 
     def link_inside(self, file: File, owner: TopLevel, report: Diagnostics) -> None:
         """Resolve the names of states, values, parts and ports in a declaration."""

@@ -60,6 +60,24 @@ def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -
         linker.link_tests(machine, (), (), StateNesting(machine))
 
 
+def link_expression_of_machine(
+    expression: Expression,
+    around: Sequence[Container],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    """Resolve the states that an expression tests or measures.
+
+    It is as if written in the last of some containers, each around the next, of which the first is
+    the machine.
+    """
+    machine = around[0]
+    assert isinstance(machine, StateMachine)
+    levels = tuple(states_by_name(each) for each in reversed(around))
+    linker = _MachineLinker(scope, report)
+    linker.link_tests_of(expression, levels, around[-1], StateNesting(machine))
+
+
 class _MachineLinker:
     """Links one machine. What is inside a container is looked up in it once, and kept."""
 
@@ -131,17 +149,18 @@ class _MachineLinker:
                 case Choice():
                     for branch in item.branches:
                         levels = (inside, *outer, *beside)
-                        self._link_tests_in(branch, levels, container, nesting)
+                        self.link_tests_of(branch, levels, container, nesting)
                         _find_known(branch.guard, item, nesting)
                 case _:
                     levels = (*outer, inside, *beside)
-                    self._link_tests_in(item, levels, container, nesting)
+                    self.link_tests_of(item, levels, container, nesting)
                     if isinstance(item, Transition):
                         _find_known(item.guard, container, nesting)
 
-    def _link_tests_in(
+    def link_tests_of(
         self, item: Node, levels: tuple[Level, ...], container: Container, nesting: StateNesting
     ) -> None:
+        """Resolve the states that the expressions in a node test or measure."""
         for node in walk(item):
             if isinstance(node, InState):
                 self._link_vertex(node.state, levels)

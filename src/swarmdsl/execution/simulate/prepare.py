@@ -20,6 +20,7 @@ from swarmdsl.execution.simulate.run_lines import Recorder
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Document, Subject, choose
 from swarmdsl.ir import System
+from swarmdsl.project.loader import Project
 from swarmdsl.project.read_source import read_source
 
 STANDARD_INPUT = "-"
@@ -112,6 +113,7 @@ def _subject(request: Request, report: Diagnostics) -> Subject | None:
     models = [path for path in request.paths if path not in documents]
     read = [document for path in documents if (document := _document(path, report)) is not None]
     system: System | None = None
+    project: Project | None = None
     settings = Settings()
     if models or not documents:
         settings = find_settings(models, report)
@@ -119,12 +121,13 @@ def _subject(request: Request, report: Diagnostics) -> Subject | None:
             return None
         checked = pipeline.check(models or settings.sources, settings)
         report.include(checked.report)
-        system = checked.system
+        system, project = checked.system, checked.valid
     if report.has_errors:
         return None
     subject = choose(system, read, request.machine, request.swarm, report, request.only)
     if subject is not None:
         subject.models = settings.models
+        subject.project = project
     return subject
 
 

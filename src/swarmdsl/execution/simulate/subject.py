@@ -15,6 +15,7 @@ from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.table import table
 from swarmdsl.ir import StateMachine, Swarm, System
+from swarmdsl.project.loader import Project
 
 MOST_MEMBERS = 10_000
 
@@ -45,6 +46,8 @@ class Subject:
     tables: dict[str, Machine] = field(default_factory=dict)
     models: Mapping[str, ModelSource] = field(default_factory=dict)
     """Function models of the project, by name."""
+    project: Project | None = None
+    """Syntax trees of the system, for expressions that are read while it runs."""
 
     @property
     def heartbeat(self) -> ir.Heartbeat | None:

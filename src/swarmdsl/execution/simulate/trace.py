@@ -106,6 +106,8 @@ class Trace(Observer):
         self._clock = clock
         self._listeners = listeners
         self._line: Line | None = None
+        self.observer: Observer = self
+        """Observer of the instances while there are listeners; it passes everything on to this."""
         self.reporting: ReportingLife | None = None
         """Reporter of the instance that processes an event."""
         self.spread: Callable[[Event, Robot, Iterable[Audience]], None] | None = None
@@ -120,13 +122,12 @@ class Trace(Observer):
         """Observe the instance of a machine that starts anew instead of the one before."""
         life = self.lives[by] = self.lives.pop(instance)
         life.revive(by)
-        by.observer = self if self.is_heard else life
+        by.observer = self.observer if self.is_heard else life
 
     def attach(self) -> None:
         """Begin the trace; there are no more listeners or reporters to come."""
-        if not self.is_heard:
-            for life in self.lives.values():
-                life.instance.observer = life
+        for life in self.lives.values():
+            life.instance.observer = self.observer if self.is_heard else life
 
     @property
     def is_heard(self) -> bool:

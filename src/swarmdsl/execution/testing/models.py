@@ -16,6 +16,7 @@ from swarmdsl.execution.scxml import read as read_scxml
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.subject import Document, Subject
 from swarmdsl.ir import System
+from swarmdsl.project.loader import Project
 from swarmdsl.project.read_source import read_source
 
 _SCXML = ".scxml"
@@ -28,6 +29,7 @@ class Model:
     system: System | None
     documents: dict[str, Document]
     models: Mapping[str, ModelSource] = field(default_factory=dict)
+    project: Project | None = None
     subjects: dict[tuple[str, str], Subject] = field(default_factory=dict)
 
     def subject(self, table: Table, key: str | None, report: Diagnostics) -> Subject | None:
@@ -58,6 +60,7 @@ class Model:
             else:
                 subject = Subject(name, self.system, machine=machines[name])
             subject.models = self.models
+            subject.project = self.project
             self.subjects[key, name] = subject
         return self.subjects[key, name]
 
@@ -105,16 +108,16 @@ def _compiled(paths: Iterable[Path], test_file: Path, report: Diagnostics) -> Mo
             return None
         document = Document(source, machine)
         documents[document.name] = document
-    system = None
+    system = project = None
     settings = Settings()
     if models:
         settings = find_settings([test_file], report)
         checked = pipeline.check(models, settings)
         report.include(checked.report)
-        system = checked.system
+        system, project = checked.system, checked.valid
         if system is None:
             return None
-    return Model(system, documents, settings.models)
+    return Model(system, documents, settings.models, project)
 
 
 def _start(table: Table) -> Span:

@@ -22,7 +22,12 @@ def serve(reader: BinaryIO, writer: BinaryIO) -> int:
 
 def serve_on_standard_streams() -> int:
     """Serve the parent process on stdin and stdout; return the exit code."""
-    return serve(_take_over(0, "rb"), _take_over(1, "wb"))
+    return serve(*standard_streams())
+
+
+def standard_streams() -> tuple[BinaryIO, BinaryIO]:
+    """Return stdin and stdout for messages; nothing else can read or write them any more."""
+    return _take_over(0, "rb"), _take_over(1, "wb")
 
 
 def _take_over(descriptor: int, mode: str) -> BinaryIO:

@@ -532,6 +532,26 @@ def _simple_value(token: str) -> int | float | str | None:
     return int(token) if digits == token else float(token)
 
 
+def parse_alone(language: Language, source: Source, report: Diagnostics) -> Expression | None:
+    """Parse a text that is one expression; None if it is not, which is reported."""
+    tokens = language.tokens.tokenize(source.text)
+    parser = ExpressionParser(language, source, tokens, NESTING_LIMIT)
+    try:
+        found = parser.expression(0)
+    except TooDeepError:
+        found = None
+    for fault in parser.faults:
+        report.report(fault.name, fault.span, **fault.fields)
+    if found is not None and not tokens[0][found[1]] and found[0].tree is not None:
+        return found[0]
+    if not report.has_errors:
+        end = len(source.text)
+        start = end if found is None else min(tokens[1][found[1]], end)
+        place = Span(source, start, end)
+        report.report("syntax-error", place, message="expected an expression, and nothing else")
+    return None
+
+
 def report_fault(language: Language, span: Span, report: Diagnostics) -> None:
     """Report the faults of the expression at a span."""
     tokens = language.tokens.tokenize(span.source.text, span.start, span.end)

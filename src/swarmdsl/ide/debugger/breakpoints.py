@@ -1,0 +1,178 @@
+"""Breakpoints on states and transitions."""
+
+from __future__ import annotations
+
+import operator
+import os
+import re
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.ide.debugger.expressions import Evaluate, Expressions
+from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required
+from swarmdsl.ide.debugger.points import Element
+
+_COUNT = re.compile(r"\s*(>=|<=|==|=|>|<|%)?\s*(\d{1,9})\s*")
+_COMPARED: Mapping[str, Callable[[int, int], bool]] = {
+    ">=": operator.ge,
+    "<=": operator.le,
+    ">": operator.gt,
+    "<": operator.lt,
+    "=": operator.eq,
+    "==": operator.eq,
+    "%": lambda hits, number: not hits % number,
+}
+_BRACES = re.compile(r"\{([^{}]*)\}")
+
+
+@dataclass(frozen=True)
+class Place:
+    """Place of a state or a transition; the path is the real one, lines count from 1."""
+
+    path: str
+    line: int
+    column: int
+
+
+class Places:
+    """Places of the states and transitions that machines of a run have."""
+
+    def __init__(self, subject: Subject, machines: Iterable[Machine]) -> None:
+        self._of: dict[int, Place] = {}
+        self._machines: dict[tuple[str, int], str] = {}
+        for machine in machines:
+            for state in machine.states:
+                elements: list[Element] = [state, *state.transitions]
+                for element in elements:
+                    span = subject.place(element.origin)
+                    if span is None or span.absolute.source.path is None:
+                        continue
+                    at = span.absolute
+                    path = os.path.realpath(at.source.path or "")
+                    place = Place(path, *at.source.line_column(at.start))
+                    self._of[id(element.origin)] = place
+                    self._machines.setdefault((path, place.line), machine.name)
+
+    def of(self, element: Element) -> Place | None:
+        """Return the place of a state or transition."""
+        return self._of.get(id(element.origin))
+
+    def machine(self, path: str, line: int) -> str:
+        """Return the name of a machine that has something at a line."""
+        return self._machines[path, line]
+
+    def lines(self, path: str, first: int, last: int | None = None) -> list[int]:
+        """Return the lines of a file on which a run can stop, from the first to the last."""
+        lines = (line for at, line in self._machines if at == path)
+        return sorted(each for each in lines if each >= first and (last is None or each <= last))
+
+
+class Breakpoint:
+    """Breakpoint at a place, with conditions on when it counts.
+
+    With a `message` it does not stop, but tells the message.
+    """
+
+    def __init__(self, line: int, asked: Arguments) -> None:
+        self.line = line
+        self.condition = optional(asked, "condition", str) or ""
+        self.message = optional(asked, "logMessage", str) or ""
+        self._hits = 0
+        self._count: Callable[[int], bool] = _always
+        counted = optional(asked, "hitCondition", str)
+        if counted and counted.strip():
+            self._count = _counted(counted)
+
+    def begin(self) -> None:
+        """Count from 0, for a new run."""
+        self._hits = 0
+
+    def hits(self, member: int, evaluate: Evaluate) -> bool:
+        """Return True if it counts for a member that is there; one more hit if so.
+
+        A condition without a value does not hold.
+        """
+        if self.condition:
+            try:
+                if not evaluate(self.condition, member).value:
+                    return False
+            except RequestError:
+                return False
+        self._hits += 1
+        return self._count(self._hits)
+
+    def told(self, member: int, evaluate: Evaluate, shown: Callable[[Any], str]) -> str:
+        """Return its message, with the values of the expressions in braces."""
+
+        def value(found: re.Match[str]) -> str:
+            try:
+                return shown(evaluate(found[1], member).value)
+            except RequestError as error:
+                return f"{{{error}}}"
+
+        return _BRACES.sub(value, self.message)
+
+
+def _always(hits: int) -> bool:
+    return True
+
+
+def _counted(text: str) -> Callable[[int], bool]:
+    found = _COUNT.fullmatch(text)
+    if found is None or (found[1] == "%" and not int(found[2])):
+        raise RequestError("write a number of hits, such as `3`, `>= 3` or `% 3`")
+    compared, number = _COMPARED[found[1] or "="], int(found[2])
+    return lambda hits: compared(hits, number)
+
+
+class Breakpoints:
+    """Breakpoints of a session, by file and line."""
+
+    def __init__(self, places: Places, expressions: Expressions) -> None:
+        self._places = places
+        self._expressions = expressions
+        self.asked: dict[str, list[Any]] = {}
+        """What the client has asked for, by file."""
+        self._of: dict[str, list[Breakpoint]] = {}
+
+    def replace(self, path: str, asked: list[Any]) -> list[dict[str, Any]]:
+        """Replace those of a file; return where each is, or why it is nowhere."""
+        real = os.path.realpath(path)
+        kept: list[Breakpoint] = []
+        answers: list[dict[str, Any]] = []
+        for each in asked:
+            try:
+                made = self._made(real, each)
+            except RequestError as error:
+                answers.append({"verified": False, "message": str(error)})
+            else:
+                kept.append(made)
+                answers.append({"verified": True, "line": made.line})
+        self._of[real], self.asked[real] = kept, asked
+        return answers
+
+    def _made(self, path: str, asked: Any) -> Breakpoint:
+        if not isinstance(asked, dict):
+            raise RequestError("a breakpoint must be an object")
+        line = next(iter(self._places.lines(path, required(asked, "line", int))), None)
+        if line is None:
+            raise RequestError("no state or transition of a machine that runs is here or below")
+        made = Breakpoint(line, asked)
+        for text in (made.condition, *_BRACES.findall(made.message)):
+            if text:
+                self._expressions.check(text, self._places.machine(path, line))
+        return made
+
+    def begin(self) -> None:
+        """Count hits from 0, for a new run."""
+        for each in (each for found in self._of.values() for each in found):
+            each.begin()
+
+    def at(self, element: Element) -> list[Breakpoint]:
+        """Return those at a state or transition."""
+        place = self._places.of(element) if self._of else None
+        found = self._of.get(place.path, ()) if place is not None else ()
+        return [each for each in found if place is not None and each.line == place.line]

@@ -1,0 +1,305 @@
+"""Whole sessions of the debug adapter, as a client has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from .client import Client, RefusedError
+
+MODEL = Path(__file__).with_name("lamps.swarm")
+TESTS = Path(__file__).with_name("lamps.swarmtest.toml")
+QUIET = "nothing is left to happen: send an event, or continue to the end"
+LINES = MODEL.read_text(encoding="utf-8").split("\n")
+
+
+def line(text: str) -> int:
+    return next(number for number, each in enumerate(LINES, 1) if text in each)
+
+
+@pytest.fixture
+def client() -> Iterator[Client]:
+    with Client() as found:
+        yield found
+
+
+def run_until_quiet(client: Client, **arguments: object) -> None:
+    client.launch(program=str(MODEL), **arguments)
+    assert client.stop()["text"] == QUIET
+
+
+def test_a_session_from_the_first_event_to_the_end(client: Client) -> None:
+    asked = [line("param most"), line("on Start"), line("state On {"), 999]
+    assert [
+        (each["verified"], each.get("line"))
+        for each in client.launch({MODEL: asked}, program=str(MODEL))
+    ] == [
+        (True, line("state Waiting {")),
+        (True, line("on Start")),
+        (True, line("state On {")),
+        (False, None),
+    ]
+    stopped = client.stop()
+    assert (stopped["reason"], stopped["frame"]["name"]) == ("breakpoint", "Waiting")
+    assert [each["name"] for each in client.request("threads")["threads"]] == ["bulb[0]", "bulb[1]"]
+    assert client.go("continue")["threadId"] == 2
+    assert client.go("continue")["reason"] == "pause"
+
+    shown = client.request("swarmPicture")
+    assert shown["active"] == {"bulb[0]": ["Waiting"], "bulb[1]": ["Waiting"]}
+    assert shown["events"] == [{"event": "Start", "label": "Start", "to": ["bulb[0]", "bulb[1]"]}]
+
+    assert client.value('send Start {"times": 2} to bulb[0]', "repl") == "Start to bulb[0]"
+    stopped = client.stop()
+    frame = stopped["frame"]
+    assert (stopped["reason"], frame["line"]) == ("breakpoint", line("on Start"))
+    assert frame["name"].startswith("on Start [event.times > 0 and")
+    assert frame["source"] == {"name": "lamps.swarm", "path": str(MODEL)}
+    scopes = client.scopes(1)
+    # The effect comes after the transition is taken.
+    assert scopes["Variables"] == {"blinks": "0", "longest": "2 s", "Lit.tries": "1"}
+    assert scopes["Params"] == {"most": "3"}
+    assert scopes["Event"] == {"name": "Start", "times": "2"}
+    assert scopes["Robot"]["id"] == '"bulb[0]"'
+    assert client.value("event.times * most + 1") == "7"
+
+    assert client.go("stepIn")["frame"]["name"] == "Lit"
+    assert client.go("stepIn")["reason"] == "breakpoint"
+    assert [each["name"] for each in client.stack(1)] == ["Lit.On", "Lit"]
+    assert client.value("blinks > 1 and not in(Off)") == "true"
+    # The end of this step, then that of the next one, which blinks again.
+    client.go("stepOut")
+    assert client.go("stepOut")["reason"] == "breakpoint"
+    assert client.go("stepOut")["text"] == "bulb[0], at 1 s"
+    assert client.value("blinks") == "1"
+    stopped = client.go("continue")
+    assert (stopped["reason"], stopped["text"]) == ("exception", "property `NeverDark` is violated")
+    assert client.request("exceptionInfo", threadId=1)["exceptionId"] == stopped["text"]
+    assert stopped["frame"]["name"] == "ended in Dark"
+
+    client.go("continue")
+    client.request("continue", threadId=1)
+    assert client.await_event("exited")["exitCode"] == 0
+    assert client.await_event("terminated")
+    assert client.output.endswith("nothing is left to happen, at 4.000 s\n")
+    assert "0.000  bulb[0]  Start -> Lit.On; start blink\n" in client.output
+
+
+def test_going_back_plays_the_same_run_again(client: Client) -> None:
+    client.launch({MODEL: [line("on Start")]}, program=str(MODEL))
+    client.stop()
+    client.value('send Start {"times": 3} to bulb[1]', "repl")
+    assert client.stop()["reason"] == "breakpoint"
+    states = []
+    for _ in range(3):
+        stopped = client.go("next")
+        states.append((stopped["text"], stopped["threadId"], client.value("blinks")))
+    assert states[0] == ("bulb[1], at 0 ms", 2, "3")
+    assert states[2] == ("bulb[1], at 2 s", 2, "1")
+    for expected in (states[1], states[0]):
+        stopped = client.go("stepBack")
+        assert (stopped["text"], stopped["threadId"], client.value("blinks")) == expected
+    # Forwards it is the same again, with what was sent before.
+    assert client.go("next")["text"] == states[1][0]
+    stopped = client.go("reverseContinue")
+    assert (stopped["frame"]["line"], client.value("blinks")) == (line("on Start"), "0")
+    # Before it was sent.
+    assert client.go("stepBack")["frame"]["name"] == "Waiting"
+    assert client.value("blinks", "hover") == "0"
+    for member in (1, 0):
+        assert client.go("stepBack")["text"] == f"bulb[{member}], at 0 ms"
+    with pytest.raises(RefusedError, match="this is the start"):
+        client.go("stepBack")
+
+
+def test_conditions_hits_and_messages(client: Client) -> None:
+    again, off = line("on succeeded ["), line("state Off {")
+    said = client.launch(
+        {
+            MODEL: [
+                {"line": again, "condition": "blinks == 2"},
+                {"line": line("state On {"), "hitCondition": "% 3"},
+                {"line": off, "logMessage": "{self.id} after {tries + blinks} of {most}"},
+                {"line": off, "condition": "blinks +"},
+                {"line": off, "condition": "nobody"},
+                {"line": off, "hitCondition": "often"},
+            ]
+        },
+        program=str(MODEL),
+    )
+    assert [each["verified"] for each in said] == [True, True, True, False, False, False]
+    assert said[4]["message"].startswith("no value called `nobody`")
+    assert said[5]["message"] == "write a number of hits, such as `3`, `>= 3` or `% 3`"
+    client.stop()
+    client.value('send Start {"times": 3} to bulb[0]', "repl")
+    stopped = client.stop()
+    while stopped["reason"] == "step":
+        stopped = client.go("continue")
+    assert (stopped["frame"]["line"], client.value("blinks")) == (again, "2")
+    stopped = client.go("continue")  # the third time on
+    assert (stopped["frame"]["line"], client.value("blinks")) == (line("state On {"), "1")
+    client.go("continue")
+    assert '\n"bulb[0]" after 2 of 3\n' in client.output
+
+
+def test_variables_are_set(client: Client) -> None:
+    run_until_quiet(client)
+    frame = client.stack(1)[0]["id"]
+    number = client.request("scopes", frameId=frame)["scopes"][0]["variablesReference"]
+
+    def set_to(name: str, value: str) -> str:
+        arguments = {"variablesReference": number, "name": name, "value": value}
+        result: str = client.request("setVariable", **arguments)["value"]
+        return result
+
+    assert set_to("blinks", "most * 2") == "6"
+    assert set_to("longest", "90 s") == "1 min 30 s"
+    assert client.scopes(1)["Variables"]["blinks"] == "6"
+    for name, value in (("blinks", "1.5"), ("blinks", "Off"), ("nothing", "1")):
+        with pytest.raises(RefusedError):
+            set_to(name, value)
+    # What was set at a point is set again on the way back to a later one.
+    client.value('send Start {"times": 1} to bulb[1]', "repl")
+    client.stop()
+    client.go("next")
+    assert client.go("stepBack")["threadId"] == 2
+    assert (
+        client.request("evaluate", expression="blinks", frameId=client.stack(1)[0]["id"])["result"]
+        == "6"
+    )
+
+
+def test_commands_of_the_console(client: Client) -> None:
+    run_until_quiet(client, seed=7)
+    for command, why in (
+        ("send", "write `send EVENT`"),
+        ("send Start {", "write `send EVENT`"),
+        ("send Start {nothing}", "the data are no JSON"),
+        ("send Strat", "did you mean `Start`"),
+        ('send Start {"time": 1}', "has no field `time`"),
+        ("send Start to bulb[7]", "bulb"),
+    ):
+        with pytest.raises(RefusedError) as refused:
+            client.value(command, "repl")
+        assert why in str(refused.value)
+    targets = client.request("completions", text="send S", column=7)["targets"]
+    assert [each["label"] for each in targets] == ["Start"]
+    targets = client.request("completions", text="bl", column=3)["targets"]
+    assert [each["label"] for each in targets] == ["blinks"]
+    client.value('send Start {"times": 1}', "repl")
+    client.stop()
+    client.go("next")
+    events = [(each["label"], each["to"]) for each in client.request("swarmPicture")["events"]]
+    assert events == [
+        ("Stop", ["bulb[0]", "bulb[1]"]),
+        ("blink succeeded", ["bulb[0]", "bulb[1]"]),
+        ("blink aborted", ["bulb[0]", "bulb[1]"]),
+        ("blink preempted", ["bulb[0]", "bulb[1]"]),
+    ]
+    client.request("swarmSend", event="do.Lit.On.aborted", member="bulb[1]")
+    client.stop()
+    assert client.request("swarmPicture")["active"]["bulb[1]"] == ["Lit.Off"]
+
+
+def test_pause_and_restart_in_real_time(client: Client) -> None:
+    client.launch(program=str(MODEL), realTime=True, stopOnEntry=True)
+    assert client.stop()["text"] == "bulb[0], at 0 ms"
+    client.go("continue")
+    client.value('send Start {"times": 1}', "repl")
+    client.stop()
+    client.request("continue", threadId=1)
+    with pytest.raises(RefusedError, match="the simulation is running"):
+        client.stack(1)
+    client.request("pause", threadId=1)
+    assert client.stop()["reason"] == "pause"
+    assert client.request("swarmPicture")["time"] < 1
+    client.request("restart")
+    assert client.stop()["text"] == "bulb[0], at 0 ms"
+    client.request("disconnect")
+    assert client.await_event("terminated")
+
+
+def test_behaviour_tests(client: Client) -> None:
+    client.launch({MODEL: [line("state On {")]}, test=str(TESTS))
+    assert client.stop()["frame"]["name"] == "Lit.On"
+    assert client.go("continue")["text"] == "bulb[0], at 1 s"
+    client.request("continue", threadId=1)
+    assert (
+        "passes" in client.await_event("output")["output"] + client.await_event("output")["output"]
+    )
+    client.await_event("terminated")
+
+
+def test_a_test_that_fails_stops_where_it_fails(client: Client) -> None:
+    client.launch(test=str(TESTS), testName="never ends")
+    stopped = client.stop()
+    assert stopped["reason"] == "exception"
+    assert "expected in `Dark` within 2 s" in stopped["text"]
+    assert stopped["frame"]["name"] == "Lit.Off"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "why"),
+    [
+        ({}, "`program` is missing"),
+        ({"program": "nowhere.swarm"}, "nowhere.swarm"),
+        ({"program": str(MODEL), "swarm": "Lmaps"}, "did you mean `Lamps`"),
+        ({"program": str(MODEL), "scenario": "none.toml"}, "none.toml"),
+        ({"program": str(MODEL), "world": "round"}, "`world` must be"),
+        ({"program": str(MODEL), "until": "soon"}, "`until` must be a duration"),
+        ({"program": str(MODEL), "seed": "one"}, "`seed` must be a whole number"),
+        ({"program": str(MODEL), "speed": 0}, "`speed` must be a number"),
+        ({"program": [1]}, "`program` must be a list of strings"),
+        ({"test": str(TESTS), "testName": "nothing"}, "there is no test `nothing`"),
+        ({"test": str(MODEL)}, "lamps.swarm"),
+    ],
+)
+def test_wrong_launches_are_refused(client: Client, arguments: dict[str, object], why: str) -> None:
+    client.request("initialize")
+    with pytest.raises(RefusedError) as refused:
+        client.request("launch", **arguments)
+    assert why in str(refused.value)
+    # The client can try again.
+    client.request("launch", program=str(MODEL))
+    client.request("configurationDone")
+    assert client.stop()["reason"] == "pause"
+
+
+def test_wrong_requests_are_refused(client: Client) -> None:
+    for message in (1, [], {}, {"type": "request"}, {"type": "request", "seq": "x", "command": 3}):
+        client.write(message)
+    for command, arguments in (
+        ("nonsense", {}),
+        ("stackTrace", {"threadId": 1}),
+        ("continue", {"threadId": 1}),
+        ("setBreakpoints", {"source": {"path": str(MODEL)}}),
+        ("configurationDone", {}),
+    ):
+        with pytest.raises(RefusedError):
+            client.request(command, **arguments)
+    run_until_quiet(client)
+    for command, arguments in (
+        ("launch", {"program": str(MODEL)}),
+        ("stackTrace", {}),
+        ("stackTrace", {"threadId": 9}),
+        ("stackTrace", {"threadId": "1"}),
+        ("scopes", {"frameId": 99}),
+        ("variables", {"variablesReference": -1}),
+        ("evaluate", {"expression": None}),
+        ("evaluate", {"expression": "(" * 5000}),
+        ("evaluate", {"expression": '"'}),
+        ("evaluate", {"expression": "1 / 0"}),
+        ("setVariable", {"variablesReference": 1}),
+        ("setBreakpoints", {"source": "here"}),
+        ("completions", {"text": 3}),
+        ("swarmSend", {"event": {}}),
+        ("stepIn", {"threadId": 0}),
+    ):
+        with pytest.raises(RefusedError) as refused:
+            client.request(command, **arguments)
+        assert "internal error" not in str(refused.value)
+    said = client.request("setBreakpoints", source={"path": "x"}, breakpoints=[1, {"line": "x"}])
+    assert [each["verified"] for each in said["breakpoints"]] == [False, False]
+    assert client.go("next")["reason"] == "pause"
