@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 from itertools import pairwise
 
+from swarmdsl.base.diagnostics.advice import meant, only
 from swarmdsl.base.diagnostics.collector import listed
 
 # As many words are compared closely; out of more, those with most pairs of letters in common.
@@ -45,7 +46,7 @@ def _pairs(word: str) -> frozenset[tuple[str, str]]:
 def did_you_mean(word: str, known: Iterable[str]) -> str | None:
     """Return a question that names the closest known word, None if none is similar."""
     name = closest(word, known)
-    return f"did you mean `{name}`?" if name else None
+    return meant(name) if name else None
 
 
 def suggest(word: str, known: Iterable[str], what: str) -> str:
@@ -53,4 +54,6 @@ def suggest(word: str, known: Iterable[str], what: str) -> str:
     names = list(known)
     if question := did_you_mean(word, names):
         return question
-    return f"the {what} are {listed(names, 'and')}" if names else f"there are no {what}"
+    return (
+        only(f"the {what} are {listed(names, 'and')}", names) if names else f"there are no {what}"
+    )

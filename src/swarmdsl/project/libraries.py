@@ -10,6 +10,7 @@ from functools import cached_property
 from pathlib import Path
 
 from swarmdsl.base import resources
+from swarmdsl.base.diagnostics.advice import Advice, meant
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.read_files import is_file, is_folder
 from swarmdsl.base.source import Span
@@ -86,7 +87,11 @@ class Libraries:
 
     def _advice(self, statement: ImportLibrary, package: str, nearby: Path) -> str | None:
         if not package:
-            return f"write `import {statement.name}.*` for all that a package declares"
+            return Advice(
+                f"write `import {statement.name}.*` for all that a package declares",
+                "write import",
+                f"import {statement.name}.*",
+            )
         names = self.packages(nearby)
         if package.removesuffix(".msg").endswith("_msgs") and package not in names:
             ros = statement.name.replace(".msg.", ".").replace(".", "/").replace("*", "Name")
@@ -100,7 +105,7 @@ class Libraries:
         close = closest(last, inside)
         if close is None:
             return f"`{library}` has {listed(sorted(inside.values()), 'and')}"
-        return f"did you mean `{inside[close]}`?"
+        return meant(inside[close])
 
     def packages(self, nearby: Path) -> set[str]:
         """Return the names of all packages, searched once however many are missing."""

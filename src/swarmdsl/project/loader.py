@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.graphs import cycles
 from swarmdsl.base.read_files import exists, is_file, is_folder
@@ -210,7 +211,7 @@ class _Loader:
                     path=target,
                     actual="an interface of ROS",
                     expected="a .swarm file",
-                    help=f'write `import ros "{Path(target).parent.as_posix()}"`, with its folder',
+                    help=_with_its_folder(target),
                 )
             case ImportFile(path=target):
                 yield _Step(_relative(folder, target), file, statement)
@@ -249,7 +250,11 @@ class _Loader:
         whole = place.text
         help_ = did_you_mean(name, declared)
         if self._libraries.is_package(whole, Path(file.source.name).parent):
-            help_ = f"write `import {whole}.*` for all that this package declares"
+            help_ = Advice(
+                f"write `import {whole}.*` for all that this package declares",
+                "write import",
+                f"import {whole}.*",
+            )
         self._report.report(
             "unresolved-name",
             Span(place.source, place.end - len(name), place.end),
@@ -322,13 +327,18 @@ def parsed_model(source: Source, report: Diagnostics) -> File:
     return File(source, parsed)
 
 
+def _with_its_folder(target: str) -> Advice:
+    statement = f'import ros "{Path(target).parent.as_posix()}"'
+    return Advice(f"write `{statement}`, with its folder", "write import", statement)
+
+
 def report_empty(source: Source, model: Model, report: Diagnostics) -> None:
     """Report a correct file without any declaration."""
     if not (model.declarations or model.imports or model.optimizations):
         report.report(
             "empty-file",
             Span(source, 0, 0),
-            help="declare something, `event Start : ...` for instance",
+            help=Advice("declare something, `event Start : ...` for instance", "declare something"),
         )
 
 
@@ -340,5 +350,7 @@ def _report_cycles(files: list[File], report: Diagnostics) -> None:
             place_of(last),
             path=file.source.name,
             related=tuple(Label(place_of(step), "through this import") for step in earlier),
-            help="move what both files need to a third one" if earlier else "remove this import",
+            help="move what both files need to a third one"
+            if earlier
+            else Advice("remove this import", "remove import"),
         )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from codecs import BOM_UTF8
 from pathlib import Path
 
+from swarmdsl.base.diagnostics.advice import Advice, meant
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.read_files import MOST, OddFileError, TooLargeError, is_file, read_file
 from swarmdsl.base.records import replace
@@ -61,11 +62,12 @@ def report_unreadable(
     if isinstance(error, FileNotFoundError):
         report.report("file-not-found", at, path=path, help=_similar_file(path))
     elif isinstance(error, OddFileError):
-        help_ = "save what comes out of it in a file first"
+        help_: str = "save what comes out of it in a file first"
         if error.kind == "a folder":
             help_ = "name a file in it"
             if expected == _MODEL and at is not None:
-                help_ += ", or write `import ros` if it has interfaces of ROS"
+                text = f"{help_}, or write `import ros` if it has interfaces of ROS"
+                help_ = Advice(text, "write import", "import ros")
         report.report("not-a-file", at, path=path, actual=error.kind, expected=expected, help=help_)
     elif isinstance(error, TooLargeError):
         report.report("too-large", at, path=path, most=error.most // 2**20)
@@ -115,7 +117,7 @@ def _unified(text: str) -> str:
 
 def _similar_file(path: Path) -> str | None:
     if is_file(f"{path}{SUFFIX}"):
-        return f"did you mean `{path.name}{SUFFIX}`?"
+        return meant(f"{path.name}{SUFFIX}")
     suffix = closest(path.suffix, (SUFFIX,), _SAME_SUFFIX) or path.suffix or SUFFIX
     try:
         names = [entry.name for entry in path.parent.iterdir() if entry.suffix == suffix]
@@ -139,5 +141,10 @@ def without_control_characters(source: Source, report: Diagnostics) -> Source:
     found = list(CONTROL.finditer(source.text))
     for each in found:
         place = Span(source, each.start(), each.end())
-        report.report("control-character", place, code=f"U+{ord(each[0]):04X}", help="remove it")
+        report.report(
+            "control-character",
+            place,
+            code=f"U+{ord(each[0]):04X}",
+            help=Advice("remove it", "remove character"),
+        )
     return replace(source, text=CONTROL.sub(" ", source.text))

@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Severity, placed
 from swarmdsl.base.resources import checkout_root, grammar_checksum
 from swarmdsl.base.source import Source, Span
@@ -161,8 +162,12 @@ def _report_missing_separators(
             what="entry" if separator == "," else "statement",
             help=_bracket_hint(span)
             if span.text == "["
-            else f"begin it on a line of its own, or write `{separator}` before it; "
-            "`swarmc fmt --migrate` does so in whole files",
+            else Advice(
+                f"begin it on a line of its own, or write `{separator}` before it; "
+                "`swarmc fmt --migrate` does so in whole files",
+                "separate",
+                str(separator),
+            ),
         )
 
 
@@ -206,7 +211,11 @@ def _report_unattached(comment: DocComment, report: Diagnostics) -> None:
     report.report(
         "unattached-doc-comment",
         comment.span,
-        help="move it to the line before a declaration or statement, or begin it with `//`",
+        help=Advice(
+            "move it to the line before a declaration or statement, or begin it with `//`",
+            "begin comment",
+            "//",
+        ),
     )
 
 

@@ -11,6 +11,7 @@ from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Model, references, walk
@@ -162,7 +163,7 @@ def _add(segment: Model, model: Model, report: Diagnostics) -> None:
             "syntax-error",
             misplaced.span,
             message="the package and the imports come first in a file",
-            help="move it to the top of the file",
+            help=Advice("move it to the top of the file", "move to top"),
         )
     model.package = model.package or segment.package
     model.imports += segment.imports

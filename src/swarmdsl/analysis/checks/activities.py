@@ -8,6 +8,7 @@ from swarmdsl.analysis.called_interface import called_interface
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.types import Typing, assignable, of_field, report_unknown_field
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -129,7 +130,9 @@ def _check_missing(
             owner=owner,
             fields=listed(names, "and"),
             related=tuple(Label(field.name.span, "declared here") for field in missing),
-            help=f"add `{values}`",
+            help=Advice(
+                f"add `{values}`", "add arguments", *(field.name.span for field in missing)
+            ),
         )
 
 

@@ -16,7 +16,7 @@ from swarmdsl.analysis.resolve.addresses import (
 )
 from swarmdsl.analysis.resolve.identities import robot_named
 from swarmdsl.analysis.resolve.multiplicity import greatest
-from swarmdsl.base.diagnostics.advice import write
+from swarmdsl.base.diagnostics.advice import Advice, last_robot, write
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.suggest import suggest
 from swarmdsl.project.loader import Project
@@ -90,7 +90,7 @@ def _check_index(found: NamedRole, role: Role, number: object, context: Context)
             role=role.name,
             robot=f"{role.name}[{number}]",
             related=(Label(role.span, "the robots are counted from 0"),),
-            help=f"the last one is `{role.name}[{most - 1}]`" if most else None,
+            help=last_robot(role.name, most) if most else None,
         )
 
 
@@ -120,7 +120,10 @@ def _report_missing(found: list[NamedRole], context: Context) -> None:
         roles = dict.fromkeys(name for each in found for name in roles_of(each.swarm))
         help_ = suggest(found[0].name, roles, "roles")
         if not found[0].name:
-            help_ = "an empty address is that of nobody: leave out `to` to send to all others"
+            help_ = Advice(
+                "an empty address is that of nobody: leave out `to` to send to all others",
+                "remove address",
+            )
         elif found[0].name == "sender":
             help_ = write("event.sender")
         elif found[0].name in EVERYBODY:

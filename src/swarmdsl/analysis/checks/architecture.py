@@ -10,6 +10,7 @@ from swarmdsl.analysis.checks.interfaces import check_graph_name
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.inheritance import MOST_BASES, all_items
 from swarmdsl.analysis.types import check_types, fits
+from swarmdsl.base.diagnostics.advice import insert
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.graphs import cycles, leaves_first
 from swarmdsl.base.source import Span
@@ -145,7 +146,11 @@ def _check_params_given(owner: Component | Member, use: BehaviorUse, context: Co
                 name=param.name,
                 machine=use.machine.name,
                 related=(Label(param.name.span, "declared here, without a default"),),
-                help=f"add `param {param.name} : {param.type.span.text}` to `{owner.name}`",
+                help=insert(
+                    f"param {param.name} : {param.type.span.text}",
+                    owner.name.span,
+                    to=f"`{owner.name}`",
+                ),
             )
         elif given is not None and not fits(given.type.type, param.type.type):
             context.report.report(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.types import Typing, assignable, item_of
+from swarmdsl.base.diagnostics.advice import Advice, write
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Append,
@@ -36,12 +37,16 @@ def check_array_effect(effect: Append | Remove | Clear, typing: Typing) -> None:
             effect.span,
             operator=word,
             operands=f"`{effect.target.span.text}`",
-            help=f"name an item of an array: `remove {effect.target.span.text}[0]`",
+            help=Advice(
+                f"name an item of an array: `remove {effect.target.span.text}[0]`",
+                "propose",
+                f"remove {effect.target.span.text}[0]",
+            ),
         )
         return
     if array is None or not assignable(array):
         is_item = isinstance(effect, Clear) and item_of(target) is not None
-        help_ = f"write `remove {effect.target.span.text}`" if is_item else None
+        help_ = write(f"remove {effect.target.span.text}") if is_item else None
         report_not_assignable(effect.target, typing, help_)
         return
     type_ = typing.infer(array)
@@ -70,7 +75,11 @@ def check_array_effect(effect: Append | Remove | Clear, typing: Typing) -> None:
             "unbounded-array",
             effect.target.span,
             name=effect.target.span.text,
-            help=f"give it a bound, such as `{type_.element}[<=16]`",
+            help=Advice(
+                f"give it a bound, such as `{type_.element}[<=16]`",
+                "bound",
+                f"{type_.element}[<=16]",
+            ),
         )
     if isinstance(effect, Append):
         typing.expect(effect.value.tree, type_.element if isinstance(type_, Array) else None)

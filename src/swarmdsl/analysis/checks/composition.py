@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import isinf
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.base.diagnostics.advice import Advice, sizes
 from swarmdsl.syntax.ast import (
     Environment,
     EnvironmentUse,
@@ -29,7 +30,7 @@ def check_swarm(swarm: Swarm, context: Context) -> None:
             "empty-swarm",
             swarm.name.span,
             name=swarm.name,
-            help="add a member: `role : Member[3]`",
+            help=Advice("add a member: `role : Member[3]`", "add member"),
         )
     for role in roles:
         if role.multiplicity is not None:
@@ -79,5 +80,5 @@ def _check_multiplicity(multiplicity: Multiplicity, context: Context) -> None:
             multiplicity.span,
             multiplicity=multiplicity.span.text,
             fault=fault,
-            help="write `[3]`, `[1..5]`, `[2..*]` or `[*]`",
+            help=sizes("[3]", "[1..5]", "[2..*]", "[*]"),
         )

@@ -6,6 +6,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.port_groups import PortGroup, PortKey, PortTopic, port_groups
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.types import fits
+from swarmdsl.base.diagnostics.advice import Advice, write
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.naming import snake_case
 from swarmdsl.syntax.ast import Connector, Member, Part, Port, PortRef
@@ -142,7 +143,7 @@ def _check_connector(connector: Connector, context: Context) -> None:
             "port-direction",
             connector.span,
             fault=f"this connector leads from `{connector.source.span.text}` back to itself",
-            help="name another port, or remove the connector",
+            help=Advice("name another port, or remove the connector", "remove connector"),
         )
     elif not fits(source.type.type, target.type.type):
         context.report.report(
@@ -170,7 +171,7 @@ def _check_direction(connector: Connector, source: Port, target: Port, context: 
             connector.span,
             fault="this connector leads from the receiver to the sender",
             related=tuple(Label(port.name.span, _as_declared(end, port)) for end, port in wrong),
-            help=f"write `connect {connector.target.span.text} -> {connector.source.span.text}`",
+            help=write(f"connect {connector.target.span.text} -> {connector.source.span.text}"),
         )
         return False
     for end, port in wrong:

@@ -14,7 +14,7 @@ from swarmdsl.analysis.checks.state_places import Place, inside, places_of
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.properties import machines_of_member
 from swarmdsl.analysis.resolve.states import all_resolved
-from swarmdsl.base.diagnostics.advice import Advice
+from swarmdsl.base.diagnostics.advice import insert
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
@@ -311,12 +311,7 @@ class _MachineCheck:
             verb="ignores" if len(found) == 1 else "ignore",
             event=event.name,
             related=tuple(labels),
-            help=Advice(
-                f"add `{line}` to {where}",
-                "insert",
-                line,
-                *(each.node.name.span for each in places),
-            ),
+            help=insert(line, *(each.node.name.span for each in places), to=where),
         )
 
     def _check_kept(self) -> None:

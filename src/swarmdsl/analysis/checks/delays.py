@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import inf
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
@@ -101,8 +102,12 @@ def check_undelayed_sends(machine: StateMachine, context: Context) -> None:
                 delay.span,
                 event=sent.event.name,
                 related=(Label(sent.span, "this is sent at once"),),
-                help=f"write `{sent.span.text} {delay.span.text}` on one line to delay it; "
-                "else indent this line like the one above",
+                help=Advice(
+                    f"write `{sent.span.text} {delay.span.text}` on one line to delay it; "
+                    "else indent this line like the one above",
+                    "join lines",
+                    f"{sent.span.text} {delay.span.text}",
+                ),
             )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.delays import leaves
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Activity,
@@ -40,7 +41,10 @@ def check_delivery(event: Event, context: Context) -> None:
             name=event.name,
             fault="it has no delivery",
             related=(Label(event.name.span, "this event stays on its robot"),),
-            help=f"declare it as `swarm event {event.name}`, or leave the settings out",
+            help=Advice(
+                f"declare it as `swarm event {event.name}`, or leave the settings out",
+                "swarm event",
+            ),
         )
     by_kind: dict[str, list[DeliverySetting]] = {}
     for setting in event.delivery:
@@ -60,7 +64,7 @@ def check_operator(event: Event, context: Context) -> None:
             event.name.span,
             name=event.name,
             fault="no operator sends it",
-            help=f"declare it as `swarm operator event {event.name}`",
+            help=Advice(f"declare it as `swarm operator event {event.name}`", "swarm event"),
         )
 
 
@@ -98,7 +102,10 @@ def _check_contradiction(
         places[1].span,
         fault=f"an event is either `{_word(places[0])}` or `{_word(places[1])}`",
         related=(Label(places[0].span, "the other one"),),
-        help="leave one of them out: only events that are sent again wait for a receiver",
+        help=Advice(
+            "leave one of them out: only events that are sent again wait for a receiver",
+            "leave out one",
+        ),
     )
 
 
@@ -162,7 +169,7 @@ def _report_lossy(transition: Transition, ended: State | Parallel, context: Cont
                 name=event.name,
                 state=ended.name,
                 related=(Label(event.name.span, "its delivery is best effort"),),
-                help="declare the event as `reliable`",
+                help=Advice("declare the event as `reliable`", "reliable", event.name.span),
             )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.types import range_of
 from swarmdsl.analysis.types.enum_values import numbers, underlying
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.syntax.ast import EnumType, Variable
 from swarmdsl.syntax.types import INTEGERS, Array, Named, Primitive
 
@@ -20,7 +21,9 @@ def check_enum(enum: EnumType, context: Context) -> None:
             name=enum.underlying.span.text,
             actual="a type of another kind",
             expected="an integer type",
-            help="the values of an enum are whole numbers: `uint8` for instance",
+            help=Advice(
+                "the values of an enum are whole numbers: `uint8` for instance", "propose", "uint8"
+            ),
         )
         return
     if not enum.values:
@@ -28,7 +31,12 @@ def check_enum(enum: EnumType, context: Context) -> None:
             "empty-enum",
             enum.name.span,
             name=enum.name,
-            help="name what a value of it can be: `{ OFF ON }` for instance",
+            help=Advice(
+                "name what a value of it can be: `{ OFF ON }` for instance",
+                "add values",
+                "OFF",
+                "ON",
+            ),
         )
     type_ = underlying(enum)
     possible = range_of(type_)
@@ -76,5 +84,9 @@ def check_first_value(variable: Variable, context: Context) -> None:
         enum=enum.name,
         help=f"give `{enum.name}` a value that is 0"
         if several
-        else f"give it an initial value: `= {written}.{enum.values[0].name}`",
+        else Advice(
+            f"give it an initial value: `= {written}.{enum.values[0].name}`",
+            "initial value",
+            f"= {written}.{enum.values[0].name}",
+        ),
     )

@@ -10,6 +10,7 @@ from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.linker import machines_of
 from swarmdsl.analysis.space_shapes import number_of
 from swarmdsl.analysis.types.space_types import setting_type
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
@@ -69,7 +70,8 @@ def _check_settings(
     given = {str(value.name) for value in values}
     for setting in known.values():
         if setting.required and setting.name not in given:
-            help_ = f"add `{setting.name} = {_EXAMPLES[kind]}`"
+            line = f"{setting.name} = {_EXAMPLES[kind]}"
+            help_ = Advice(f"add `{line}`", "add setting", line)
             context.report.report("missing-setting", at, owner=owner, name=setting.name, help=help_)
 
 
@@ -112,7 +114,7 @@ def _check_speed(member: Member, context: Context) -> None:
                 member=member.name,
                 model=use.name,
                 related=(Label(use.name.span, "this model moves the robot"),),
-                help="add `speed = 1 m/s` to the body",
+                help=Advice("add `speed = 1 m/s` to the body", "add setting", "speed = 1 m/s"),
             )
             return
 

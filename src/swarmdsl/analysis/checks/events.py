@@ -14,6 +14,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.facts import Exchange
 from swarmdsl.analysis.event_topics import event_of, received_topic
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
@@ -138,7 +139,11 @@ def _check_own_events(members: list[Exchange], context: Context) -> None:
             where=where_of("member", [member.name for member in own]),
             name=send.event.name,
             related=(Label(hearing[topic].span, "another member waits for it here"),),
-            help=f"as `swarm event {send.event.name}` it reaches the other members",
+            help=Advice(
+                f"as `swarm event {send.event.name}` it reaches the other members",
+                "declare swarm event",
+                str(send.event.name),
+            ),
         )
 
 

@@ -13,6 +13,7 @@ from swarmdsl.analysis.checks.enums import check_first_value
 from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
 from swarmdsl.analysis.checks.interfaces import check_graph_name
 from swarmdsl.analysis.types import COUNT, Typing, assignable, item_of
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Address,
@@ -134,7 +135,11 @@ def _check_address(address: Address, event: Event | None, typing: Typing) -> Non
             "local-address",
             address.span,
             related=(Label(event.name.span, "an event of the robot itself"),),
-            help=f"declare `swarm event {event.name}` to send it to other robots",
+            help=Advice(
+                f"declare `swarm event {event.name}` to send it to other robots",
+                "declare swarm event",
+                str(event.name),
+            ),
         )
     if address.role_use is None:
         typing.expect(address.id.tree, STRING)

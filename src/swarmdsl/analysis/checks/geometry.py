@@ -16,6 +16,7 @@ from swarmdsl.analysis.space_shapes import (
     size_of,
 )
 from swarmdsl.analysis.types.space_types import ANGLE, LENGTH, SPEED
+from swarmdsl.base.diagnostics.advice import Advice, write
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.numerals import integer
 from swarmdsl.base.source import Span
@@ -72,7 +73,9 @@ def _check_shape(item: Area | Zone | Obstacle, context: Context) -> None:
     if isinstance(shape, Rectangle) and high is not None:
         at = Span(low.span.source, low.span.start, high.span.end)
         if shape.right < shape.left or shape.top < shape.bottom:
-            order = "write the lower left corner first, then the upper right one"
+            order = Advice(
+                "write the lower left corner first, then the upper right one", "sort corners"
+            )
             _report(what, "ends before it begins", at, context, order)
         elif shape.right == shape.left or shape.top == shape.bottom:
             help_ = "a thin obstacle is a `wall`" if isinstance(item, Obstacle) else None
@@ -87,7 +90,7 @@ def _check_height(height: Height | None, what: str, context: Context) -> None:
         context.check_constant(value, LENGTH)
     lowest, highest = heights_of(height, context.typing.folding)
     if lowest is not None and highest is not None and highest <= lowest:
-        _report(what, "has no height", height.span, context, "write `height 0 m .. 3 m`")
+        _report(what, "has no height", height.span, context, write("height 0 m .. 3 m"))
     elif lowest is not None and lowest < 0:
         _report(what, "begins below the ground", height.span, context, "the ground is at `0 m`")
 
@@ -95,7 +98,9 @@ def _check_height(height: Height | None, what: str, context: Context) -> None:
 def _check_wall(wall: Wall, context: Context) -> None:
     _check_height(wall.height, "this wall", context)
     if len(wall.points) < 2:
-        help_ = "write where it ends: `wall : (0 m, 5 m) -> (8 m, 5 m)`"
+        help_ = Advice(
+            "write where it ends: `wall : (0 m, 5 m) -> (8 m, 5 m)`", "append", " -> (8 m, 5 m)"
+        )
         _report("this wall", "has only one point", wall.span, context, help_)
     places = [place_of(point, context.typing.folding) for point in wall.points]
     for point, before, place in zip(wall.points[1:], places, places[1:], strict=False):
@@ -114,7 +119,11 @@ def _check_targets(item: Targets, context: Context) -> None:
     elif item.count and item.places and integer(item.count) != len(item.places):
         count, places = integer(item.count), len(item.places)
         fault = f"has {count} of its kind, but {places} {'place' if places == 1 else 'places'}"
-        help_ = f"leave `[{item.count}]` out: there is one at each place"
+        help_ = Advice(
+            f"leave `[{item.count}]` out: there is one at each place",
+            "leave out",
+            f"[{item.count}]",
+        )
         _report(f"target `{item.name}`", fault, item.name.span, context, help_)
 
 

@@ -6,6 +6,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.checks.livelock import EventlessSteps
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.syntax.ast import (
     NEIGHBORS,
     Branch,
@@ -53,16 +54,20 @@ def _check(
     holds = guard_value(item, context)
     if holds is None:
         return
-    held, help_ = "never", "remove the transition"
+    held = "never"
+    help_: str = Advice("remove the transition", "remove transition")
     if holds:
         held, help_ = "always", _hint(item, owner, hierarchy)
     known = context.typing.folding.value(guard.tree) is not None
+    if not known:
+        prefix = "change the comparisons, or "
+        help_ = help_.prefixed(prefix) if isinstance(help_, Advice) else prefix + help_
     context.report.report(
         "constant-guard",
         guard.span,
         held=held,
         label="" if known else f"this is always {str(held == 'always').lower()}",
-        help=help_ if known else f"change the comparisons, or {help_}",
+        help=help_,
     )
 
 
@@ -97,9 +102,13 @@ def _hint(
 ) -> str:
     """Return the replacement of a guard that always holds. Some transitions need a guard."""
     if isinstance(owner, Choice):
-        return "write `else` in its place, and nothing after it"
+        return Advice("write `else` in its place, and nothing after it", "write else")
     if isinstance(item, Branch) or item.triggers:
-        return "remove the guard"
+        return Advice("remove the guard", "remove guard")
     if owner in hierarchy.idle and item.target is not None:
-        return f"write `on done -> {item.target.name}`: it is taken at once"
+        return Advice(
+            f"write `on done -> {item.target.name}`: it is taken at once",
+            "replace transition",
+            f"on done -> {item.target.name}",
+        )
     return "give the transition a trigger: the state waits for nothing"

@@ -9,6 +9,7 @@ from swarmdsl.analysis.resolve.addresses import Crew, crews_of
 from swarmdsl.analysis.resolve.identities import Comparison, comparisons, is_about, robot_named
 from swarmdsl.analysis.resolve.membership import is_member_event
 from swarmdsl.analysis.resolve.multiplicity import greatest
+from swarmdsl.base.diagnostics.advice import Advice, meant
 from swarmdsl.base.diagnostics.collector import listed
 from swarmdsl.base.suggest import closest, suggest
 from swarmdsl.project.loader import Project
@@ -66,16 +67,18 @@ def _report(comparison: Comparison, running: Sequence[Crew], context: Context) -
     name = str(comparison.value.value)
     role, number = robot_named(name)
     roles = dict.fromkeys(each for crew in running for each in crew.roles)
-    help_ = None
+    help_: str | None = None
     if context.report.wants_hint("unknown-identity"):
         if comparison.of_role and role in roles:
-            help_ = f"this is a robot; its role is `{role}`"
+            help_ = Advice(f"this is a robot; its role is `{role}`", "rename", role)
         elif not comparison.of_role and number is None and role in roles:
-            help_ = f"this is a role; its robots are `{role}[0]` and so on"
+            help_ = Advice(
+                f"this is a role; its robots are `{role}[0]` and so on", "rename", f"{role}[0]"
+            )
         elif role in roles:
             help_ = "robots are counted from 0"
-        elif number is not None and (meant := closest(role, roles)):
-            help_ = f"did you mean `{meant}[{number}]`?"
+        elif number is not None and (close := closest(role, roles)):
+            help_ = meant(f"{close}[{number}]")
         else:
             help_ = suggest(role, roles, "roles")
     context.report.report(

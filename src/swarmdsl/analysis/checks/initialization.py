@@ -11,6 +11,7 @@ from swarmdsl.analysis.checks.control_flow import ControlFlowGraph, Node
 from swarmdsl.analysis.resolve.states import all_resolved
 from swarmdsl.analysis.types import stored_name
 from swarmdsl.analysis.types.enum_values import numbers
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
@@ -137,10 +138,11 @@ def _report(read: Read, path: Iterable[Node], settable: bool, context: Context) 
     variable = read.variable
     transitions = (node.transition for node in path)
     here = next((span for span in transitions if span and not _contains(span, read)), None)
-    help_ = "write it on every path to this place"
+    help_: str = "write it on every path to this place"
     if settable:
         written = f"var {variable.name} : {variable.type.span.text} = ..."
-        help_ = f"give it an initial value, `{written}`, or {help_}"
+        text = f"give it an initial value, `{written}`, or {help_}"
+        help_ = Advice(text, "initialize", variable.name.span)
     context.report.report(
         "early-read",
         read.span,

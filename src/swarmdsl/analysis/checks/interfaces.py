@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.event_topics import received_topic, topic_of
 from swarmdsl.analysis.node_kinds import kind_of
+from swarmdsl.base.diagnostics.advice import Advice, meant
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.graphs import cycles
 from swarmdsl.project.loader import Project
@@ -90,7 +91,7 @@ def check_known(declaration: Declaration, context: Context) -> None:
             continue
         similar = context.interfaces.similar(element)
         if similar is not None or context.interfaces.missing(element):
-            help_ = f"did you mean `{similar}`?" if similar is not None else None
+            help_ = meant(str(similar)) if similar is not None else None
             context.report.report("unknown-interface", node.span, name=element, help=help_)
         elif context.report.wants("undescribed-interface"):
             context.report.report(
@@ -188,7 +189,11 @@ def check_topics(project: Project, context: Context) -> None:
                     "declared here" if isinstance(known, Event) else "monitored here",
                 ),
             ),
-            help=f"write `{known.type.type}`, or monitor another topic"
+            help=Advice(
+                f"write `{known.type.type}`, or monitor another topic",
+                "propose",
+                str(known.type.type),
+            )
             if isinstance(source, MonitorTrigger)
             else 'give one of the events another topic: `on "name"`',
         )

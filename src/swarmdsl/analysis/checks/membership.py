@@ -11,6 +11,7 @@ from swarmdsl.analysis.resolve.membership import (
     neighbor_calls,
     presence_calls,
 )
+from swarmdsl.base.diagnostics.advice import Advice, insert
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
@@ -84,7 +85,10 @@ def check_membership(project: Project, context: Context) -> None:
             event.name.span,
             name=event.name,
             swarm=crew.swarm.name,
-            help="give it another name, or delete it if the heartbeat shall raise it",
+            help=Advice(
+                "give it another name, or delete it if the heartbeat shall raise it",
+                "remove declaration",
+            ),
         )
 
 
@@ -123,7 +127,7 @@ def _check_beating(places: list[tuple[str, Span]], crews: list[Crew], context: C
             name=name,
             swarms=listed([str(swarm.name) for swarm in silent], "and"),
             related=(Label(silent[0].name.span, "this swarm runs the machine"),),
-            help="add `heartbeat 1 s lost after 5 s` to the swarm",
+            help=insert("heartbeat 1 s lost after 5 s", silent[0].name.span, to="the swarm"),
         )
 
 

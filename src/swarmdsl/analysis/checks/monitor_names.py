@@ -6,6 +6,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.names import RESERVED_EVENTS
 from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.analysis.node_kinds import kind_of
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import Event, MonitorTrigger, StateMachine, Word, nodes_of
@@ -29,10 +30,24 @@ def check_monitor_names(project: Project, context: Context) -> None:
             if event is not None:
                 if str(event.name) != name:
                     label = Label(event.name.span, "an event on this topic")
-                    _report(monitor, name, label, f"leave it out, or write `{event.name}`", context)
+                    _report(
+                        monitor,
+                        name,
+                        label,
+                        Advice(
+                            f"leave it out, or write `{event.name}`", "propose", str(event.name)
+                        ),
+                        context,
+                    )
             elif first != name:
                 label = Label(first.span, "another monitor of the topic names it here")
-                _report(monitor, name, label, f"leave it out, or write `{first}`", context)
+                _report(
+                    monitor,
+                    name,
+                    label,
+                    Advice(f"leave it out, or write `{first}`", "propose", str(first)),
+                    context,
+                )
             elif str(name) in declared:
                 node = declared[str(name)]
                 label = Label(node.name.span, f"this is the name of {kind_of(node)}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.types import is_number
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.project.loader import Project
@@ -73,7 +74,11 @@ def _check_worth(optimization: Optimization, context: Context) -> None:
             at,
             name=swarm.name,
             related=(Label(swarm.name.span, "declared here"),),
-            help=f"add `fitness Name` to swarm `{swarm.name}`: it says which runs are better",
+            help=Advice(
+                f"add `fitness Name` to swarm `{swarm.name}`: it says which runs are better",
+                "add fitness",
+                swarm.name,
+            ),
         )
     if not any(isinstance(item, (ParamRange, CountRange)) for item in optimization.items):
         context.report.report(
@@ -173,7 +178,11 @@ def _check_default_inside(item: ParamRange, context: Context) -> None:
         Span(item.span.source, item.lower.span.start, item.upper.span.end),
         name=f"{item.role.name}.{item.param.name}",
         related=(Label(value.span, "this is the default"),),
-        help=f"let the range include {value.span.text}, or change the default",
+        help=Advice(
+            f"let the range include {value.span.text}, or change the default",
+            "extend range",
+            value.span.text,
+        ),
     )
 
 

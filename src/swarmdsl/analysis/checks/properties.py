@@ -19,6 +19,7 @@ from swarmdsl.analysis.resolve.properties import (
     role_of_fact,
     subjects_of,
 )
+from swarmdsl.base.diagnostics.advice import Advice, last_robot, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.records import replace
 from swarmdsl.project.loader import Project
@@ -45,6 +46,8 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import BOOL, DURATION
 
+_QUANTIFIERS = ("all", "some", "no")
+
 
 def check_subjects(project: Project, context: Context) -> None:
     """Check that a property that names no swarm or machine is about the only one."""
@@ -61,7 +64,11 @@ def check_subjects(project: Project, context: Context) -> None:
         if len(found) == 1 or any(each.parsed.skipped_names for each in project.files):
             continue
         names = [f"of {each.name}" for each in found]
-        help_ = f"write {listed(names)} after its name" if names else "declare a `swarm`"
+        help_: str = "declare a `swarm`"
+        if names:
+            help_ = Advice(
+                f"write {listed(names)} after its name", "append", *(f" {each}" for each in names)
+            )
         kind = "fitness" if measures else "property"
         context.report.report(
             "unclear-property", owner.name.span, kind=kind, name=owner.name, help=help_
@@ -82,7 +89,7 @@ def check_property(owner: Property, context: Context) -> None:
             "bad-chance",
             chance.span,
             text=chance.probability,
-            help="write a number from 0 to 1, such as `0.95`",
+            help=Advice("write a number from 0 to 1, such as `0.95`", "number", "0.95"),
         )
     check_facts(owner, owner, context)
 
@@ -145,7 +152,7 @@ def _check_robots(fact: Fact, owner: Sentence, context: Context) -> None:
             misplaced(
                 fault=f"is no robot of role `{role.name}`",
                 related=(Label(role.span, "it has robots from 0 on"),),
-                help=f"the last one is `{role.name}[{most - 1}]`" if most else None,
+                help=last_robot(role.name, most) if most else None,
             )
     elif not who.quantifier and not who.lower and most != 1:
         context.report.report(
@@ -155,8 +162,9 @@ def _check_robots(fact: Fact, owner: Sentence, context: Context) -> None:
             related=(Label(role.span, "it can have several"),),
             help=f"leave `{role.name}` out here: `each {role.name} :` says it"
             if owner.each is not None and owner.each.role.target is role
-            else f"write `all {role.name}`, `some {role.name}`, `no {role.name}` or "
-            f"`{role.name}[0]`",
+            else write(
+                *(f"{word} {role.name}" for word in ("all", "some", "no")), f"{role.name}[0]"
+            ),
         )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
@@ -47,7 +48,7 @@ def _check_deferred(state: State | Parallel, context: Context) -> None:
                     ref.span,
                     trigger=ref.name,
                     related=(Label(first[event], "by this"),),
-                    help="remove one of the two",
+                    help=Advice("remove one of the two", "remove trigger"),
                 )
             elif event in handled:
                 context.report.report(
@@ -56,7 +57,7 @@ def _check_deferred(state: State | Parallel, context: Context) -> None:
                     name=ref.name,
                     state=state.name,
                     related=(Label(handled[event], "the state always handles it here"),),
-                    help="remove it, or give the transition a guard",
+                    help=Advice("remove it, or give the transition a guard", "remove defer"),
                 )
             first.setdefault(event, ref.span)
 
@@ -76,5 +77,7 @@ def _check_cancelled(machine: StateMachine, context: Context) -> None:
                 "nothing-to-cancel",
                 cancel.event.span,
                 name=cancel.event.name,
-                help=f"send it with a delay: `send {cancel.event.name} after 5 s`",
+                help=Advice(
+                    f"send it with a delay: `send {cancel.event.name} after 5 s`", "delay send"
+                ),
             )

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.multiplicity import MOST_DIGITS, greatest
+from swarmdsl.base.diagnostics.advice import Advice, last_robot
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.numerals import integer
 from swarmdsl.syntax.ast import (
@@ -57,7 +58,7 @@ def _check_index(robot: RobotValues, role: Role, context: Context) -> None:
             role=role.name,
             robot=_name(robot),
             related=(Label(role.span, "the robots are counted from 0"),),
-            help=f"the last one is `{role.name}[{most - 1}]`" if most else None,
+            help=last_robot(role.name, most) if most else None,
         )
 
 
@@ -95,8 +96,13 @@ def _check_complete(role: Role, robots: Iterable[RobotValues], context: Context)
             name=name,
             robots=_without(role, most, having),
             related=(Label(param.name.span, "declared here, without a default"),),
-            help=f"write `{role.name} : {_head(role)} {{ {name} = ... }}`, "
-            f"or give the param a default",
+            help=Advice(
+                f"write `{role.name} : {_head(role)} {{ {name} = ... }}`, "
+                "or give the param a default",
+                "set param",
+                role.name.span,
+                param.name.span,
+            ),
         )
 
 
@@ -126,8 +132,13 @@ def _report_part(role: Role, part: Part, param: Param, context: Context) -> None
             Label(param.name.span, "declared here, without a default"),
             Label(part.name.span, "not set here"),
         ),
-        help=f"write `{part.name} : {part.component.span.text} {{ {param.name} = ... }}`, "
-        f"or give the param a default",
+        help=Advice(
+            f"write `{part.name} : {part.component.span.text} {{ {param.name} = ... }}`, "
+            "or give the param a default",
+            "set param",
+            part.name.span,
+            param.name.span,
+        ),
     )
 
 

@@ -15,6 +15,7 @@ from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.checks.livelock import EventlessSteps, completes_at_once
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.event_topics import event_of, received_topic
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Branch,
@@ -149,7 +150,7 @@ def _check_repeated(
                 trigger.span,
                 trigger=first.span.text,
                 related=(Label(first.span, "by this"),),
-                help="remove one of the two",
+                help=Advice("remove one of the two", "remove trigger"),
             )
         elif reacts:
             seen[reacts[0]] = trigger
@@ -185,7 +186,9 @@ def _report(item: Item, blockers: Sequence[Item], context: Context) -> None:
     guards = [blocker.guard for blocker in blockers if blocker.guard is not None]
     if not guards:
         related = [Label(blockers[0].span, "this one is always taken first")]
-        help_ = "give the first one a guard, or remove one of the two"
+        help_: str = Advice(
+            "give the first one a guard, or remove one of the two", "remove transition"
+        )
     else:
         message = "this guard holds whenever the other one does, and comes first"
         if len(guards) > 1:

@@ -7,6 +7,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import condition_of
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.resolve.states import all_resolved, content, regions
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Activity,
@@ -32,7 +33,11 @@ def check_structure(machine: StateMachine, context: Context) -> None:
             "missing-final",
             machine.name.span,
             owner=f"state machine `{machine.name}`",
-            help="add `final Done`, or write `endless statemachine` if it never ends",
+            help=Advice(
+                "add `final Done`, or write `endless statemachine` if it never ends",
+                "end machine",
+                "final Done",
+            ),
         )
     hierarchy = context.hierarchy(machine)
     _check_initial(machine, f"state machine `{machine.name}`", hierarchy, context)
@@ -44,7 +49,10 @@ def check_structure(machine: StateMachine, context: Context) -> None:
                 "too-few-regions",
                 parallel.name.span,
                 name=parallel.name,
-                help="add `region Name { ... }`; a state without regions is a plain `state`",
+                help=Advice(
+                    "add `region Name { ... }`; a state without regions is a plain `state`",
+                    "make plain",
+                ),
             )
     for state in nodes_of(machine, State):
         _check_state(state, hierarchy, context)
@@ -70,7 +78,7 @@ def _check_state(state: State, hierarchy: StateHierarchy, context: Context) -> N
                 initial.span,
                 state=state.name,
                 content="an initial state and no states",
-                help="add the states, or remove this line",
+                help=Advice("add the states, or remove this line", "remove initial"),
             )
     if activities:
         contents.append("an activity")
@@ -134,7 +142,9 @@ def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
                 name=param.name,
                 machine=machine.name,
                 related=(Label(param.name.span, "declared here, without a default"),),
-                help=f"bind it: `{state.machine.name}({param.name} = ...)`",
+                help=Advice(
+                    f"bind it: `{state.machine.name}({param.name} = ...)`", "bind", param.name.span
+                ),
             )
 
 
@@ -168,9 +178,18 @@ def _check_initial(
             "missing-initial",
             container.name.span,
             owner=owner,
-            help=f"add `initial {inside[0].name}`, for instance"
+            help=Advice(
+                f"add `initial {inside[0].name}`, for instance",
+                "add initial",
+                f"initial {inside[0].name}",
+            )
             if inside
-            else "add a state, and `initial` with its name",
+            else Advice(
+                "add a state, and `initial` with its name",
+                "add initial",
+                "initial First",
+                "state First",
+            ),
         )
     context.check_single([item.span for item in found], "the initial state")
 
@@ -184,7 +203,7 @@ def _check_choice(choice: Choice, context: Context) -> None:
             "choice-without-else",
             choice.name.span,
             name=choice.name,
-            help="add `else -> ...`",
+            help=Advice("add `else -> ...`", "add else"),
         )
 
 

@@ -8,6 +8,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.names import RESERVED_EVENTS
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.membership import MEMBER_EVENTS
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.naming import camel_case, snake_case
 from swarmdsl.syntax.ast import (
     AliasType,
@@ -95,5 +96,5 @@ def check_style(declaration: Declaration, context: Context) -> None:
                     kind=kind_name(node),
                     name=name,
                     style=written,
-                    help=f"write `{better(name)}`",
+                    help=Advice(f"write `{better(name)}`", "rename everywhere", better(name)),
                 )

@@ -9,6 +9,7 @@ from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.checks.structure import completes
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.states import regions
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.syntax.ast import (
     Activity,
@@ -51,7 +52,9 @@ def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) 
                     trigger.span,
                     state=owner.name,
                     outcome=outcome,
-                    help="add `do function` to the state, or wait for `done`",
+                    help=Advice(
+                        "add `do function` to the state, or wait for `done`", "propose", "done"
+                    ),
                 )
         case DoneTrigger(region=region, final=final):
             of = region.target if region is not None else owner
@@ -66,7 +69,7 @@ def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, contex
         return  # an idle state completes at once
     if not simple and completes(of, context):
         return
-    help_ = "add a final state to it"
+    help_: str = Advice("add a final state to it", "insert", "final Done", of.name.span)
     related = [Label(of.name.span, "declared here")]
     if isinstance(of, Parallel):
         help_ = "a parallel state is done when each of its regions has reached a final state"
@@ -113,8 +116,12 @@ def _check_outcomes(state: State, transitions: Sequence[Transition], context: Co
             related=tuple(
                 Label(transition.span, "only while its guard holds") for transition in guarded
             ),
-            help=f"add {listed([f'on {outcome} -> ...' for outcome in unhandled], 'and')} "
-            f"to state `{state.name}`",
+            help=Advice(
+                f"add {listed([f'on {outcome} -> ...' for outcome in unhandled], 'and')} "
+                f"to state `{state.name}`",
+                "add outcomes",
+                *unhandled,
+            ),
         )
 
 
@@ -142,7 +149,9 @@ def _check_preempted(state: State, transitions: Sequence[Transition], context: C
                 "transition-never-fires",
                 transition.span,
                 related=(Label(calls[0].span, "a service ends as `succeeded` or `aborted`"),),
-                help="remove it: only the call of an action can be preempted",
+                help=Advice(
+                    "remove it: only the call of an action can be preempted", "remove transition"
+                ),
             )
 
 

@@ -6,6 +6,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.usage import used_declarations
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     Constant,
@@ -58,7 +59,7 @@ def check_unused(project: Project, context: Context) -> None:
                 each.name.span,
                 kind=kind_name(each),
                 name=each.name,
-                help="remove it, or use it",
+                help=Advice("remove it, or use it", "remove declaration"),
             )
 
 

@@ -12,7 +12,8 @@ from pathlib import Path
 
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import states_by_name
-from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.diagnostics.advice import write
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.suggest import closest
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Declaration, EnumType, ImportLibrary, Node, TypeRef, Vertex
@@ -120,7 +121,7 @@ def type_hint(ref: TypeRef, scope: FileScope, report: Diagnostics) -> str | None
     interface = wants_interface(ref)
     if name in _OTHER_TYPES:
         type_ = _OTHER_TYPES[name]
-        return f"write `{_message_with(type_) if interface else type_}`"
+        return write(_message_with(type_) if interface else type_)
     package, _, last = name.rpartition(".")
     if last in scope.skipped_names:
         return None
@@ -128,7 +129,7 @@ def type_hint(ref: TypeRef, scope: FileScope, report: Diagnostics) -> str | None
         return f"write the fields before the address: `send {sent[1]}(...) to {name}`"
     unknown = package and "." not in package and package not in scope.packages
     if unknown and scope.imports_resolved:
-        return f"write `{package}/{last}` for an interface of ROS"
+        return write(f"{package}/{last}", after=" for an interface of ROS")
     if name.lower() in PRIMITIVES and not interface:
         return None
     if not report.wants_hint("unresolved-name"):
@@ -139,13 +140,13 @@ def type_hint(ref: TypeRef, scope: FileScope, report: Diagnostics) -> str | None
     from swarmdsl.project.rosidl import standard
 
     meant = [f"{each}/{name}" for each in standard.packages() if name in standard.names(each)]
-    return f"write {listed(meant)}" if meant else None
+    return write(*meant) if meant else None
 
 
 def value_hint(name: str, scope: FileScope, report: Diagnostics) -> str | None:
     """Hint for a value of an enum without its enum, a function without `()`, an absent value."""
     if name in _CALLED:
-        return f"it is a function: write `{name}()`"
+        return write(f"{name}()", before="it is a function: ")
     enums = scope.names(EnumType) if report.wants_hint("unresolved-name") else ()
     meant = [
         f"{known}.{name}"
@@ -154,7 +155,7 @@ def value_hint(name: str, scope: FileScope, report: Diagnostics) -> str | None:
         and any(value.name == name for value in enum.values)
     ]
     if meant and name not in scope.skipped_names:
-        return f"write {listed(meant)}"
+        return write(*meant)
     if name.lower() in _NULL:
         return 'values are never absent: compare with a default, 0 or ""'
     return None

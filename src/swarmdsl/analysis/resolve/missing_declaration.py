@@ -9,6 +9,7 @@ from itertools import islice
 from pathlib import Path
 
 from swarmdsl.base import resources
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.find_files import files_below
 from swarmdsl.base.read_files import read_text
 from swarmdsl.project.libraries import SUFFIX
@@ -139,12 +140,13 @@ def suggest_declaration(name: str, kinds: tuple[type[Node], ...]) -> str | None:
     Return None for a kind that cannot be declared by its name alone, like a fitness or an enum.
     """
     if Event in kinds and name.lower() in ("timeout", "timer"):
-        return "write a delay without `on`: `after 5 s -> Target`"
+        return Advice("write a delay without `on`: `after 5 s -> Target`", "delay", "after 5 s")
     line = next((_LINES[kind] for kind in kinds if kind in _LINES), None)
     if line is None:
         return None
-    elsewhere = f", or name its ROS package: `package/{name}`"
-    return f"declare it: `{line.format(name)}`{elsewhere if StructType in kinds else ''}"
+    elsewhere = f", or name its ROS package: `package/{name}`" if StructType in kinds else ""
+    declared = line.format(name)
+    return Advice(f"declare it: `{declared}`{elsewhere}", "declare", declared)
 
 
 @cache

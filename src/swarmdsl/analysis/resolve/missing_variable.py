@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.syntax.ast import (
     ActionType,
     Activity,
@@ -65,9 +66,12 @@ def suggest_variable(
         # An initial value is a constant.
         type_ = _written(of, scope) if within.tree is use else None
         line = f"const {use.name} : {type_} = ..."
-        return f"declare it above `{owner.name}`: `{line}`" if type_ else None
+        if type_ is None:
+            return None
+        text = f"declare it above `{owner.name}`: `{line}`"
+        return Advice(text, "declare constant", owner.name, line)
     if isinstance(owner, Fitness):
-        return f"declare it in `{owner.name}`: `in {use.name} : float64`"
+        return _declaration(owner, f"in {use.name} : float64")
     around = _around(within, use)
     if around is None:
         expected = _expected_type(within, owner, scope.interfaces)
@@ -81,7 +85,11 @@ def suggest_variable(
     written = _written(expected, scope) if expected is not None else None
     if expected is None or written is None:
         return f"declare it in `{owner.name}` with its type: `var {use.name} : ...`"
-    return f"declare it in `{owner.name}`: `var {use.name} : {written}{_initial(expected)}`"
+    return _declaration(owner, f"var {use.name} : {written}{_initial(expected)}")
+
+
+def _declaration(owner: StateMachine | Fitness, line: str) -> Advice:
+    return Advice(f"declare it in `{owner.name}`: `{line}`", "declare value", owner.name, line)
 
 
 def _initial(type_: Type) -> str:

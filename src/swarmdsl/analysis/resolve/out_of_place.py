@@ -11,6 +11,7 @@ from swarmdsl.analysis.resolve.identity_tests import identity_tests
 from swarmdsl.analysis.resolve.missing_variable import type_of
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import variables_of
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.syntax.ast import (
     Assignment,
     Element,
@@ -48,17 +49,17 @@ def meaning_elsewhere(
         if isinstance(query, Query) and _has_field(query.element, use.name, scope):
             parts = [part for part in (query.condition, query.key) if part is not None]
             if any(use is node for part in parts for node in walk(part)):
-                return f"write `{query.element.name}.{use.name}`"
+                return write(f"{query.element.name}.{use.name}")
     facts = (fact for fact in nodes_of(owner, Fact) if fact.guard is within)
     for fact in facts:
         heard = fact.act == "hears"
         if fact.event is not None and _have_field(use.name, [fact.event.target], heard, scope):
-            return f"write `event.{use.name}`"
+            return write(f"event.{use.name}")
         if fact.event is not None and not fact.act:
             return _of_a_robot(use.name, fact.event.name, machines)
     for machine in machines:
         if _is_field_of_event(use.name, within, machine, scope):
-            return f"write `event.{use.name}`"
+            return write(f"event.{use.name}")
         for state in _states(machine):
             if any(each.name == use.name for each in variables_of(state)):
                 return (
@@ -89,7 +90,7 @@ def robot_as_value(use: NameUse, owner: TopLevel) -> str | None:
         else:
             continue
         what = "role" if test.of_role else "robot"
-        return f'the name of a {what} is a string: write `"{name}"`'
+        return write(f'"{name}"', before=f"the name of a {what} is a string: ")
     return None
 
 

@@ -17,6 +17,7 @@ from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.space import targets_of
 from swarmdsl.analysis.resolve.states import content, regions, states_by_name
 from swarmdsl.analysis.resolve.values import ValueLinker
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
@@ -359,7 +360,7 @@ def _link_state(
             ref.span,
             name=ref.name,
             related=tuple(Label(state.name.span, "declared here") for _, state in found.values()),
-            help=f"write {listed(['.'.join(path) for path in found])}",
+            help=write(*(".".join(path) for path in found)),
         )
     else:
         ((_, ref.target),) = found.values()

@@ -12,7 +12,7 @@ from typing import TypeVar
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.analysis.resolve.scopes import Ambiguous, FileScope, Missing, Unresolved, WrongKind
 from swarmdsl.analysis.resolve.states import Level
-from swarmdsl.base.diagnostics.advice import add_import, meant
+from swarmdsl.base.diagnostics.advice import Advice, add_import, meant, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import closest
@@ -123,13 +123,17 @@ def report_reference(
 
         outcome = other_outcome(name)
         if outcome is not None and name not in scope.skipped_names:
-            help_ = f"for the outcome of an activity, write `{outcome}`"
+            help_ = Advice(f"for the outcome of an activity, write `{outcome}`", "propose", outcome)
             report.report("unresolved-name", ref.span, kind="event", name=name, help=help_)
             return
         built_in = tuple(filter(None, [misspelled_outcome(name)]))
     instead = None
     if isinstance(owner, Part) and isinstance(found, WrongKind):
-        instead = f"write `behavior {name}`" if type(found.node) is StateMachine else None
+        instead = (
+            Advice(f"write `behavior {name}`", "replace part", f"behavior {name}")
+            if type(found.node) is StateMachine
+            else None
+        )
     _report_declaration(
         found, name, ref.span, (kind,), scope, report, built_in=built_in, instead=instead
     )
@@ -172,7 +176,7 @@ def _report_declaration(
                 at,
                 name=name,
                 related=_declared_here(candidates.values()),
-                help=f"write {listed([f'{package}.{name}' for package in candidates])}",
+                help=write(*(f"{package}.{name}" for package in candidates)),
             )
         case WrongKind(node=node) if not _may_be_skipped(name, scope):
             report.report(
@@ -398,7 +402,7 @@ def report_missing_state(
             kind="state",
             name=name,
             related=(Label(path[-1].name.span, "declared here, inside another state"),),
-            help=f"write `{'.'.join(state.name for state in path)}`",
+            help=write(".".join(state.name for state in path)),
         )
         return
     report_missing(kind, name, at, [str(state.name) for state in states], report)
@@ -414,7 +418,7 @@ def report_region_in_path(
         at,
         kind=f"state in `{outer.name}`",
         name=path[index],
-        help=f"paths leave out regions: write `{without}`",
+        help=write(without, before="paths leave out regions: "),
     )
 
 
@@ -439,12 +443,13 @@ def report_state_outside(
 
 def report_state_not_around(ref: Ref[Vertex], around: Sequence[Node], report: Diagnostics) -> None:
     """Report a state that is not always active where its time is asked for."""
-    names = [f"elapsed({each.name})" for each in around if isinstance(each, (State, Parallel))]
+    names = [str(each.name) for each in around if isinstance(each, (State, Parallel))]
+    written = listed([f"elapsed({name})" for name in names], "or")
     report.report(
         "state-not-around",
         ref.span,
         name=ref.name,
-        help=f"write {listed(names, 'or')}" if names else None,
+        help=Advice(f"write {written}", "state around", *names) if names else None,
     )
 
 

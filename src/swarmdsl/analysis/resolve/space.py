@@ -10,6 +10,7 @@ from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.report_unresolved import report_missing_inside
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.values import ValueLinker
+from swarmdsl.base.diagnostics.advice import Advice, insert
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.numerals import integer
 from swarmdsl.project.loader import Project
@@ -96,8 +97,10 @@ def link_starts(swarm: Swarm, scope: FileScope, report: Diagnostics) -> None:
                     (),
                     scope,
                     report,
-                    hint=lambda: (
-                        f"swarm `{swarm.name}` has no environment: add one, `environment Name`"
+                    hint=lambda: Advice(
+                        f"swarm `{swarm.name}` has no environment: add one, `environment Name`",
+                        "add environment",
+                        swarm.name,
                     ),
                 )
 
@@ -119,7 +122,9 @@ def _link_area(
             areas,
             scope,
             report,
-            hint=lambda: f"add `area {ref.name} : (0 m, 0 m) .. (10 m, 10 m)` to it",
+            hint=lambda: insert(
+                f"area {ref.name} : (0 m, 0 m) .. (10 m, 10 m)", environment.name.span, to="it"
+            ),
         )
 
 

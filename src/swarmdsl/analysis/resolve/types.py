@@ -14,6 +14,7 @@ from swarmdsl.analysis.resolve.type_names import (
     is_size,
     written_element,
 )
+from swarmdsl.base.diagnostics.advice import Advice, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import (
@@ -131,10 +132,10 @@ class TypeLinker:
         if ref.name not in ("string", "wstring"):
             what, size, help_ = f"a `{ref.name}`", "a bound", "`[<=4]` is the bound of an array"
         elif not ref.bound.startswith("<="):
-            what, size, help_ = "a string", "such a bound", f"write `{ref.name}<={bound_of(ref)}`"
+            what, size, help_ = "a string", "such a bound", write(f"{ref.name}<={bound_of(ref)}")
         elif not is_size(bound_of(ref)):
             what, size = "a string", f"at most {bound_of(ref)} characters"
-            help_ = f"write `{ref.name}` for a string of any length"
+            help_ = Advice(f"write `{ref.name}` for a string of any length", "propose", ref.name)
         else:
             return True
         self._report.report("impossible-array", ref.span, what=what, size=size, help=help_)

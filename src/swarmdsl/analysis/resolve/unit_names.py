@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.suggest import did_you_mean
 from swarmdsl.syntax.ast import Word
@@ -14,7 +15,7 @@ def find_unit(type_: Type, name: Word, report: Diagnostics) -> Unit | None:
     unit = UNITS.get(name)
     if unit is None:
         meant = meant_unit(name)
-        help_ = f"write `{meant}`" if meant else did_you_mean(name, UNITS)
+        help_ = write(meant) if meant else did_you_mean(name, UNITS)
         if help_ is None:
             help_ = f"the units are {' '.join(f'`{known}`' for known in UNITS)}"
         report.report("unresolved-name", name.span, kind="unit", name=name, help=help_)

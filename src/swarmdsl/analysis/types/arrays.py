@@ -11,6 +11,7 @@ from swarmdsl.analysis.types.built_ins import BUILT_INS
 from swarmdsl.analysis.types.constant_folding import Folding
 from swarmdsl.analysis.types.fitting import is_number
 from swarmdsl.analysis.types.unit_rules import of_field
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import (
@@ -105,7 +106,11 @@ def type_of_item(use: IndexUse, typing: Inference) -> Type | None:
             use.index.span,
             array=use.base.span.text,
             number=number,
-            help=f"items are counted from 0: the last one is `[{array.size - 1}]`",
+            help=Advice(
+                f"items are counted from 0: the last one is `[{array.size - 1}]`",
+                "propose",
+                f"{array.size - 1}",
+            ),
         )
     return array.element
 
@@ -132,7 +137,10 @@ def type_of_query(query: Query, typing: Inference) -> Type | None:
         if query.key is not None:
             _report(query, "`by`", "only `min` and `max` compare items", typing)
         elif query.condition is None:
-            help_ = f"write `{word}({name} in {query.element.array.span.text} where ...)`"
+            help_ = Advice(
+                f"write `{word}({name} in {query.element.array.span.text} where ...)`",
+                "add condition",
+            )
             _report(query, "items without a condition", help_, typing)
         return kind.result
     compared = key if query.key is not None else element

@@ -29,6 +29,7 @@ from swarmdsl.analysis.types.unit_rules import (
     literal_type,
     of_field,
 )
+from swarmdsl.base.diagnostics.advice import Advice, only, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
@@ -96,7 +97,9 @@ class Typing:
     folding: Folding = field(default_factory=Folding)
     of_swarm: bool = False
     event_help: str = "use it in a guard or effect of a transition on one event"
-    sender_help: str = "declare the event with `swarm event` if other robots send it"
+    sender_help: str = Advice(
+        "declare the event with `swarm event` if other robots send it", "declare swarm events"
+    )
 
     def on_event(self, type_: Type | None, *, known: bool = True, of_swarm: bool) -> Typing:
         """Return a typing with an event of this message type, if all events have the same one."""
@@ -174,7 +177,7 @@ class Typing:
                 use.span,
                 operator="self",
                 operands="its own: name one of its fields",
-                help="write `self.id`",
+                help=write("self.id"),
             )
             return None
         target = use.target
@@ -184,7 +187,7 @@ class Typing:
                 use.span,
                 operator=use.span.text,
                 operands="its own: name one of its values",
-                help=f"write `{use.span.text}.{target.values[0].name}`" if target.values else None,
+                help=write(f"{use.span.text}.{target.values[0].name}") if target.values else None,
             )
             return None
         if isinstance(target, Element):
@@ -236,7 +239,9 @@ class Typing:
             elif expected == DURATION and has_dimension(unit_of(found)):
                 help_ = f"a duration in seconds: `1 s * ({tree.span.text} / 1 s)`"
             elif expected == DURATION and isinstance(tree, Value) and is_number(found):
-                help_ = f"give it a unit: `{tree.span.text} s`"
+                help_ = Advice(
+                    f"give it a unit: `{tree.span.text} s`", "add unit", f"{tree.span.text} s"
+                )
             if range_of(expected) and found == FLOAT:
                 if not isinstance(tree, Value):
                     help_ = self._whole_number(tree)
@@ -244,7 +249,11 @@ class Typing:
                     help_ = "its number in the unit of ROS has a fraction: declare it `float64`"
             enum = self.interfaces.get(expected) if isinstance(expected, Named) else None
             if isinstance(enum, EnumType) and enum.values and is_number(found):
-                help_ = f"name one of its values: `{enum.name}.{enum.values[0].name}`"
+                help_ = Advice(
+                    f"name one of its values: `{enum.name}.{enum.values[0].name}`",
+                    "propose",
+                    f"{enum.name}.{enum.values[0].name}",
+                )
             self.report.report(
                 "type-mismatch",
                 tree.span,
@@ -266,7 +275,11 @@ class Typing:
             left, right = tree.operands
             if all(range_of(self.infer(each)) is not None for each in (left, right)):
                 return f"`/` keeps the fraction: write `div({left.span.text}, {right.span.text})`"
-        return f"write `round({tree.span.text})`, or `int(...)` to cut the fraction off"
+        return Advice(
+            f"write `round({tree.span.text})`, or `int(...)` to cut the fraction off",
+            "propose",
+            f"round({tree.span.text})",
+        )
 
     def _checked_result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """Return the type of an operation; report one that never has a result."""
@@ -397,7 +410,7 @@ class Typing:
                 name.span,
                 known,
                 self.report,
-                hint=lambda: f"it has {listed([*known], 'and')}" if known else None,
+                hint=lambda: only(f"it has {listed([*known], 'and')}", [*known]) if known else None,
             )
             return None
         return enum.type
@@ -408,12 +421,16 @@ def _bool_hint(tree: ExpressionTree, found: Type | None) -> str | None:
     text = tree.span.text
     if isinstance(tree, Value):
         word = "true" if tree.value else "false"
-        return f"write `{word}`" if is_number(found) else None
+        return write(word) if is_number(found) else None
     if "\n" in text:
         return None
     if is_number(found):
-        return f"compare it: `{text} != 0`"
-    return f'compare it: `{text} != ""`' if is_text(found) else None
+        return Advice(f"compare it: `{text} != 0`", "propose", f"{text} != 0")
+    return (
+        Advice(f'compare it: `{text} != ""`', "propose", f'{text} != ""')
+        if is_text(found)
+        else None
+    )
 
 
 def report_unknown_field(
@@ -435,7 +452,7 @@ def report_unknown_field(
     has = f"it has {listed(names, 'and')}" if names else "it has no fields"
     if facts:
         has += f"; the event itself has {listed(list(facts), 'and')}"
-    help_ = did_you_mean(name, [*names, *facts]) or has
+    help_ = did_you_mean(name, [*names, *facts]) or only(has, [*names, *facts])
     report.report("unknown-field", at, owner=owner, name=name, help=help_)
 
 

@@ -9,6 +9,7 @@ import re
 from collections.abc import Sequence
 
 from swarmdsl.analysis.resolve.interfaces import Interfaces
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.syntax.ast import (
     Call,
     EnumType,
@@ -31,10 +32,9 @@ def query_hint(word: str, said: str, array: str | None) -> str:
         return f"name the items of an array: `{word}(o in array where ...)`"
     of_item = re.sub(rf"\b{re.escape(array)}\b", "o", said)
     if of_item == "o":
-        return (
-            f"write `{word}(o in {array})`" if picks else f"write `{word}(o in {array} where ...)`"
-        )
-    return f"write `{word}(o in {array} {'by' if picks else 'where'} {of_item})`"
+        query = f"{word}(o in {array})"
+        return write(query) if picks else f"write `{query[:-1]} where ...)`"
+    return write(f"{word}(o in {array} {'by' if picks else 'where'} {of_item})")
 
 
 def role_hint(arguments: Sequence[ExpressionTree]) -> str:
@@ -46,7 +46,7 @@ def role_hint(arguments: Sequence[ExpressionTree]) -> str:
 def field_of_array_hint(array: Array, name: str, text: str, interfaces: Interfaces) -> str | None:
     """Hint for a length as a field of an array, or a field of its items; `text` is the array."""
     if name in _LENGTHS:
-        return f"write `len({text})`"
+        return write(f"len({text})")
     item = array.element
     fields = interfaces.fields(item) if isinstance(item, Named) else None
     if any(each.name == name for each in fields or ()):
@@ -72,6 +72,6 @@ def enum_value_hint(tree: Call | OperatorUse, enums: Sequence[EnumType | None]) 
     for literal in tree.operands if isinstance(tree, OperatorUse) else ():
         if isinstance(literal, Value):
             if literal.value in names:
-                return f"write `{enum.name}.{literal.value}`"
+                return write(f"{enum.name}.{literal.value}")
             return f"compare it with a value of the enum, such as `{enum.name}.{names[0]}`"
     return None

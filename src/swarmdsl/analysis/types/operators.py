@@ -10,6 +10,7 @@ from swarmdsl.analysis.types.fitting import fits, is_float, is_number, is_text
 from swarmdsl.analysis.types.positions import Position
 from swarmdsl.analysis.types.unit_checks import check_operands
 from swarmdsl.analysis.types.unit_rules import in_seconds, result_unit, taken_unit
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.syntax.ast import Call, EnumType, OperatorUse, RoleUse, Value
@@ -211,7 +212,11 @@ class Application:
             for tree, known in zip(operands, self.types, strict=True)
             if isinstance(tree, Value) and is_number(known)
         ]
-        return f"give it a unit: `{numbers[0]} s`" if numbers else None
+        return (
+            Advice(f"give it a unit: `{numbers[0]} s`", "add unit", f"{numbers[0]} s")
+            if numbers
+            else None
+        )
 
     def _duration_hint(self) -> str | None:
         """Hint for a function of numbers of which an argument is a duration."""

@@ -11,6 +11,7 @@ from swarmdsl.analysis.types.unit_rules import (
     taken_unit,
     units_fit,
 )
+from swarmdsl.base.diagnostics.advice import Advice, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import Call, ExpressionTree, NameUse, OperatorUse, Value
@@ -118,14 +119,16 @@ def _help(tree: ExpressionTree, found: Unit | None, expected: Unit | None) -> st
     if expected is None:
         return _without(tree, found)
     if isinstance(tree, Value) and tree.unit:
-        return f"write a number in `{expected}`"
+        return Advice(f"write a number in `{expected}`", "other unit", str(expected))
     if found is None:
         if expected is PERCENT and isinstance(tree, Value) and isinstance(tree.value, float):
-            return f"write `{float(f'{tree.value * 100:.12g}'):g} %`"
+            return write(f"{float(f'{tree.value * 100:.12g}'):g} %")
         if _is_literal(tree):
-            return f"write `{text} {expected}`"
-        by = f"give it a unit: `{_operand(tree)} * 1 {expected}`"
-        return f"{by}, or declare it `in {expected}`" if isinstance(tree, NameUse) else by
+            return write(f"{text} {expected}")
+        product = f"{_operand(tree)} * 1 {expected}"
+        if isinstance(tree, NameUse):
+            return f"give it a unit: `{product}`, or declare it `in {expected}`"
+        return Advice(f"give it a unit: `{product}`", "add unit", product)
     return _without(tree, found)
 
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+
 from swarmdsl.base.diagnostics.collector import listed
+from swarmdsl.base.source import Span
 
 
 class Advice(str):
@@ -21,6 +25,15 @@ class Advice(str):
         made.act, made.arguments = act, arguments
         return made
 
+    def prefixed(self, text: str) -> Advice:
+        """Return the same change with more text before it."""
+        return Advice(f"{text}{self}", self.act, *self.arguments)
+
+    def expanded(self, match: re.Match[str]) -> Advice:
+        r"""Return the help of a template with the groups of a match, as `\\1`."""
+        texts = (match.expand(each) for each in self.arguments if isinstance(each, str))
+        return Advice(match.expand(self), self.act, *texts)
+
 
 def meant(name: str) -> Advice:
     """Ask for a similar name: "did you mean `name`?"."""
@@ -35,3 +48,28 @@ def write(*texts: str, before: str = "", after: str = "") -> Advice:
 def add_import(*statements: str) -> Advice:
     """Name the imports that declare what is missing: "add `import "file.swarm"`"."""
     return Advice(f"add {listed([*statements])}", "import", *statements)
+
+
+def only(text: str, names: Sequence[str]) -> str:
+    """Return help that lists names; with a single one, it is the name to use."""
+    return Advice(text, "rename", names[0]) if len(names) == 1 else text
+
+
+def sizes(*texts: str) -> Advice:
+    """Name sizes in brackets: "write `[3]` or `[*]`"."""
+    return Advice(f"write {listed([*texts])}", "size", *texts)
+
+
+def write_before(text: str, found: str) -> Advice:
+    """Name a text that is missing before another one: "write `:` before `x`"."""
+    return Advice(f"write `{text}` before `{found}`", "prefix", text)
+
+
+def last_robot(role: str, most: int) -> Advice:
+    """Name the last robot of a role: "the last one is `uav[2]`"."""
+    return Advice(f"the last one is `{role}[{most - 1}]`", "last robot", f"{role}[{most - 1}]")
+
+
+def insert(line: str, *names: Span, to: str) -> Advice:
+    """Name a line to add to the declarations or states with these names."""
+    return Advice(f"add `{line}` to {to}", "insert", line, *names)

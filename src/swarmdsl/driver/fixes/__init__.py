@@ -1,41 +1,39 @@
-"""Fixes of diagnostics: the text that the help proposes, at its place.
+"""Fixes of diagnostics: the changes that their help names.
 
-Help is prose that names code; each rule reads the help of one kind of diagnostic. So the words that
-a person reads and the change that a program makes are the same.
+A diagnostic carries its change as data beside the words (`base/diagnostics/advice.py`), so that
+what a person reads and what a program does are made in one place. Here is a rule for each act.
 """
 
 from __future__ import annotations
 
-import re
-from functools import cache
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Fix
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
-from swarmdsl.driver.fixes import insertions, missing_values, removals, replacements
-from swarmdsl.driver.fixes.new_names import renamed
-from swarmdsl.driver.fixes.problem import Act, Problem, Rule
+from swarmdsl.driver.fixes import insertions, missing_values, new_names, removals, replacements
+from swarmdsl.driver.fixes.problem import Problem, Rules
 from swarmdsl.driver.workspace import Workspace
 
 SLOW = "naming-style"
 """Diagnostic whose fix is tried on the whole model, since a new name may mean something else."""
 
-
-_ACTS: dict[str, Act] = {**insertions.ACTS, **replacements.ACTS}
-
-
-@cache
-def _rules() -> tuple[tuple[re.Pattern[str], Rule], ...]:
-    every = (*insertions.RULES, *missing_values.RULES, *removals.RULES, *replacements.RULES)
-    return tuple((re.compile(pattern, re.DOTALL), rule) for pattern, rule in every)
+RULES: Rules = {
+    **insertions.RULES,
+    **missing_values.RULES,
+    **new_names.RULES,
+    **removals.RULES,
+    **replacements.RULES,
+}
 
 
 def fixes_of(found: Diagnostic, workspace: Workspace, *, unsafe: bool = True) -> tuple[Fix, ...]:
     """Return the fixes of a diagnostic of a workspace, or its safe ones, the best one first."""
-    if found.primary is None or found.help is None:
+    if found.primary is None or not isinstance(found.help, Advice):
         return ()
+    if found.name == SLOW and not unsafe:
+        return ()  # it is never safe
     span = found.primary.span.absolute
     path = span.source.path
     file = workspace.file(path) if isinstance(path, Path) else None
@@ -43,15 +41,8 @@ def fixes_of(found: Diagnostic, workspace: Workspace, *, unsafe: bool = True) ->
         return ()
     # The workspace may have read the file anew since: for a rename that was tried.
     problem = Problem(found, workspace, file, Span(file.source, span.start, span.end))
-    if found.name == SLOW:  # and never safe
-        return renamed(problem) if unsafe else ()
-    if isinstance(found.help, Advice):
-        act = _ACTS[found.help.act]
-        return tuple(each for each in act(problem, *found.help.arguments) if unsafe or each.safe)
-    for pattern, rule in _rules():
-        if (match := pattern.fullmatch(found.help)) is not None:
-            return tuple(each for each in rule(problem, match) if unsafe or each.safe)
-    return ()
+    rule = RULES[found.help.act]
+    return tuple(each for each in rule(problem, *found.help.arguments) if unsafe or each.safe)
 
 
 def add_fixes(report: Diagnostics, workspace: Workspace) -> Diagnostics:

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Iterator
 
 from swarmdsl.base.diagnostics.collector import Fix
-from swarmdsl.driver.fixes.problem import Problem
+from swarmdsl.driver.fixes.problem import Problem, Rules
 from swarmdsl.driver.workspace.renaming import RefusedError, rename
 
-_NAME = re.compile(r"write `(\w+)`")
 
-
-def renamed(problem: Problem) -> tuple[Fix, ...]:
-    """Return the fix that renames an element to the name that the help proposes."""
-    match = _NAME.fullmatch(problem.found.help or "")
-    if match is None:
-        return ()
+def _renamed(problem: Problem, name: str) -> Iterator[Fix]:
+    """Rename an element everywhere; it is tried on the model, which takes a while."""
     try:
-        spans = rename(problem.workspace, problem.file, problem.span.start, match[1])
+        spans = rename(problem.workspace, problem.file, problem.span.start, name)
     except RefusedError:
-        return ()
-    edits = tuple((span.absolute, match[1]) for span in spans)
-    return (Fix(f"Rename to `{match[1]}`", edits),)
+        return
+    yield Fix(f"Rename to `{name}`", tuple((span.absolute, name) for span in spans))
+
+
+RULES: Rules = {"rename everywhere": _renamed}

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator
 from functools import cached_property
+from pathlib import Path
 from typing import TypeVar
 
 from swarmdsl.analysis.resolve.interfaces import Interfaces
@@ -14,13 +14,10 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owner_at, owners
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import EnumType, Node, TypeRef, nodes_of, walk
+from swarmdsl.syntax.ast import EnumType, Node, TypeRef, Word, nodes_of, walk
 from swarmdsl.syntax.types import BOOL, DURATION, FLOATS, INTEGERS, STRING, Named, Primitive
 
 N = TypeVar("N", bound=Node)
-
-CODE = re.compile(r"`([^`]+)`")
-"""Code that a help or message quotes."""
 
 
 @dataclass(eq=False)
@@ -53,14 +50,6 @@ class Problem:
             self.part(self.span.start + at, self.span.start + at + len(text)) if at >= 0 else None
         )
 
-    def shows(self, span: Span) -> bool:
-        """Return True if the diagnostic shows a place besides its own."""
-        source, start, end = span.absolute
-        return any(
-            (label.span.absolute.source.path, *label.span.absolute[1:]) == (source.path, start, end)
-            for label in self.found.related
-        )
-
     def around(self, *kinds: type[N]) -> N | None:
         """Return the innermost node of these kinds around the place."""
         owner = owner_at(self.file, self.span.start)
@@ -74,6 +63,18 @@ class Problem:
             ):
                 best = node
         return best
+
+    def declared(self, name: Span) -> Node | None:
+        """Return the node with a name at a place of the model."""
+        place = name.absolute
+        path = place.source.path
+        file = self.workspace.file(path) if isinstance(path, Path) else None
+        owner = owner_at(file, place.start) if file is not None else None
+        for node in walk(owner) if owner is not None else ():
+            word = getattr(node, "name", None)
+            if isinstance(word, Word) and word.span.absolute == place:
+                return node
+        return None
 
     def named(self, name: str, *kinds: type[N]) -> N | None:
         """Return the first node of these kinds with a name: first in the file, then in others."""
@@ -121,13 +122,13 @@ class Problem:
 Act = Callable[..., Iterator[Fix]]
 """Makes the fixes of a problem from the arguments of its advice."""
 
-Rule = Callable[[Problem, "re.Match[str]"], Iterator[Fix]]
-"""Makes the fixes of a problem from its help, which a pattern matches."""
+Rules = dict[str, Act]
+"""Acts by the names that advice gives them."""
 
 
-def proposed(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
-    """Yield the first text of the help, which is one of several possible ones."""
-    yield replacing(problem.span, match[1])
+def proposed(problem: Problem, text: str) -> Iterator[Fix]:
+    """Yield one of several texts that can stand at the place."""
+    yield replacing(problem.span, text)
 
 
 def replacing(span: Span, text: str, *, safe: bool = False, title: str = "") -> Fix:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from swarmdsl.base.diagnostics.collector import Fix
 from swarmdsl.base.source import Span
 from swarmdsl.driver.fixes.bodies import remove
-from swarmdsl.driver.fixes.problem import Problem, Rule, replacing
+from swarmdsl.driver.fixes.problem import Act, Problem, Rules, replacing
 from swarmdsl.driver.workspace.references import owner_at
 from swarmdsl.syntax.ast import (
     Branch,
@@ -26,10 +26,10 @@ _COMMA_BEFORE = re.compile(r",\s*\Z")
 _COMMA_AFTER = re.compile(r"\s*,\s*")
 
 
-def _around(*kinds: type[Node], what: str) -> Rule:
+def _around(*kinds: type[Node], what: str) -> Act:
     """Return the rule that removes the innermost statement of some kinds."""
 
-    def rule(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+    def rule(problem: Problem) -> Iterator[Fix]:
         node = problem.around(*kinds)
         if node is not None:
             yield remove(node.span, what)
@@ -37,7 +37,7 @@ def _around(*kinds: type[Node], what: str) -> Rule:
     return rule
 
 
-def _unused(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _unused(problem: Problem) -> Iterator[Fix]:
     """Remove a declaration that nothing uses, top-level or in one."""
     owner = owner_at(problem.file, problem.span.start)
     for node in walk(owner) if owner is not None else ():
@@ -47,13 +47,13 @@ def _unused(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
             return
 
 
-def _import(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _import(problem: Problem) -> Iterator[Fix]:
     start = problem.text.rfind("import", 0, problem.span.start)
     if start >= 0 and "\n" not in problem.text[start : problem.span.start]:
         yield remove(problem.part(start, problem.span.end), "this import")
 
 
-def _guard(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _guard(problem: Problem) -> Iterator[Fix]:
     """Remove a guard with its brackets."""
     edit = _brackets(problem)
     if edit is not None:
@@ -71,7 +71,7 @@ def _brackets(problem: Problem) -> Span | None:
     return problem.part(opening - gap, after.end())
 
 
-def _otherwise(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _otherwise(problem: Problem) -> Iterator[Fix]:
     """`[guard]` of the last branch becomes `else`."""
     edit = _brackets(problem)
     if edit is not None:
@@ -79,7 +79,7 @@ def _otherwise(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
         yield Fix("Write `else` in its place", ((edit, f"{gap}else"),))
 
 
-def _trigger(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _trigger(problem: Problem) -> Iterator[Fix]:
     """Remove a redundant trigger, or the transition if it has no other."""
     edit = _with_comma(problem, problem.span)
     node = problem.around(Transition)
@@ -89,7 +89,7 @@ def _trigger(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
         yield remove(node.span, "the transition")
 
 
-def _setting(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _setting(problem: Problem) -> Iterator[Fix]:
     """One of two settings of an event that exclude each other."""
     for label in (problem.found.primary, *problem.found.related):
         if label is not None:
@@ -106,14 +106,14 @@ def _with_comma(problem: Problem, span: Span) -> Span:
     return problem.part(start, after.end()) if after is not None else span
 
 
-def _no_settings(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _no_settings(problem: Problem) -> Iterator[Fix]:
     event = problem.around(Event)
     if event is not None:
         start = event.span.absolute.start
         yield replacing(problem.part(start, start), "swarm ", title="Declare it as `swarm event`")
 
 
-def _document(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _document(problem: Problem) -> Iterator[Fix]:
     """Move a documentation comment from behind its subject to the line above."""
     text, (_, start, end) = problem.text, problem.span
     line = text.rfind("\n", 0, start) + 1
@@ -125,18 +125,18 @@ def _document(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
         yield Fix("Move the comment to the line before", edits, safe=True)
 
 
-def _at_once(problem: Problem, match: re.Match[str]) -> Iterator[Fix]:
+def _at_once(problem: Problem, text: str) -> Iterator[Fix]:
     """Write a transition without its guard."""
     node = problem.around(Transition)
     if node is not None:
-        yield replacing(node.span.absolute, match[1])
+        yield replacing(node.span.absolute, text)
 
 
-def _brace(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _brace(problem: Problem) -> Iterator[Fix]:
     yield remove(problem.span, f"`{problem.span.text}`")
 
 
-def _to_the_top(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
+def _to_the_top(problem: Problem) -> Iterator[Fix]:
     """Move an import to the top of its file."""
     first = next(iter(problem.file.model.declarations), None)
     end = problem.text.find("\n", problem.span.start)
@@ -151,37 +151,20 @@ def _to_the_top(problem: Problem, _match: re.Match[str]) -> Iterator[Fix]:
     yield Fix("Move it to the top of the file", ((problem.part(at, at), f"{line}\n"), *moved.edits))
 
 
-RULES: tuple[tuple[str, Rule], ...] = (
-    (r"remove it, or use it", _unused),
-    (r"give it another name, or delete it if .*", _unused),
-    (r"remove this import", _import),
-    (r"remove the transition", _around(Transition, Branch, what="the transition")),
-    (
-        r"change the comparisons, or remove the transition",
-        _around(Transition, Branch, what="the transition"),
-    ),
-    (
-        r"remove it: only the call of an action can be preempted",
-        _around(Transition, what="the transition"),
-    ),
-    (
-        r"give the first one a guard, or remove one of the two",
-        _around(Transition, what="the transition"),
-    ),
-    (r"(?:change the comparisons, or )?remove the guard", _guard),
-    (r"change the comparisons, or write `([^`]+)`: it is taken at once", _at_once),
-    (r"move it to the line before: it documents what follows it", _document),
-    (r"write `else` in its place, and nothing after it", _otherwise),
-    (r"remove one of the two", _trigger),
-    (r"name another port, or remove the connector", _around(Connector, what="the connector")),
-    (r"add the states, or remove this line", _around(Initial, what="this line")),
-    (r"remove it, or give the transition a guard", _around(Defer, what="`defer`")),
-    (r"leave one of them out: .*", _setting),
-    (
-        r"declare it as `swarm (?:operator )?event \w+`(?:, or leave the settings out)?",
-        _no_settings,
-    ),
-    (r"delete it, or open it before", _brace),
-    (r"move it to the top of the file", _to_the_top),
-)
-"""The first pattern that matches the whole help of a diagnostic makes its fixes."""
+RULES: Rules = {
+    "leave out one": _setting,
+    "move comment": _document,
+    "move to top": _to_the_top,
+    "remove bracket": _brace,
+    "remove connector": _around(Connector, what="the connector"),
+    "remove declaration": _unused,
+    "remove defer": _around(Defer, what="`defer`"),
+    "remove guard": _guard,
+    "remove import": _import,
+    "remove initial": _around(Initial, what="this line"),
+    "remove transition": _around(Transition, Branch, what="the transition"),
+    "remove trigger": _trigger,
+    "replace transition": _at_once,
+    "swarm event": _no_settings,
+    "write else": _otherwise,
+}

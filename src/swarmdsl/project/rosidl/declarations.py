@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.diagnostics.advice import sizes, write
 from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
@@ -94,7 +95,7 @@ def _type(span: Span, package: str) -> tuple[TypeRef, int | None]:
         )
     if array and not re.fullmatch(_ARRAY, array, re.ASCII):
         raise InterfaceError(
-            span, f"`{array}` is no size of an array", "write `[]`, `[16]` or `[<=16]`"
+            span, f"`{array}` is no size of an array", sizes("[]", "[16]", "[<=16]")
         )
     if bound is not None and (name not in TEXTS or not integer(bound)):
         raise InterfaceError(
@@ -115,7 +116,7 @@ def _name(span: Span, type_: Span) -> Word:
         return name
     hint = "a name has letters, digits and `_`, and starts with a letter"
     if found := re.fullmatch(r"(\w+)(\[.*\])", name):
-        hint = f"write `{type_.text}{found[2]} {found[1]}`"
+        hint = write(f"{type_.text}{found[2]} {found[1]}")
     elif name.endswith((",", ";")):
         hint = f"a line has one field and nothing after it: `{type_.text} {name[:-1]}`"
     raise InterfaceError(span, f"`{name}` cannot be a name", hint)
@@ -162,7 +163,7 @@ def _split(rest: Span) -> tuple[Span, str]:
 
 def _no_type(text: str) -> tuple[str, str]:
     if found := re.fullmatch(r"(\w+)/(?:msg|srv|action)/(\w+.*)", text):
-        return f"`{text}` is no type", f"write `{found[1]}/{found[2]}`"
+        return f"`{text}` is no type", write(f"{found[1]}/{found[2]}")
     if re.fullmatch(r"\w+=.*", text):
         return f"`{text}` has no type", "a constant is a type, a name, `=` and a value"
     return (

@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.find_files import TooManyFilesError, walk
 from swarmdsl.base.read_files import MOST_DATA, exists, is_folder, read_file
@@ -91,7 +92,9 @@ def find_interfaces(
             path=folder,
             actual="a file",
             expected="a folder",
-            help="write `import` without `ros`" if folder.suffix == SUFFIX else _WANTED,
+            help=Advice("write `import` without `ros`", "write import", "import")
+            if folder.suffix == SUFFIX
+            else _WANTED,
         )
         return []
     finder = _Finder(folder, at, report, look)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.base.numerals import integer
 from swarmdsl.base.source import Span
 from swarmdsl.project.rosidl.fault import InterfaceError
@@ -76,8 +77,9 @@ def read_value(span: Span, type_: str, bound: int | None = None) -> Value:
         if bound is not None and len(value) > bound:
             raise InterfaceError(span, f"the string is longer than {bound} characters")
         return Value(span, value)
+    help_: str
     if type_ == "bool":
-        value, help_ = _BOOLEANS.get(text.lower()), "write `true` or `false`"
+        value, help_ = _BOOLEANS.get(text.lower()), write("true", "false")
     elif type_ in _RANGES:
         value, help_ = _integer(text, type_)
     else:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.syntax.units import UNITS
 
 
@@ -70,7 +71,7 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
         rest = text[found.end() : at]
         if what == "effect" or "->" not in rest or "\n" not in rest:
             message = f"the {what} of a transition comes before its target"
-            return _delayed(found, message, f"write {_in_order(found, text)}")
+            return _delayed(found, message, write(_in_order(found, text)))
     for mixed in _MIXED:
         for found in mixed.finditer(text, near, end):
             if found.start() <= at <= found.end("token"):
@@ -84,7 +85,7 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
             return _delayed(found, "expected a name after `contract`", help_)
     if (found := _TWO_WORDS.match(text, line)) and found.end("token") > before:
         message = f"expected the end of the line, found `{found['token']}`"
-        unit = f"write `{found['first']} in {found['token']}`" if found["token"] in UNITS else None
+        unit = write(f"{found['first']} in {found['token']}") if found["token"] in UNITS else None
         return _delayed(found, message, unit or "the name of a type is one word, such as `uint32`")
     above = text.rfind("\n", 0, len(text[:line].rstrip())) + 1
     for found in _OPEN_END.finditer(text, above, at + 2):
@@ -104,5 +105,5 @@ def _in_order(found: re.Match[str], text: str) -> str:
     head = found["head"]
     effects = re.search(r"\s/(?!/)", head) is not None
     if tail is None or effects or ("[" in head and tail["guard"]):
-        return "`on event [guard] / effect -> Target`"
-    return f"`{head} {tail[0].rstrip()} {found['target']}`"
+        return "on event [guard] / effect -> Target"
+    return f"{head} {tail[0].rstrip()} {found['target']}"

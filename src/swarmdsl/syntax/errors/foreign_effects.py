@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.syntax.errors.patterns import DELAY
 
 _ADDRESS = r"[A-Za-z_][\w.]*(?:\[[^]\n]*\])?"
@@ -12,13 +13,13 @@ _DATA = r"[\w.]+|\"[^\"]*\""
 # As in foreign_statements.
 EFFECTS = (
     # sends
-    (r"\bsend *@\( *(\w+) *, *([^()]*?) *\)", "", r"write `send \1(\2)`"),
-    (r"\bsend *@\( *(\w+) *\)", "", r"write `send \1`"),
-    (r"[/,] *(\w+)\.send\(@\)", "", r"write `send \1`"),
-    (r"[/,] *(\w+)\.send(\([^()]*\)) *@", "", r"write `send \1\2`"),
-    (rf"\bsend +to +@({_ADDRESS}) +({_SENT})", "", r"write `send \2 to \1`"),
-    (rf"\b(send +{_SENT}(?: +to +{_ADDRESS})?) +@in +({DELAY})\b", "", r"write `\1 after \2`"),
-    (r"\bto +(\w+)\.@(\d+)", "", r"write `\1[\2]`"),
+    (r"\bsend *@\( *(\w+) *, *([^()]*?) *\)", "", write(r"send \1(\2)")),
+    (r"\bsend *@\( *(\w+) *\)", "", write(r"send \1")),
+    (r"[/,] *(\w+)\.send\(@\)", "", write(r"send \1")),
+    (r"[/,] *(\w+)\.send(\([^()]*\)) *@", "", write(r"send \1\2")),
+    (rf"\bsend +to +@({_ADDRESS}) +({_SENT})", "", write(r"send \2 to \1")),
+    (rf"\b(send +{_SENT}(?: +to +{_ADDRESS})?) +@in +({DELAY})\b", "", write(r"\1 after \2")),
+    (r"\bto +(\w+)\.@(\d+)", "", write(r"\1[\2]")),
     (r"\bto +(\w+) +\[(\w+)\] *@", "", r"write `\1[\2]` without a space"),
     (
         rf"\bsend +({_SENT}) +to +({_ADDRESS}) *, *({_ADDRESS}) *@ *(?:$|->|,)",
@@ -29,24 +30,24 @@ EFFECTS = (
     (
         r"\bappend +(event\b[\w.]*|\d[\d.]*|\"[^\"]*\") *@(?:,|into\b|in\b)? *([\w.]+)",
         "`to`",
-        r"write `append \1 to \2`",
+        write(r"append \1 to \2"),
     ),
     (
         r"\bappend +([\w.]+) *@,? *(event\b[\w.]*|\d[\d.]*|\"[^\"]*\")",
         "`to`",
-        r"write `append \2 to \1`",
+        write(r"append \2 to \1"),
     ),
-    (r"\bappend +[\w.]+ *@,? *\w", "`to`", "write `append value to array`"),
+    (r"\bappend +[\w.]+ *@,? *\w", "`to`", write("append value to array")),
     (
         r"([\w.]+)\.(?:append|push|push_back|add)\(([^()@]*)@([^()]*)\)",
         "",
-        r"write `append \2\3 to \1`",
+        write(r"append \2\3 to \1"),
     ),
-    (r"\bappend\([^()]*\) *@", "", "write `append value to array`"),
-    (r"([\w.]+)\.clear\(@\)", "", r"write `clear \1`"),
-    (r"([\w.]+)\.(?:remove|erase|pop)\(@(\w+)\)", "", r"write `remove \1[\2]`"),
+    (r"\bappend\([^()]*\) *@", "", write("append value to array")),
+    (r"([\w.]+)\.clear\(@\)", "", write(r"clear \1")),
+    (r"([\w.]+)\.(?:remove|erase|pop)\(@(\w+)\)", "", write(r"remove \1[\2]")),
     (r"\bvar\b[^:]*: *(.*?) *= *@\[ *\]", "", r"an array is empty at first: write `\1`"),
-    (r"([\w.]+) *= *@\[ *\]", "", r"write `clear \1`"),
+    (r"([\w.]+) *= *@\[ *\]", "", write(r"clear \1")),
     # what is no effect
     (
         rf"[/,] *(?:wait|delay|sleep|pause)(?: +@({DELAY})\b|\(({DELAY})\) *@)",
@@ -83,6 +84,6 @@ EFFECTS = (
     (
         rf"\bon +([\w.]+)@\( *(\w+) *=+ *({_DATA}) *\)",
         "`[`",
-        r"write `on \1 [event.\2 == \3]`",
+        write(r"on \1 [event.\2 == \3]"),
     ),
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from functools import cache
 
+from swarmdsl.base.diagnostics.advice import Advice, sizes, write
 from swarmdsl.syntax.errors.foreign_transitions import TRANSITIONS
 from swarmdsl.syntax.errors.patterns import DELIVERY, START, UNIT
 
@@ -13,14 +14,14 @@ _WIDTH = 200
 _SERVER = 'write the name of the server first: `"cmd/name" : package/Type`'
 _FIELD = r"name the field of each value: `name = \1`"
 _POWER = "there is no power operator: write `x * x`"
-_MULTIPLICITY = "write `[3]`, `[1..5]`, `[2..*]` or `[*]`"
+_MULTIPLICITY = write("[3]", "[1..5]", "[2..*]", "[*]")
 
 # A line with a mark (@) where the parser stops, a terminal that must be expected there (any, if
 # empty), and the hint. The first that fits counts.
 _HINTS = (
     *TRANSITIONS,
     # activities
-    (r"\bdo *@/ *([\w.]+)", "", r"write `do \1`"),
+    (r"\bdo *@/ *([\w.]+)", "", write(r"do \1")),
     (
         r"\b(do|send) ([\w.]+) +@(?:with +)?(\w+) *=",
         "",
@@ -43,20 +44,20 @@ _HINTS = (
     ),
     # expressions
     (r"\b(?:any|all|count)\(\w+ in [^()]*?@,", "`where`", "write `where` before the condition"),
-    (r"\b(any|all|count|min|max)\((\w+) *@: *(\w+)", "`in`", r"write `\1(\2 in \3 ...)`"),
-    (r"([\w.]+)\.contains\(([^()@]*)@([^()]*)\)", "", r"write `contains(\1, \2\3)`"),
-    (r"([\w.]+)\.(?:len|length|size|count)\(@\)", "", r"write `len(\1)`"),
-    (r"([\w.]+)\.(?:is_?empty|isEmpty|empty)\(@\)", "", r"write `len(\1) == 0`"),
+    (r"\b(any|all|count|min|max)\((\w+) *@: *(\w+)", "`in`", write(r"\1(\2 in \3 ...)")),
+    (r"([\w.]+)\.contains\(([^()@]*)@([^()]*)\)", "", write(r"contains(\1, \2\3)")),
+    (r"([\w.]+)\.(?:len|length|size|count)\(@\)", "", write(r"len(\1)")),
+    (r"([\w.]+)\.(?:is_?empty|isEmpty|empty)\(@\)", "", write(r"len(\1) == 0")),
     (
         r"\[(?:[^]]*[^\w.])?(self|event)\.id @in +([A-Za-z_]\w*) *(?:\]|and\b|or\b)",
         "",
         r'for a role, write `\1.role == "\2"`; for an array, `contains(\2, \1.id)`',
     ),
-    (r"\bto +role +@(\w+)", "", r"write `to \1`"),
+    (r"\bto +role +@(\w+)", "", write(r"to \1")),
     (
         r"\[(?:[^]]*[^\w.])?([\w.]+) @in +([A-Za-z_][\w.]*) *(?:\]|and\b|or\b)",
         "",
-        r"write `contains(\2, \1)`",
+        write(r"contains(\2, \1)"),
     ),
     (r"\[[^]]*\b([\w.]+) +@\[ *([^]]*?) *\]", "`]`", r"write `\1[\2]` without a space"),
     (r"\[[^]]*\b([\w.]+) @in\b", "", r"compare with both bounds: `\1 >= 1 and \1 <= 3`"),
@@ -67,10 +68,10 @@ _HINTS = (
         r"assign the item to a variable first, such as `item`, and write `item.\1`",
     ),
     # states
-    (r"\bhistory@ *$", "", "write `history Name`"),
-    (r"@shallow +history +(\w+)", "", r"write `history \1`"),
+    (r"\bhistory@ *$", "", write("history Name")),
+    (r"@shallow +history +(\w+)", "", write(r"history \1")),
     (r"\bdefer +@\*", "", "name the events: `defer Start, Stop`"),
-    (r"^ *@\[\*\] *-+> *(\w+)", "", r"write `initial \1`"),
+    (r"^ *@\[\*\] *-+> *(\w+)", "", write(r"initial \1")),
     (
         r"^ *@(\w+) *-+> *\[\*\]",
         "",
@@ -81,17 +82,17 @@ _HINTS = (
         "",
         "declare each state: `state Name { ... }`",
     ),
-    (r"^ *@state +machine\b", "", "write `statemachine`"),
-    (r"\binitial +enter +@(\w+)", "", r"write `initial \1`"),
-    (r"\binitial *@[:=] *[\"']?(\w+)", "", r"write `initial \1`"),
+    (r"^ *@state +machine\b", "", write("statemachine")),
+    (r"\binitial +enter +@(\w+)", "", write(r"initial \1")),
+    (r"\binitial *@[:=] *[\"']?(\w+)", "", write(r"initial \1")),
     (
         r"^ *@(?!(?:on|do|entry|exit|after)\b)([A-Za-z]\w*) *: *(?:$|\{)",
         "`state`",
-        r"write `state \1 { ... }`",
+        write(r"state \1 { ... }"),
     ),
-    (r"\bfinal @state +(\w+)", "", r"write `final \1`"),
+    (r"\bfinal @state +(\w+)", "", write(r"final \1")),
     (r"\binitial @state +(\w+)", "", r"write `initial \1`, and declare the state next to it"),
-    (r"\bparallel @(?!state\b)(\w+)", "`state`", r"write `parallel state \1`"),
+    (r"\bparallel @(?!state\b)(\w+)", "`state`", write(r"parallel state \1")),
     (
         r"^ *@(?:deep +)?history +(\w+)",
         "`region`",
@@ -107,7 +108,7 @@ _HINTS = (
     ),
     (r"^ *@region\b", "", "a region belongs to a `parallel state`"),
     (r"^ *@submachine +(\w+)", "", r"reuse a state machine with `state \1 = Machine`"),
-    (r"= *new +@([A-Z]\w*)", "", r"write `= \1`"),
+    (r"= *new +@([A-Z]\w*)", "", write(r"= \1")),
     (
         r"^ *@(?:on|do|entry|exit|after)\b",
         "`{`",
@@ -141,9 +142,9 @@ _HINTS = (
     ),
     (r"\} *@default +\w+", "", "give the variable an initial value: `var x : Mode = Mode.IDLE`"),
     (r"^ *@(?:swarm|member) *:|^ *(?:swarm|member) *@:", "", "enclose a block in `{` and `}`"),
-    (r"\b(keep|lifespan|deadline) *@[=:] *(\w[\w. ]*\w|\w)", "", r"write `\1 \2`"),
+    (r"\b(keep|lifespan|deadline) *@[=:] *(\w[\w. ]*\w|\w)", "", write(r"\1 \2")),
     # types
-    (rf": *(\w+(?:\[[^]]*\])?) *@[\[(] *({UNIT}) *[\])]", "`in`", r"write `\1 in \2`"),
+    (rf": *(\w+(?:\[[^]]*\])?) *@[\[(] *({UNIT}) *[\])]", "`in`", write(r"\1 in \2")),
     (
         r"^ *(\w+) *@\[(\w*)\] *: *([\w./]+)",
         "`:`",
@@ -152,7 +153,7 @@ _HINTS = (
     (
         r": *(?:std::)?(?:list|vector|Vec|sequence|array|Array|List)@<([\w./]+)>",
         "",
-        r"write `\1[]`",
+        write(r"\1[]"),
     ),
     (
         r": *(?:std::)?(?:map|dict|Map|Dict|HashMap|unordered_map|Record)@[<\[]",
@@ -215,7 +216,7 @@ _HINTS = (
         r'write the topic: `\1 "\2" : package/Type`',
     ),
     (r"\bevent +(\w+) *@[{(]", "", r"add the type of its message: `event \1 : package/Name`"),
-    (r"\bevent +@swarm\b", "", "write `swarm event`"),
+    (r"\bevent +@swarm\b", "", write("swarm event")),
     (
         rf"\bevent +\w+ *: *[\w./]+ *@(?:\[ *)?({DELIVERY})",
         "`{`",
@@ -228,17 +229,17 @@ _HINTS = (
     ),
     # members
     (r"\bextends +[\w.]+ *@,", "", "extend one only"),
-    (r"\b(behavior|environment|fitness) *@[:=] *(\w+)", "", r"write `\1 \2`"),
-    (r"^ *([a-z]\w*) *@= *([A-Z]\w*) *$", "`:`", r"write `\1 : \2`"),
+    (r"\b(behavior|environment|fitness) *@[:=] *(\w+)", "", write(r"\1 \2")),
+    (r"^ *([a-z]\w*) *@= *([A-Z]\w*) *$", "`:`", write(r"\1 : \2")),
     (
         r"^ *([A-Z]\w*) +@([a-z_]\w*) *(?:$|[{[])",
         "`:`",
-        r"write the name first: `\2 : \1`",
+        Advice(r"write the name first: `\2 : \1`", "name first", r"\2 : \1"),
     ),
     (r": *[A-Z][\w.]*@\[", "`{`", "a part is one component: declare several parts"),
-    (r": *[A-Z][\w.]*@\( *(\d[\d.*]*) *\)", "`[`", r"write `[\1]`"),
+    (r": *[A-Z][\w.]*@\( *(\d[\d.*]*) *\)", "`[`", sizes(r"[\1]")),
     (r": *[A-Z][\w.]*@\(", "`{`", "write values of params in braces: `{ name = value }`"),
-    (r"\bconnect +[\w.]+ +@(?:to|with|and)\b", "", "write `->`"),
+    (r"\bconnect +[\w.]+ +@(?:to|with|and)\b", "", write("->")),
     (
         r"\bconnect +([\w.]+) *@<-+ *([\w.]+)",
         "",
@@ -253,12 +254,12 @@ _HINTS = (
     (
         r"^ *@(?:publish\w*|pub|advertise\w*|(?:a?sync +)?output(?: +port)?) +(\w+)",
         "`out`",
-        r"write `out \1`",
+        write(r"out \1"),
     ),
     (
         r"^ *@(?:subscri\w*|sub|(?:(?:a?sync|guarded) +)?input(?: +port)?) +(\w+)",
         "`in`",
-        r"write `in \1`",
+        write(r"in \1"),
     ),
     (r"^ *\w+@\.\w+ *->", "", "begin a connector with `connect`"),
     # swarms
@@ -278,19 +279,19 @@ _HINTS = (
     (
         r"\bheartbeat +every +@(\d[\d.]* *\w+) *,? *(lost +after +\d[\d.]* *\w+)",
         "",
-        r"write `heartbeat \1 \2`",
+        write(r"heartbeat \1 \2"),
     ),
     (
         r"\bheartbeat +(\d[\d.]* *\w+) *@, *(lost +after +\d[\d.]* *\w+)",
         "",
-        r"write `heartbeat \1 \2`",
+        write(r"heartbeat \1 \2"),
     ),
     (
         r"\bheartbeat +(?:every +@)?(?:\d[\d.]*) *\w+ *@? *(?:$|\})",
         "",
         "add how long a robot is silent when it is lost: `heartbeat 1 s lost after 5 s`",
     ),
-    (r"\blost +@(\d[\d.]* *\w+)", "`after`", r"write `lost after \1`"),
+    (r"\blost +@(\d[\d.]* *\w+)", "`after`", write(r"lost after \1")),
     # fitness
     (
         r"\bin +\w+ *: *[\w./]+ *= *[^=]*\) *@[-+*/%]",
@@ -314,10 +315,10 @@ _HINTS = (
     (r"\bsize +[\d.]+ *([a-z]+) *@ *(?:$|\})", "", r"write width and depth: `10 \1 x 10 \1`"),
     # optimization
     (r"^ *@param +(\w+\.\w+)", "", r"write `\1` without `param`"),
-    (r"\bin @\[([^],]*), *([^],]*)\]", "", r"write `\1 .. \2`"),
-    (r"\bin +\S.*@to\b", "`..`", "write `..`"),
-    (r"@from\b", "`in`", "write `in`"),
-    (r"\b(steps|evaluations|seed) @= *(\w+)", "", r"write `\1 \2`"),
+    (r"\bin @\[([^],]*), *([^],]*)\]", "", write(r"\1 .. \2")),
+    (r"\bin +\S.*@to\b", "`..`", write("..")),
+    (r"@from\b", "`in`", write("in")),
+    (r"\b(steps|evaluations|seed) @= *(\w+)", "", write(r"\1 \2")),
 )
 
 
@@ -333,5 +334,5 @@ def foreign_statement_hint(expected: set[str], text: str, at: int) -> str | None
     line = f"{text[start:at]}\0{text[at : end if end >= 0 else at + _WIDTH]}".replace("\t", " ")
     for pattern, needed, hint in _compiled():
         if (not needed or needed in expected) and (found := pattern.search(line)):
-            return found.expand(hint)
+            return hint.expanded(found) if isinstance(hint, Advice) else found.expand(hint)
     return None

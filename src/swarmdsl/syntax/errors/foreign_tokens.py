@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.syntax.parser.doc_comments import is_first_on_line
 
 _WORDS = {
@@ -14,7 +15,7 @@ _WORDS = {
     "transition": "write a transition in its source state: `on event [guard] / effect -> Target`",
     "from": 'write `import "file.swarm"` or `import package.*`',
     "include": 'write `import "file.swarm"`',
-    "using": "write `import package.*`",
+    "using": write("import package.*"),
     "class": "declare a robot as `member`, and its components as `sensor`, `actuator`, ...",
     "robot": "declare a kind of robot as `member`",
     "node": "declare a component as `sensor`, `actuator`, `controller` or `virtual`",
@@ -43,9 +44,9 @@ _ANYWHERE = ("if", "goto", "then", "?", "$")
 _SYMBOLS = {
     ";": "`;` stands only between two statements",
     ",": "no `,` is needed here: `;` or a line break separates statements",
-    "&": "write `and`",
-    "|": "write `or`",
-    "!": "write `not`",
+    "&": write("and"),
+    "|": write("or"),
+    "!": write("not"),
     "'": "write a string in double quotes",
     "#": "begin a comment with `//`",
 }
@@ -64,7 +65,7 @@ def foreign_token_hint(expected: set[str], text: str, at: int) -> str | None:
     if before.endswith(","):
         return "delete the `,` before it"
     if number := re.compile(r"\d+(?:_\d+)+\b").match(text, at):
-        return f"write `{number[0].replace('_', '')}`"
+        return write(number[0].replace("_", ""))
     if re.compile(r"0[xXbB]").match(text, at):
         return "write the number in decimal"
     if begins and "`state`" in expected and re.compile(r"[A-Za-z_]\w*\s*\{").match(text, at):

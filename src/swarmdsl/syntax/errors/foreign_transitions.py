@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swarmdsl.base.diagnostics.advice import write
 from swarmdsl.syntax.errors.foreign_effects import EFFECTS
 from swarmdsl.syntax.errors.patterns import DELAY, START
 
@@ -15,8 +16,8 @@ _BEFORE_EFFECTS = r"(?:\b(?:entry|exit) *|\b(?:on|after) [^/]*)"
 # As in foreign_statements.
 TRANSITIONS = (
     *EFFECTS,
-    (r"(?:^|[{;]) *@-> *([\w.]+)", "`else`", r"write `else -> \1`"),
-    (r"\[ *@else *\] *-> *([\w.]+)", "", r"write `else -> \1`"),
+    (r"(?:^|[{;]) *@-> *([\w.]+)", "`else`", write(r"else -> \1")),
+    (r"\[ *@else *\] *-> *([\w.]+)", "", write(r"else -> \1")),
     (r"\[ *@else *\]", "", "write `else` without brackets"),
     (
         rf"{START}@else\b",
@@ -51,17 +52,17 @@ TRANSITIONS = (
         "",
         r"write the address before the delay: `\1 to \3 \2`",
     ),
-    (r"\bin @([\w.]+)", "`(`", r"write `in(\1)`"),
+    (r"\bin @([\w.]+)", "`(`", write(r"in(\1)")),
     (r"\bon +@after\b", "", "write `after` without `on`"),
-    (r"\b(entry|exit) *@:", "", r"write `\1 / ...`"),
+    (r"\b(entry|exit) *@:", "", write(r"\1 / ...")),
     (r"\b(entry|exit) *@\{ *\}", "", r"delete `\1 { }`: it does nothing"),
     (r"\b(?:entry|exit) *@\{ *do\b", "", _ACTIVITY),
-    (r"\b(entry|exit) *@\{ *([^{}\n]*[^{}\n ]) *\}", "", r"write `\1 / \2`"),
+    (r"\b(entry|exit) *@\{ *([^{}\n]*[^{}\n ]) *\}", "", write(r"\1 / \2")),
     (r"\b(entry|exit) *@\{", "", r"write effects without braces: `\1 / x = 1, send Event`"),
     (
         r"\b(entry|exit) +@(send +[^{};\n]*[^{};\n ]|[\w.]+ *=[^{};\n]*[^{};\n ])",
         "",
-        r"write `\1 / \2`",
+        write(r"\1 / \2"),
     ),
     (
         r"\b(?:entry|exit) *@(?: *do\b)",
@@ -90,7 +91,7 @@ TRANSITIONS = (
         "the end is a state: declare `final Done`, and write `-> Done`",
     ),
     (r"\bon +[\w., ]*@: *-+>", "", "delete the `:`"),
-    (r"\bon [\w., ]+@enter +(\w+)", "", r"write `-> \1`"),
+    (r"\bon [\w., ]+@enter +(\w+)", "", write(r"-> \1")),
     (
         rf"{_BEFORE_EFFECTS}/ *(?:[^/]*, *)?[\w.]+(?:\([^()]*\))? *@ *(?:$|->|,)",
         "`=`",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from swarmdsl.base.diagnostics.advice import Advice, meant, write
 from swarmdsl.base.diagnostics.collector import listed
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.errors.foreign_tokens import symbol_hint
@@ -12,7 +13,13 @@ from swarmdsl.syntax.types import PRIMITIVES
 from swarmdsl.syntax.units import UNITS
 
 _NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
-SIZES = "write `[]` for any number of elements, `[4]` for exactly 4, `[<=4]` for at most 4"
+SIZES = Advice(
+    "write `[]` for any number of elements, `[4]` for exactly 4, `[<=4]` for at most 4",
+    "size",
+    "[]",
+    "[4]",
+    "[<=4]",
+)
 _ARROWS = {"->", "=>", "-", "=", ">", ":", "\N{RIGHTWARDS ARROW}"}
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # Similarity to a keyword: `Start` is too far from `state`.
@@ -30,7 +37,7 @@ def token_hint(
     joined = before is not None and before.end() == at
     for arrow in ("->", "=>"):
         if f"`{arrow}`" in expected and token in _ARROWS:
-            return f"write `{arrow}`"
+            return write(arrow)
     if "`=`" in expected and text.startswith(_UPDATES, at):
         return "write the new value after `=`: `x = x + 1`"
     if token == "=" and joined and last == "=":
@@ -46,7 +53,9 @@ def token_hint(
     if before and "`:`" in expected and _PARAMETER.search(text, 0, before.end()):
         return "a parameter is `in` or `out`: declare two parameters for both directions"
     if "`:`" in expected and last in PRIMITIVES and _NAME.fullmatch(token):
-        return f"write the name first: `{token} : {last}`"
+        return Advice(
+            f"write the name first: `{token} : {last}`", "name first", f"{token} : {last}"
+        )
     if token == "[" and "`[`" in expected:
         return SIZES
     if token == "/" and joined:
@@ -58,7 +67,7 @@ def token_hint(
     if hint := symbol_hint(token):
         return hint
     keyword = closest(token, _literals(expected), MIN_SIMILARITY) if "`:`" not in expected else None
-    return f"did you mean `{keyword}`?" if keyword and keyword != token else None
+    return meant(keyword) if keyword and keyword != token else None
 
 
 def _literals(expected: set[str]) -> list[str]:

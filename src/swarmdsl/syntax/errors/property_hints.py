@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from decimal import Decimal
 
+from swarmdsl.base.diagnostics.advice import write, write_before
+
 _PROPERTY = re.compile(r"^[ \t]*property\b[^{}\n]*\Z", re.MULTILINE)
 _ALWAYS = "write `at all times` after the fact"
 _EVENTUALLY = "write `eventually` before the fact"
-_LEADS = "write `P leads to Q`"
+_LEADS = write("P leads to Q")
 # The words before the unexpected token.
 _BEFORE = {
     "always": _ALWAYS,
@@ -28,7 +30,7 @@ _BEFORE = {
 _ROBOTS = re.compile(r"\b(?:forall|foreach|for|every|any)\s+(?:all\s+|each\s+|every\s+)?(\w+)\Z")
 # The unexpected token itself.
 _IMPLIES = "write `P leads to Q`, or `not P or Q at all times` for one moment"
-_TIMES = "write `at most N times`"
+_TIMES = write("at most N times")
 _FOUND = {
     "implies": _IMPLIES,
     "=>": _IMPLIES,
@@ -40,10 +42,10 @@ _FOUND = {
     "twice": _TIMES,
     "until": "write `after P until Q,` before the rest of the sentence",
     "not": "write `not` before the whole fact, as in `not all robot in State`",
-    **dict.fromkeys(("receives", "gets", "handles"), "write `hears`"),
-    **dict.fromkeys(("emits", "publishes", "raises"), "write `sends`"),
-    **dict.fromkeys(("calls", "runs", "performs"), "write `starts`"),
-    **dict.fromkeys(("finishes", "completes", "returns"), "write `ends`"),
+    **dict.fromkeys(("receives", "gets", "handles"), write("hears")),
+    **dict.fromkeys(("emits", "publishes", "raises"), write("sends")),
+    **dict.fromkeys(("calls", "runs", "performs"), write("starts")),
+    **dict.fromkeys(("finishes", "completes", "returns"), write("ends")),
 }
 _OUTCOMES = {
     **dict.fromkeys(("succeeds", "achieves", "succeeded"), "succeeded"),
@@ -83,7 +85,7 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
     if robots := _ROBOTS.search(said if found == ":" else f"{said} {found}"):
         more = re.compile(r"\s*(\w+)").match(text, token.end())
         role = more[1] if robots[1] in ("all", "each", "every") and more else robots[1]
-        return f"write `each {role} :`"
+        return write(f"each {role} :")
     if re.search(r"\beventually\s+always\Z", said):
         return "name what it follows: `after P, Q at all times`"
     if last is not None and last[0] in _BEFORE and last.start() > said.index(":"):
@@ -95,23 +97,23 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
     if about_end := _outcome_hint(expected, said, text, at):
         return about_end
     if "`[`" in expected and re.search(r"\bhas\Z", said) and (test := _COMPARED.match(text, at)):
-        return f"write `has [{test[0]}]`"
+        return write(f"has [{test[0]}]")
     if "`:`" in expected and (each := re.search(r"\beach\s+\w+\Z", said)):
-        return f"write `{each[0]} :`" if found == "," else f"write `:` before `{found}`"
+        return write(f"{each[0]} :") if found == "," else write_before(":", found)
     if "`until`" in expected and "`,`" in expected:
         return "end the first part with a comma: `after P, Q leads to R`"
     if soon := _SOON.match(text, at):
-        return f"write `within {soon[1]}`"
+        return write(f"within {soon[1]}")
     if chance := _CHANCE.match(text, at):
-        return f"write `at least {chance[1]}`"
+        return write(f"at least {chance[1]}")
     if found == "%" and (number := re.search(r"[\d.]+\Z", said)):
-        return f"write `{Decimal(number[0]) / 100}`"
+        return write(f"{Decimal(number[0]) / 100}")
     if found == "." and re.search(r"(?:[<>=]|\bmost)\s*\d+\Z", said):
         return "write a whole number"
     if found == "." and (who := _WHO.search(said)):
         return f"write `{who[0]} in State`, or `{who[0]} has [x > 3]` for its variables"
     if found == ")" and re.search(r"\bcount\s*\(\s*\w+\Z", said):
-        return f"write `{said[said.rindex('count') :]} in State)`"
+        return write(f"{said[said.rindex('count') :]} in State)")
     if found == "least" and "`most`" in expected:
         return "write each time, as in `P then not P then P`"
     if found == "all" and "`least`" in expected:
@@ -124,9 +126,9 @@ def property_hint(expected: set[str], text: str, at: int) -> str | None:
 def _message_hint(said: str, found: str, text: str, at: int) -> str | None:
     """Return a hint for a condition after a fact that is written in another way."""
     if (event := _EVENT.search(said)) and (test := _TEST.match(text, at)):
-        return f"write `{event[0]} [event.{test[1]} {_operator(test[2])} {test[3]}]`"
+        return write(f"{event[0]} [event.{test[1]} {_operator(test[2])} {test[3]}]")
     if (event := _FIELD_OF_EVENT.search(said)) and (test := _COMPARED_TO.match(text, at)):
-        return f"write `{event[1]} [event.{event[2]} {_operator(test[1])} {test[2]}]`"
+        return write(f"{event[1]} [event.{event[2]} {_operator(test[1])} {test[2]}]")
     if (found == "," and _IN_CONDITION.search(said)) or (found == "[" and said.endswith("]")):
         return "join conditions with `and`, in one pair of brackets"
     if found == "[" and _NO_EVENT.search(said):
@@ -146,8 +148,8 @@ def _outcome_hint(expected: set[str], said: str, text: str, at: int) -> str | No
     if verb not in _OUTCOMES:
         return None
     if "`as`" in expected:
-        return f"write `as {_OUTCOMES[verb]}`"
-    return f"write `ends {function} as {_OUTCOMES[verb]}`" if function else None
+        return write(f"as {_OUTCOMES[verb]}")
+    return write(f"ends {function} as {_OUTCOMES[verb]}") if function else None
 
 
 def _operator(written: str) -> str:

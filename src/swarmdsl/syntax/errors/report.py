@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
@@ -156,7 +157,7 @@ def report_syntax_error(
             place(found),
             word=found[0],
             help=foreign_statement_hint(words, text, at)
-            or f"choose another name, for example `{found[0]}_`",
+            or Advice(f"choose another name, for example `{found[0]}_`", "propose", f"{found[0]}_"),
         )
     elif before and (found is None or (new_line and not _may_begin_anew(words))):
         # The error is where something is missing, not on the next line.

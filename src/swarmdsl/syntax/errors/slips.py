@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from swarmdsl.base.diagnostics.advice import meant
+from swarmdsl.base.diagnostics.advice import meant, write
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.errors.delayed import DelayedError
 from swarmdsl.syntax.errors.hints import MIN_SIMILARITY
@@ -20,7 +20,7 @@ def find_unit(before: re.Match[str], found: re.Match[str]) -> DelayedError | Non
     if unit is None or unit == name:
         return None
     message = f"expected a unit, found `{name}`"
-    return DelayedError(before.start(), found.end(), message, f"write `{number} {unit}`")
+    return DelayedError(before.start(), found.end(), message, write(f"{number} {unit}"))
 
 
 def find_keyword(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
@@ -44,7 +45,9 @@ class DocCommentCollector:
             self._report.report(
                 "unattached-doc-comment",
                 Span(self._source, start, end),
-                help="move it to the line before: it documents what follows it",
+                help=Advice(
+                    "move it to the line before: it documents what follows it", "move comment"
+                ),
             )
 
     def quoted(self, start: int, end: int) -> None:

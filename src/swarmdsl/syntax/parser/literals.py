@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from math import isinf
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.syntax import units
 from swarmdsl.syntax.parser.lexer import SYMBOLS, Lexer
 
@@ -64,14 +65,18 @@ def escape_faults(text: str, start: int, end: int) -> Iterator[tuple[int, int, s
         code = found[1] or found[2]
         if code and _character(code) is None:
             reason = f"a string cannot contain U+{int(code, 16):04X}"
-            yield *found.span(), reason, "remove it: XML cannot contain it"
+            yield (
+                *found.span(),
+                reason,
+                Advice("remove it: XML cannot contain it", "remove character"),
+            )
         elif found[3] in ("u", "U"):
             digits = {"u": "four", "U": "eight"}[found[3]]
             reason = f"`{found[0]}` without {digits} hexadecimal digits in a string"
             yield *found.span(), reason, "write `\\u00e9`, or `\\U0001f916`"
         elif found[3] and found[3] not in _ESCAPED:
             reason = f"unknown escape `{found[0]}` in a string"
-            yield *found.span(), reason, "write `\\\\` for `\\`"
+            yield *found.span(), reason, Advice("write `\\\\` for `\\`", "escape")
 
 
 def forbidden_character(text: str) -> str | None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
@@ -85,7 +86,11 @@ def report_fault(fault: BracketFault, source: Source, report: Diagnostics) -> No
             line = Span(source, fault.before, end if end >= 0 else len(text))
             message = f"by its indentation, `{closer}` is missing before this line"
             related = (Label(line, message),)
-        help_ = f"write `{closer}` at the end of the block" if bracket == "{" else None
+        help_ = (
+            Advice(f"write `{closer}` at the end of the block", "close block", closer)
+            if bracket == "{"
+            else None
+        )
         report.report("unclosed-bracket", place, bracket=bracket, related=related, help=help_)
     elif fault.kind == "wrong" and fault.opener is not None:
         opener = text[fault.opener]
@@ -105,7 +110,7 @@ def report_fault(fault: BracketFault, source: Source, report: Diagnostics) -> No
             "syntax-error",
             place,
             message=f"unmatched `{bracket}`",
-            help="delete it, or open it before",
+            help=Advice("delete it, or open it before", "remove bracket"),
         )
 
 

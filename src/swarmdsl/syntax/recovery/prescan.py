@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
+from swarmdsl.base.diagnostics.advice import Advice, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
@@ -137,13 +138,13 @@ class _Scanner:
                 start + 1,
                 Repair(at, at, '"'),
                 message=message,
-                help=f'write `"{before[0]}"`',
+                help=write(f'"{before[0]}"'),
             )
             return start + 1
         end -= len(text[start:end]) - len(text[start:end].rstrip())
         inside = re.compile(r'"[^\s,;)}\]]*').match(text, start)
         close = inside.end() if inside else end
-        help_ = 'close the string with `"` on the same line'
+        help_ = Advice('close the string with `"` on the same line', "append", '"')
         self._fault("unterminated-text", start, end, Repair(close, close, '"'), help=help_)
         return close
 
@@ -175,7 +176,7 @@ class _Scanner:
             repair,
             message=f"unexpected character {strange}",
             notes=(f"the file has {more} more of them",) if more else (),
-            help={"": "delete it", " ": "write a plain space"}.get(plain, f"write `{plain}`"),
+            help={"": "delete it", " ": "write a plain space"}.get(plain, write(plain)),
         )
 
     def _conflicts(self, marks: list[re.Match[str]]) -> list[tuple[int, int]]:

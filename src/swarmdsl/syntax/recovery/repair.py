@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
+from swarmdsl.base.diagnostics.advice import write, write_before
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.syntax.errors.report import TOKEN, Failure
 from swarmdsl.syntax.errors.substitutions import suggest_substitution
@@ -189,7 +190,7 @@ def _changes(text: str, failure: Failure) -> Iterator[_Change]:
     if found is not None:
         if meant := suggest_substitution(expected, text, at):
             # A name with another spelling is another name.
-            yield _Change(Repair(*meant), "_" not in meant[2], help=f"write `{meant[2].strip()}`")
+            yield _Change(Repair(*meant), "_" not in meant[2], help=write(meant[2].strip()))
         if found[0] in RESERVED and expected & {"IDENT", "QNAME", "TYPENAME"}:
             yield _Change(Repair(at, found.end(), "_" * len(found[0])))
         if not found[0][0].isalnum():
@@ -199,7 +200,7 @@ def _changes(text: str, failure: Failure) -> Iterator[_Change]:
     keyword_guess = at == 0 and sum(word.isalpha() for word in missing) > 1
     for word in missing:
         sure = f"`{word}`" in _SYMBOLS and f"`{word}`" not in _OPENING
-        hint = f"write `{word}` before `{found[0]}`" if found and sure else None
+        hint = write_before(word, found[0]) if found and sure else None
         guessed = word.isalpha() and keyword_guess
         yield _Change(Repair(gap, gap, f" {word} "), sure, guessed, hint)
     if "`{`" in expected and at == end:
