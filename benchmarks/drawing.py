@@ -1,4 +1,4 @@
-"""Measure the drawing of large state machines."""
+"""Measure the drawing of large state machines, and their layout beside that of ELK."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 from statistics import median
 
+import layouts
 from measure import Section, interleaved, process, spread
 
 ROUNDS = 5
@@ -75,4 +76,5 @@ def section(folder: Path) -> Section:
     for name, times in processor.items():
         if name.endswith("svg"):
             found.goal(f"states {name}, in seconds", median(times), 2, "{:.2f}")
+    found.more.append(layouts.section(folder))
     return found

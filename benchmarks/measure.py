@@ -76,12 +76,13 @@ def spread(values: Sequence[float], form: str = "{:.0f}", scale: float = 1) -> s
 
 @dataclass
 class Section:
-    """Results of a group: a table, and sentences before and after it."""
+    """Results of a group: a table, sentences before and after it, and sections that follow."""
 
     intro: str
     header: Sequence[str]
     rows: list[Sequence[str]] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
+    more: list[Section] = field(default_factory=list)
 
     def goal(
         self, what: str, value: float, limit: float, form: str, *, least: bool = False
@@ -99,7 +100,8 @@ class Section:
             lines += [_row(self.header), _row(["---"] + ["--:"] * (len(self.header) - 1))]
             lines += [_row(row) for row in self.rows] + [""]
         lines += [f"- {note}" for note in self.notes]
-        return "\n".join(lines).rstrip() + "\n"
+        text = "\n".join(lines).rstrip() + "\n"
+        return "\n".join([text, *(section.markdown() for section in self.more)])
 
 
 def _row(cells: Sequence[str]) -> str:

@@ -17,7 +17,7 @@ from swarmdsl import __version__
 
 FOLDER = Path(__file__).resolve().parent
 MODULES = FOLDER.parent / "node_modules"
-_NPM = {"langium", "@typespec/compiler", "@scion-scxml/scxml"}
+_NPM = {"langium", "@typespec/compiler", "@scion-scxml/scxml", "elkjs"}
 
 
 class Measured(Protocol):

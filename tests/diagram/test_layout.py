@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from itertools import combinations, combinations_with_replacement, pairwise
 
 import pytest
@@ -20,7 +21,8 @@ from swarmdsl.tools.diagram.shapes import PSEUDO_STATES, Direction
 from .conftest import MODEL, drawn_of
 
 Area = tuple[int, int, int, int]
-DIRECTIONS: tuple[Direction, ...] = ("down", "right")
+DIRECTIONS: tuple[Direction | None, ...] = ("down", "right", None)
+"""Forced for all levels, or chosen for each."""
 
 
 def area(box: Box) -> Area:
@@ -103,7 +105,7 @@ def check(picture: Picture) -> None:
 
 
 @pytest.mark.parametrize("direction", DIRECTIONS)
-def test_pictures_of_models(drawn: tuple[Diagram, ...], direction: Direction) -> None:
+def test_pictures_of_models(drawn: tuple[Diagram, ...], direction: Direction | None) -> None:
     for diagram in drawn:
         check(lay_out(diagram, "right" if diagram.kind == "internal" else direction))
 
@@ -172,13 +174,13 @@ def machines(seed: int) -> Diagram:
 
 @settings(max_examples=60)
 @given(st.integers(0, 2**32), st.sampled_from(DIRECTIONS))
-def test_pictures_of_random_machines(seed: int, direction: Direction) -> None:
+def test_pictures_of_random_machines(seed: int, direction: Direction | None) -> None:
     check(lay_out(machines(seed), direction))
 
 
 @settings(max_examples=40, deadline=None)
 @given(st.integers(0, 2**32), st.sampled_from(DIRECTIONS))
-def test_pictures_with_lanes_beside_all_else(seed: int, direction: Direction) -> None:
+def test_pictures_with_lanes_beside_all_else(seed: int, direction: Direction | None) -> None:
     """As in very large ones."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(layering, "_MAX_CROSSED", -1)
@@ -246,7 +248,20 @@ def test_lines_are_not_wider_than_asked_for(text: str, most: int) -> None:
     assert "".join(lines).split() == "".join(text.split()).split() or "".join(
         "".join(lines).split()
     ) == "".join(text.split())
-    assert all(width(line, "line") <= most for line in lines)
+    assert all(width(line, "line") <= most or re.fullmatch(r"\w+", line) for line in lines)
+
+
+def test_identifiers_are_not_broken() -> None:
+    text = "uav_mavros_takeoff(altitude=maximum_of_all_heights,target=event.position_of_finding)"
+
+    lines = wrap(text, "line", 150)
+
+    assert "".join(lines) == text
+    assert len(lines) > 3
+    assert not any(
+        one[-1].isidentifier() and other[0].isidentifier() for one, other in pairwise(lines)
+    )
+    assert all(width(line, "line") <= 150 for line in lines)
 
 
 def test_many_lines_from_one_state_are_not_compared_in_pairs(

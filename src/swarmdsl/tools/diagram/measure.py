@@ -6,6 +6,7 @@ states the length of each text, so that other fonts are stretched to fit.
 
 from __future__ import annotations
 
+import re
 from math import ceil
 from unicodedata import combining, east_asian_width
 
@@ -24,7 +25,9 @@ _WIDTHS = dict(
     )
 )
 _OTHER, _WIDE = 600, 1000
-_BREAK_AFTER = "._-,(/="
+_BREAK_AFTER = ".-,(/="
+_ATOMS = re.compile(r"[A-Za-z0-9_]+|.", re.DOTALL)
+"""Parts of a text between which a line may break."""
 _BOLD = 1.07
 """Average width of bold relative to regular text."""
 SIZES = {"name": 13, "keyword": 10, "line": 11, "label": 11}
@@ -45,7 +48,11 @@ def _fallback_width(character: str) -> int:
 
 
 def wrap(text: str, style: str, limit: int) -> list[str]:
-    """Wrap text into lines of at most `most` pixels, at spaces if possible."""
+    """Wrap text into lines of at most `limit` pixels, at spaces if possible.
+
+    A line breaks before or after an operator rather than at any character, and never inside an
+    identifier or a number: one that is wider has a line of its own.
+    """
     lines: list[str] = []
     line = ""
     for word in text.split():
@@ -55,15 +62,25 @@ def wrap(text: str, style: str, limit: int) -> list[str]:
             continue
         if line:
             lines.append(line)
-        line = word
-        while width(line, style) > limit and len(line) > 1:
-            end = len(line) - 1
-            while end > 1 and width(line[:end], style) > limit:
-                end -= 1
-            # Prefer a break after punctuation to one inside a name.
-            end = max(
-                (at for at in range(end // 2, end + 1) if line[at - 1] in _BREAK_AFTER), default=end
-            )
-            lines.append(line[:end])
-            line = line[end:]
+        *full, line = _broken(word, style, limit)
+        lines += full
     return [*lines, line] if line else lines
+
+
+def _broken(word: str, style: str, limit: int) -> list[str]:
+    """Break a word without spaces."""
+    if width(word, style) <= limit:
+        return [word]
+    lines = [""]
+    for atom in _ATOMS.findall(word):
+        if lines[-1] and width(lines[-1] + atom, style) > limit:
+            at = max(lines[-1].rfind(mark) for mark in _BREAK_AFTER) + 1
+            # Prefer a break after punctuation in the second half of the line.
+            if 2 * at > len(lines[-1]) > at:
+                lines[-1:] = [lines[-1][:at], lines[-1][at:]]
+                if width(lines[-1] + atom, style) <= limit:
+                    lines[-1] += atom
+                    continue
+            lines.append("")
+        lines[-1] += atom
+    return lines

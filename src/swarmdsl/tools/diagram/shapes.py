@@ -63,6 +63,15 @@ def resized(shape: Shape, wide: int, high: int) -> Shape:
     return Shape(wide, high, (0, 0, wide, high), block)
 
 
+def with_indent(shape: Shape, indent: int) -> Shape:
+    """Move the header of a container to the right."""
+    block = shape.block
+    texts = tuple(replace(each, x=(each.x or 0) + indent) for each in block.texts)
+    wide = block.width + indent
+    moved = Block(wide, block.height, texts, block.rules)
+    return Shape(wide, shape.height, (0, 0, wide, shape.height), moved, shape.ports)
+
+
 def _pseudo_state(node: Node, direction: Direction) -> Shape:
     """Circle or diamond with its name on a side without edges."""
     size = PSEUDO_STATES[node.kind]

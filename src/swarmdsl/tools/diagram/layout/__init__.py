@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import log, sqrt
+from math import sqrt
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node, Port
 from swarmdsl.tools.diagram.layout.compound import Compound
+from swarmdsl.tools.diagram.layout.directions import choose_directions, fitted_size, uniform
+from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.routing import simplify
 from swarmdsl.tools.diagram.measure import width
 from swarmdsl.tools.diagram.shapes import PORT, PSEUDO_STATES, Direction, port_text
 from swarmdsl.tools.diagram.text_blocks import Block
-
-_ASPECT = 1.6
-"""Preferred ratio of width to height."""
-_MAX_TRIED = 150
-"""Maximum number of nodes for which both directions are tried."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,24 +68,17 @@ class Picture:
 
 
 def lay_out(diagram: Diagram, direction: Direction | None = None) -> Picture:
-    """Lay out a diagram; without a direction, in the one that fits a page best."""
+    """Lay out a diagram; without a direction, each level in the one that fits a page best."""
+    routes = EdgeRoutes(diagram)
+    if direction is None and diagram.kind != "statechart":
+        direction = "right" if diagram.kind == "internal" else "down"
     if direction is not None:
-        return _picture(Compound(diagram, direction))
-    if diagram.kind == "internal":
-        return lay_out(diagram, "right")
-    if diagram.kind == "composition":
-        return lay_out(diagram, "down")
-    if sum(1 for _ in diagram.frame.walk()) > _MAX_TRIED:
-        return lay_out(diagram, "right")
-    pictures = [lay_out(diagram, "down"), lay_out(diagram, "right")]
-    return min(pictures, key=_fitted_size)
-
-
-def _fitted_size(picture: Picture) -> float:
-    """Size of a picture when it is fitted on a page."""
-    return max(picture.width / _ASPECT, picture.height) + 0.2 * abs(
-        log(picture.width / picture.height / _ASPECT)
-    )
+        return _picture(Compound(diagram, routes, uniform(diagram, direction)))
+    pictures = [
+        _picture(Compound(diagram, routes, directions))
+        for directions in choose_directions(diagram, routes)
+    ]
+    return min(pictures, key=lambda each: fitted_size(each.width, each.height))
 
 
 def _picture(compound: Compound) -> Picture:
@@ -99,17 +89,16 @@ def _picture(compound: Compound) -> Picture:
     for node, x, y in _positions(compound, frame, 0, 0):
         inside = compound.layouts[node.id]
         corners[node.id] = x, y
-        wide, high = _xy(compound, inside.length, inside.breadth)
+        wide, high = inside.width, inside.height
         core_x, core_y, core_wide, core_high = inside.shape.core
         if node.kind not in PSEUDO_STATES:
             core_x, core_y, core_wide, core_high = 0, 0, wide, high
         core = (x + core_x, y + core_y, core_wide, core_high)
         divider = None
-        if node is not frame and compound.layouts[compound.edge_routes.parents[node.id]].regions:
-            is_first = (
-                node is compound.edge_routes.nodes[compound.edge_routes.parents[node.id]].nodes[0]
-            )
-            divider = f"v{high}" if compound.direction == "down" else f"h{wide}"
+        parent = compound.edge_routes.parents.get(node.id)
+        if parent is not None and compound.layouts[parent].regions:
+            is_first = node is compound.edge_routes.nodes[parent].nodes[0]
+            divider = f"v{high}" if compound.directions[parent] == "down" else f"h{wide}"
             divider = "" if is_first else divider
         boxes.append(Box(node, x, y, wide, high, core, inside.shape.block, divider))
         centres = {id_: (port_x, port_y) for id_, port_x, port_y in inside.shape.ports}
@@ -118,7 +107,7 @@ def _picture(compound: Compound) -> Picture:
                 dx, dy = centres[port.id]
                 pins.append(Pin(port, x + dx, y + dy))
             else:
-                dx, dy = _xy(compound, *inside.ports[port.id])
+                dx, dy = inside.ports[port.id]
                 name_x = 9 if not dx else dx - 9 - width(port_text(port), "line")
                 pins.append(Pin(port, x + dx, y + dy, x + name_x))
     cores = {box.node.id: box for box in boxes}
@@ -127,18 +116,15 @@ def _picture(compound: Compound) -> Picture:
         for number, edge in enumerate(compound.diagram.edges)
     ]
     outer = compound.layouts[frame.id]
-    wide, high = _xy(compound, outer.length, outer.breadth)
-    return Picture(compound.diagram, wide, high, tuple(boxes), tuple(lines), tuple(pins))
-
-
-def _xy(compound: Compound, along: int, across: int) -> tuple[int, int]:
-    return (across, along) if compound.direction == "down" else (along, across)
+    return Picture(
+        compound.diagram, outer.width, outer.height, tuple(boxes), tuple(lines), tuple(pins)
+    )
 
 
 def _positions(compound: Compound, node: Node, x: int, y: int) -> Iterator[tuple[Node, int, int]]:
     yield node, x, y
     for child in node.nodes:
-        dx, dy = _xy(compound, *compound.layouts[node.id].children[child.id])
+        dx, dy = compound.layouts[node.id].children[child.id]
         yield from _positions(compound, child, x + dx, y + dy)
 
 
@@ -161,11 +147,9 @@ def _line(
     label_at = (0, 0)
     for container, _, _ in compound.edge_routes.routes[number].legs:
         inside, (x, y) = compound.layouts[container], corners[container]
-        for place in inside.segments_of[number]:
-            dx, dy = _xy(compound, *place)
-            points.append((x + dx, y + dy))
+        points += ((x + dx, y + dy) for dx, dy in inside.segments_of[number])
         if number in inside.labels:
-            dx, dy = _xy(compound, *inside.labels[number])
+            dx, dy = inside.labels[number]
             label_at = (x + dx, y + dy)
     points = simplify(points)
     for end, then, node in ((0, 1, edge.source), (-1, -2, edge.target)):

@@ -5,22 +5,23 @@ from __future__ import annotations
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.tools.diagram.layout.layered_graph import Point
 from swarmdsl.tools.diagram.layout.loops import Loop
-from swarmdsl.tools.diagram.shapes import Shape
+from swarmdsl.tools.diagram.shapes import Direction, Shape
 
 
 @dataclass
 class ContainerLayout:
     """Layout of a container or of a node without children.
 
-    Sizes are along and across; `loops` is the extent of self-loops beyond the box, across.
-    Positions are relative to the corner of the box: `crossings` of edges with the border by edge
-    number, `pieces` of edges inside, and `labels`. `regions` is True if the children are regions
-    that fill the box.
+    Positions are (x, y), relative to the corner of the box: `children`, the segments of edges
+    inside, labels and ports. `crossings` are the positions at which edges cross the border, on the
+    sides that face other nodes. `loops` is the extent of self-loops beyond the box. `regions` is
+    True if the children are regions that fill the box, one beside the other across `direction`.
     """
 
     shape: Shape
-    length: int
-    breadth: int
+    width: int
+    height: int
+    direction: Direction
     loops: int = 0
     children: dict[str, Point] = field(default_factory=dict)
     crossings: dict[int, int] = field(default_factory=dict)
@@ -29,3 +30,8 @@ class ContainerLayout:
     own_loops: list[Loop] = field(default_factory=list)
     ports: dict[str, Point] = field(default_factory=dict)
     regions: bool = False
+
+
+def along_across(direction: Direction, wide: int, high: int) -> Point:
+    """Convert (x, y) to (along, across), or back."""
+    return (high, wide) if direction == "down" else (wide, high)

@@ -15,11 +15,13 @@ class Route:
     """Containers on the route of an edge: those left, the common one, those entered.
 
     Each leg is a container with the two nodes in it that the edge connects, None for the border.
+    The label is on leg `labelled`, the first one that can have it.
     """
 
     edge: Edge
     legs: list[tuple[str, str | None, str | None]]
     main: int
+    labelled: int
     flipped: bool = False
 
     def entry(self, leg: int) -> Side:
@@ -93,7 +95,13 @@ class EdgeRoutes:
         main = len(legs)
         legs.append((common, out[-1] if out else None, into[-1] if into else None))
         legs += ((self.parents[node], None, node) for node in reversed(into[:-1]))
-        return Route(edge, legs, main)
+        # Between regions that fill their state is no room.
+        labelled = next(
+            at
+            for at, (container, _, _) in enumerate(legs)
+            if at == main or self.nodes[container].kind != "parallel"
+        )
+        return Route(edge, legs, main, labelled)
 
     def _flip(self, node: Node) -> None:
         """Choose the backward edges of a container."""

@@ -41,15 +41,23 @@ def stretch_regions(
     passages: EdgeRoutes,
 ) -> None:
     """Stretch the regions of a state to its full size; `length` is their size along."""
+    axis = 1 if state.direction == "down" else 0
     for id_, region in regions.items():
-        region.length = length
+        if axis:
+            region.height = length
+        else:
+            region.width = length
         for number, points in region.segments_of.items():
             _, source, target = next(
                 each for each in passages.routes[number].legs if each[0] == id_
             )
-            if source is None and points[0][0] > 0:
-                points[0] = (length, points[0][1])
-            if target is None and points[-1][0] > 0:
-                points[-1] = (length, points[-1][1])
+            for at, end in ((0, source), (-1, target)):
+                if end is None and points[at][axis] > 0:
+                    x, y = points[at]
+                    points[at] = (x, length) if axis else (length, y)
     last_id = list(regions)[-1]
-    regions[last_id].breadth = state.breadth - state.children[last_id][1]
+    last = regions[last_id]
+    if axis:
+        last.width = state.width - state.children[last_id][0]
+    else:
+        last.height = state.height - state.children[last_id][1]
