@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import re
-from itertools import combinations, combinations_with_replacement, pairwise
+from itertools import combinations, pairwise
 
 import pytest
 from hypothesis import given, settings
@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.tools.diagram.layout import Box, Picture, lay_out, layering, routing
-from swarmdsl.tools.diagram.layout.coordinates import monotone
 from swarmdsl.tools.diagram.layout.cycles import feedback_edges
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
 from swarmdsl.tools.diagram.measure import width, wrap
@@ -281,16 +280,3 @@ def test_many_lines_from_one_state_are_not_compared_in_pairs(
     lay_out(Diagram("statechart", "Machine", frame, edges), "down")
 
     assert compared < count * count / 10
-
-
-@given(st.lists(st.integers(0, 9), max_size=7))
-def test_ends_stay_in_order_and_move_little(wished: list[int]) -> None:
-    """Compare with all non-decreasing numbers."""
-    found = monotone(wished)
-    least = min(
-        sum(abs(one - other) for one, other in zip(wished, each, strict=True))
-        for each in combinations_with_replacement(sorted(set(wished)), len(wished))
-    )
-
-    assert found == sorted(found)
-    assert sum(abs(one - other) for one, other in zip(wished, found, strict=True)) == least

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.layered_graph import Placement, Point, Side
-from swarmdsl.tools.diagram.layout.routing import TRACK
 
+TRACK = 12
+"""Distance between tracks: that of lines in a layer, so that edges stay straight."""
 _MARGIN = 4
 """Distance of the tracks from the layers, beside the padding."""
 
@@ -97,3 +98,11 @@ class Border:
             number: self._track(number) if number in self._tracks else across
             for number, across in self._across.items()
         }
+
+    def arrows(self) -> list[tuple[int, Side]]:
+        """Return the positions of arrow heads that meet the border from inside, with their side."""
+        return [
+            (self._across[number], side)
+            for number, side in self.cells
+            if self.routes.routes[number].edge.target == self.node and not self._goes_on(number)
+        ]

@@ -7,12 +7,13 @@ the backward edges of the outer container. This follows Sander 1996 and ELK.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from swarmdsl.codegen.diagram.graph import Diagram, Node
 from swarmdsl.tools.diagram.layout.border import Border
+from swarmdsl.tools.diagram.layout.cell_sides import END_GAP
 from swarmdsl.tools.diagram.layout.container_layout import ContainerLayout, along_across
-from swarmdsl.tools.diagram.layout.coordinates import END_GAP
+from swarmdsl.tools.diagram.layout.coordinates import LABEL_GAP
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes, Route
 from swarmdsl.tools.diagram.layout.layered import layered
 from swarmdsl.tools.diagram.layout.layered_graph import Cell, Link, Placement, Point, Side
@@ -33,6 +34,9 @@ from swarmdsl.tools.diagram.text_blocks import Block, label_block
 
 PADDING = 18
 _REGION_PADDING = 14
+_SIDES: tuple[Side, ...] = ("first", "last")
+_FROM_RULE, _FROM_ARROW = 5, 12
+"""Distance of the end of an edge from a line, and from an arrow head inside."""
 _PORT_LINE = 16
 """Space above and below the line to a port at the border; its name is above."""
 
@@ -80,12 +84,19 @@ class Compound:
     def _leaf(self, node: Node, shape: Shape, around: Direction) -> ContainerLayout:
         if node.kind in PSEUDO_STATES or node.ports:
             return ContainerLayout(shape, shape.width, shape.height, around)
-        ends = max(self.edge_routes.ends[node.id, "first"], self.edge_routes.ends[node.id, "last"])
         length, breadth = along_across(around, shape.width, shape.height)
-        breadth = max(breadth, 2 * END_GAP + (ends - 1) * (END_GAP + 4))
+        breadth = max(breadth, *(self._room_for_ends(node, side, around) for side in _SIDES))
         wide, high = along_across(around, length, breadth)
         wide, high, _, _ = self._loop_room(node, wide, high, around)
         return ContainerLayout(resized(shape, wide, high), wide, high, around)
+
+    def _room_for_ends(self, node: Node, side: Side, around: Direction) -> int:
+        """Extent of a side with all its ends; labels beside each other fit beside the node."""
+        rooms = []
+        for number, starts in self.edge_routes.ends[node.id, side]:
+            label = self.labels.get(number) if starts and around == "right" else None
+            rooms.append(label.height + 3 + LABEL_GAP if label is not None else END_GAP + 4)
+        return 2 * END_GAP + sum(rooms[1:])
 
     def _container(
         self, node: Node, shape: Shape, around: Direction, title: int
@@ -153,9 +164,21 @@ class Compound:
             high = low + along_across(direction, wide, tall)[1]
         if child.kind in PSEUDO_STATES:
             # Separate the edges of a pseudostate slightly.
-            reach = 0 if child.kind in ("initial", "final") else (high - low) // 2 - 3
+            reach = 0 if child.kind == "initial" else (high - low) // 2 - 3
             low, high = (low + high) // 2 - reach, (low + high) // 2 + reach
-        return Cell(length, breadth + inside.loops, low, high)
+        barred = tuple(self._barred(child, inside, direction))
+        return Cell(length, breadth + inside.loops, low, high, barred=barred)
+
+    def _barred(
+        self, child: Node, inside: ContainerLayout, direction: Direction
+    ) -> Iterator[tuple[int, int, Side | None]]:
+        """Parts of the sides of a node in which an edge would continue a line inside."""
+        if direction == "right":
+            rules = [*inside.shape.block.rules, *[inside.shape.block.height] * bool(child.nodes)]
+            for rule in rules:
+                yield rule - _FROM_RULE, rule + _FROM_RULE, None
+        for at, side in inside.arrows:
+            yield at - _FROM_ARROW, at + _FROM_ARROW, side
 
     def _link(
         self,
@@ -272,6 +295,8 @@ class Compound:
             if label is not None:
                 inside.labels[number] = shown(moved(label))
         inside.crossings = border.crossings(length)
+        if direction == around:
+            inside.arrows = border.arrows()
         for port_id, cell in ports.items():
             across = moved(placement.cells[cell])[1]
             at_end = port_id in self.edge_routes.right_ports

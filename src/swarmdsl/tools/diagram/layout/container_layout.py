@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.tools.diagram.layout.layered_graph import Point
+from swarmdsl.tools.diagram.layout.layered_graph import Point, Side
 from swarmdsl.tools.diagram.layout.loops import Loop
 from swarmdsl.tools.diagram.shapes import Direction, Shape
 
@@ -14,8 +14,9 @@ class ContainerLayout:
 
     Positions are (x, y), relative to the corner of the box: `children`, the segments of edges
     inside, labels and ports. `crossings` are the positions at which edges cross the border, on the
-    sides that face other nodes. `loops` is the extent of self-loops beyond the box. `regions` is
-    True if the children are regions that fill the box, one beside the other across `direction`.
+    sides that face other nodes, and `arrows` those of arrow heads that meet it from inside. `loops`
+    is the extent of self-loops beyond the box. `regions` is True if the children are regions that
+    fill the box, one beside the other across `direction`.
     """
 
     shape: Shape
@@ -25,6 +26,7 @@ class ContainerLayout:
     loops: int = 0
     children: dict[str, Point] = field(default_factory=dict)
     crossings: dict[int, int] = field(default_factory=dict)
+    arrows: list[tuple[int, Side]] = field(default_factory=list)
     segments_of: dict[int, list[Point]] = field(default_factory=dict)
     labels: dict[int, Point] = field(default_factory=dict)
     own_loops: list[Loop] = field(default_factory=list)

@@ -9,18 +9,14 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from heapq import heappop, heappush, heapreplace
-from itertools import accumulate, pairwise
+from heapq import heappop, heappush
+from itertools import pairwise
 
+from swarmdsl.tools.diagram.layout.cell_sides import CellSide, cell_sides
 from swarmdsl.tools.diagram.layout.layered_graph import Cell, End, Layers, Link, Segment, Vertex
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
 
-NODE_GAP, LINE_GAP, LABEL_GAP = 26, 12, 14
-END_GAP = 12
-"""Preferred distance between two ends on one side of a cell."""
-_CORNER = 7
-_NARROW = 20
-"""Width below which moving ends does not help."""
+NODE_GAP, LINE_GAP, LABEL_GAP = 26, 12, 12
 
 
 def assign_coordinates(
@@ -30,48 +26,113 @@ def assign_coordinates(
 
     `before` selects the side for the label of a single edge, or of the middle one.
     """
-    sides = _sides(layers, cells)
+    sides = cell_sides(layers, cells)
     _choose_label_sides(sides, layers, links, pitch, before)
     for ends in sides:
         ends.spread()
     lines = _lines(layers)
-    fixed = {id(end) for side in sides for end in side.fixed()}
-    _minimize(layers, lines, fixed)
+    _minimize(layers, lines, sides)
     _place_lanes(layers)
-    for _ in range(2):
-        # The second pass follows ends on other cells that moved in the first.
-        for ends in sides:
-            ends.slide()
+    for side in sides:
+        side.straighten()
 
 
-def _minimize(layers: Layers, lines: Sequence[Sequence[Vertex]], fixed: set[int]) -> None:
-    """Place all lines so that edges are as straight as possible, starting at 0."""
+def _minimize(layers: Layers, lines: Sequence[Sequence[Vertex]], sides: Sequence[CellSide]) -> None:
+    """Place all lines and ends so that edges are as straight as possible, starting at 0.
+
+    An end has a number of its own, between bounds that depend on that of its cell. A slight
+    preference for even spacing on the cell is part of the cost.
+    """
     number = {id(vertex): at for at, line in enumerate(lines) for vertex in line}
     constraints: list[Constraint] = []
     for layer in layers.layers:
         for one, other in pairwise(layer):
             room = one.breadth - one.line + other.line + _gap(one, other)
             constraints.append((number[id(one)], number[id(other)], room, 0))
-    count = len(lines)
+    places = _packed(len(lines), constraints)
+    in_lane = {
+        id(end)
+        for segment in layers.segments
+        if segment.uses_lane
+        for end in (segment.start, segment.end)
+    }
+    end_number: dict[int, int] = {}
+    for side in sides:
+        for run, low, high, gap in side.runs:
+            cell = number[id(side.ends[run[0]].vertex)]
+            before = None
+            for at in run:
+                end = side.ends[at]
+                assert end.at is not None
+                end_number[id(end)] = this = len(places)
+                places.append(places[cell] + end.at)
+                if before is None:
+                    constraints.append((cell, this, low, 0))
+                else:
+                    constraints.append((before, this, gap, 0))
+                before = this
+            assert before is not None
+            constraints.append((before, cell, -high, 0))
+    preferred = dict(end_number)
+
+    def place_between(one: int, other: int, offset: int, weight: int) -> None:
+        """Add the cost of a difference other than `offset`, for `other` below `one`."""
+        to_one, to_other = max(0, -offset), max(0, offset)
+        # Number `places` of the pair is below both.
+        this = len(places)
+        constraints.append((this, one, to_one, weight))
+        constraints.append((this, other, to_other, weight))
+        places.append(min(places[one] - to_one, places[other] - to_other))
+
     for segment in layers.segments:
         start, end = segment.start, segment.end
         if segment.uses_lane:
             continue
-        if number[id(start.vertex)] == number[id(end.vertex)]:
-            continue
-        offset = _offset(end) - _offset(start)
-        weight = _weight(segment, fixed)
-        constraints.append((count, number[id(start.vertex)], max(0, offset), weight))
-        constraints.append((count, number[id(end.vertex)], max(0, -offset), weight))
-        count += 1
-    places = minimize(count, constraints)
+        ends = []
+        offset = 0
+        for each, sign in ((start, 1), (end, -1)):
+            if id(each) in end_number:
+                ends.append(end_number[id(each)])
+            else:
+                ends.append(number[id(each.vertex)])
+                offset += sign * _offset(each)
+        if ends[0] != ends[1]:
+            place_between(ends[0], ends[1], offset, _weight(segment))
+    for side in sides:
+        for end in side.ends:
+            if id(end) in preferred and id(end) not in in_lane:
+                assert end.at is not None
+                place_between(number[id(end.vertex)], preferred[id(end)], end.at, 1)
+    found = minimize(len(places), constraints, places)
     for at, line in enumerate(lines):
         for vertex in line:
-            vertex.across = places[at] - vertex.line
+            vertex.across = found[at] - vertex.line
+    for side in sides:
+        for end in side.ends:
+            if id(end) in end_number:
+                end.at = found[end_number[id(end)]] - end.vertex.across
     least = min((v.across for layer in layers.layers for v in layer), default=0)
     for layer in layers.layers:
         for vertex in layer:
             vertex.across -= least
+
+
+def _packed(count: int, constraints: Sequence[Constraint]) -> list[int]:
+    """Return the smallest places that satisfy the constraints."""
+    after: list[list[tuple[int, int]]] = [[] for _ in range(count)]
+    waits = [0] * count
+    for tail, head, length, _ in constraints:
+        after[tail].append((head, length))
+        waits[head] += 1
+    places = [0] * count
+    ready = [each for each in range(count) if not waits[each]]
+    for each in ready:
+        for head, length in after[each]:
+            places[head] = max(places[head], places[each] + length)
+            waits[head] -= 1
+            if not waits[head]:
+                ready.append(head)
+    return places
 
 
 def _place_lanes(layers: Layers) -> None:
@@ -108,22 +169,20 @@ def _takes_space(vertex: Vertex) -> bool:
     return vertex.cell is not None and vertex.breadth > 0
 
 
-def _weight(segment: Segment, fixed: set[int]) -> int:
+def _weight(segment: Segment) -> int:
     """Cost per pixel of bend in a segment.
 
-    Lower at a cell whose end can still move, lowest at the target of the link: a necessary bend is
-    a single one, away from the label.
+    Lower at a cell, lowest at the target of the link: a necessary bend is a single one, away from
+    the label.
     """
     if segment.turns:
         return 1  # it always bends
     start, end = _takes_space(segment.start.vertex), _takes_space(segment.end.vertex)
     if start and end:
-        return 12
+        return 24
     if not (start or end):
-        return 32
-    if id(segment.start if start else segment.end) in fixed:
-        return 12
-    return 9 if start else 8
+        return 64
+    return 20 if start else 18
 
 
 def _lines(layers: Layers) -> list[list[Vertex]]:
@@ -179,7 +238,7 @@ def _longest_increasing(numbers: Sequence[int]) -> list[int]:
 
 
 def _choose_label_sides(
-    sides: Sequence[_CellSide], layers: Layers, links: Sequence[Link], pitch: int, before: bool
+    sides: Sequence[CellSide], layers: Layers, links: Sequence[Link], pitch: int, before: bool
 ) -> None:
     """Put each label on the side of its line that faces away from other edges."""
     labels = {vertex.link: vertex for layer in layers.layers for vertex in layer if vertex.is_label}
@@ -197,98 +256,3 @@ def _choose_label_sides(
         for end in (segment.start, segment.end):
             if end.vertex.is_label:
                 end.at = end.vertex.line
-
-
-class _CellSide:
-    """Ends of links on one side of a cell, in order, with their possible positions."""
-
-    def __init__(self, cell: Cell, found: Sequence[tuple[End, End, int]]) -> None:
-        fixed = [each for each in found if each[0].at is not None]
-        fixed.sort(key=lambda each: each[0].at or 0)
-        free = [each for each in found if each[0].at is None]
-        free.sort(key=lambda each: _order(each[1]))
-        merged = list(fixed)
-        orders = sorted(_order(other) for _, other, _ in fixed)
-        for number, each in enumerate(free):
-            # Insert it between fixed ends so that it crosses none.
-            merged.insert(bisect_left(orders, _order(each[1])) + number, each)
-        self.ends = [end for end, _, _ in merged]
-        self.others = [other for _, other, _ in merged]
-        self.links = [link for _, _, link in merged]
-        self.movable = [end.at is None for end in self.ends]
-        self.cell = cell
-
-    def fixed(self) -> list[End]:
-        """Return the ends that cannot move."""
-        narrow = self.cell.high - self.cell.low < _NARROW
-        return [
-            end for end, moves in zip(self.ends, self.movable, strict=True) if narrow or not moves
-        ]
-
-    def runs(self) -> list[tuple[range, int, int]]:
-        """Ranges of adjacent movable ends, with their lower and upper bounds."""
-        low, high = self.cell.low, self.cell.high
-        found = []
-        start = 0
-        bottom = low
-        for at in range(len(self.ends) + 1):
-            if at < len(self.ends) and self.movable[at]:
-                continue
-            top = high if at == len(self.ends) else (self.ends[at].at or 0)
-            if start < at:
-                found.append((range(start, at), bottom, max(top, bottom)))
-            start = at + 1
-            bottom = max(top, bottom)
-        return found
-
-    def spread(self) -> None:
-        """Space the ends evenly."""
-        for run, bottom, top in self.runs():
-            for number, at in enumerate(run, 1):
-                self.ends[at].at = bottom + (top - bottom) * number // (len(run) + 1)
-
-    def slide(self) -> None:
-        """Move the ends so that their edges are straight, within the available space."""
-        across = self.ends[0].vertex.across if self.ends else 0
-        for run, bottom, top in self.runs():
-            room = top - bottom
-            gap = min(END_GAP, room // (len(run) + 1))
-            corner = min(_CORNER, room // (len(run) + 1))
-            low, high = bottom + corner, top - corner - gap * (len(run) - 1)
-            wished = [
-                min(max(self.others[at].across - across - gap * number, low), high)
-                for number, at in enumerate(run)
-            ]
-            for number, (at, value) in enumerate(zip(run, monotone(wished), strict=True)):
-                self.ends[at].at = value + gap * number
-
-
-def _order(end: End) -> tuple[int, int]:
-    return end.vertex.order, end.at or 0
-
-
-def monotone(values: Sequence[int]) -> list[int]:
-    """Return the closest non-decreasing numbers.
-
-    Each is the least of the highest values so far, after a value that is less than those before has
-    pulled the highest down to itself.
-    """
-    heap: list[int] = []  # negative values, highest first
-    found = []
-    for value in values:
-        heappush(heap, -value)
-        if -heap[0] > value:
-            heapreplace(heap, -value)
-        found.append(-heap[0])
-    return list(accumulate(reversed(found), min))[::-1]
-
-
-def _sides(layers: Layers, cells: Sequence[Cell]) -> list[_CellSide]:
-    """Return the ends of links for each side of each cell."""
-    found: dict[tuple[int, str], list[tuple[End, End, int]]] = {}
-    for segment in layers.segments:
-        for end, other in ((segment.start, segment.end), (segment.end, segment.start)):
-            if end.vertex.cell is not None:
-                key = (end.vertex.cell, end.side)
-                found.setdefault(key, []).append((end, other, segment.link))
-    return [_CellSide(cells[cell], ends) for (cell, _), ends in found.items()]

@@ -37,8 +37,8 @@ class EdgeRoutes:
     """Routes of all edges by number, and derived tables.
 
     `inner` lists the edges that cross a container, with the leg of their route; `loops` the
-    self-loops of a node; `ends` the number of edges on a side of a node; `right_ports` the ports on
-    the right side of their box.
+    self-loops of a node; `ends` the edges on a side of a node, True for those that start there;
+    `right_ports` the ports on the right side of their box.
     """
 
     def __init__(self, diagram: Diagram) -> None:
@@ -58,8 +58,8 @@ class EdgeRoutes:
                 self.inner[container].append((number, leg))
         for node in diagram.frame.walk():
             self._flip(node)
-        self.ends: dict[tuple[str, Side], int] = defaultdict(int)
-        self._count_ends()
+        self.ends: dict[tuple[str, Side], list[tuple[int, bool]]] = defaultdict(list)
+        self._collect_ends()
 
     def _right_ports(self) -> set[str]:
         """Output ports, by direction or, for `inout`, by use."""
@@ -116,10 +116,10 @@ class EdgeRoutes:
         for at in feedback_edges(len(index), edges, ()):
             found[at][0].flipped = True
 
-    def _count_ends(self) -> None:
-        """Count edges on each side of each node, which determines its minimum width."""
-        for route in self.routes.values():
+    def _collect_ends(self) -> None:
+        """List the edges on each side of each node, which determine its minimum width."""
+        for number, route in self.routes.items():
             out: Side = "first" if route.flipped else "last"
             into: Side = "last" if route.flipped else "first"
-            self.ends[route.edge.source, out] += 1
-            self.ends[route.edge.target, into] += 1
+            self.ends[route.edge.source, out].append((number, True))
+            self.ends[route.edge.target, into].append((number, False))

@@ -19,7 +19,8 @@ class Cell:
     """A node: its size along and across, and the range across in which edges may end.
 
     A cell at a `border` continues an edge outside of the container; it is in the first or last
-    layer. A `title` reserves space for text at the start of the first layer.
+    layer. A `title` reserves space for text at the start of the first layer. No edge ends in a
+    `barred` part, from the first to the second position across, on one side or on both.
     """
 
     length: int
@@ -28,6 +29,7 @@ class Cell:
     high: int
     border: Side | None = None
     title: bool = False
+    barred: tuple[tuple[int, int, Side | None], ...] = ()
 
 
 @dataclass

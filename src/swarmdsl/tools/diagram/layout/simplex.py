@@ -17,10 +17,13 @@ _MAX_STEPS = 500_000
 _MAX_CANDIDATES = 30
 
 
-def minimize(count: int, constraints: Sequence[Constraint]) -> list[int]:
+def minimize(
+    count: int, constraints: Sequence[Constraint], start: Sequence[int] | None = None
+) -> list[int]:
     """Find `count` numbers that satisfy the constraints at minimum cost.
 
-    The smallest is 0. The constraints (tail, head, length, weight) have no cycles.
+    The smallest is 0. The constraints (tail, head, length, weight) have no cycles, unless `start`
+    has numbers that satisfy them.
     """
     if count == 0:
         return []
@@ -36,6 +39,10 @@ def minimize(count: int, constraints: Sequence[Constraint]) -> list[int]:
             merged[root, node] = (0, 0)
     edges = [(tail, head, *about) for (tail, head), about in merged.items()]
     solver = _Solver(count + 1, edges)
+    if start is None:
+        solver.longest_paths()
+    else:
+        solver.rank = [*start, min(start)]
     solver.solve()
     least = min(solver.rank[:count])
     return [value - least for value in solver.rank[:count]]
@@ -65,7 +72,7 @@ class _Solver:
         self.last = [0] * count
 
     def solve(self) -> None:
-        self.longest_paths()
+        """Improve numbers that satisfy the constraints."""
         self.span()
         self.number(self.count - 1, -1, 1)
         self.cut_values()
