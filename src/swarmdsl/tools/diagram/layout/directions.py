@@ -45,7 +45,7 @@ def choose_directions(diagram: Diagram, routes: EdgeRoutes) -> Iterator[Directio
     """
     sizes = Sizes(diagram, routes)
     containers = [node for node in diagram.frame.walk() if node.nodes]
-    found = []
+    found: list[tuple[float, int, Directions]] = []
     for direction in ("down", "right"):
         start: Direction = "down" if direction == "down" else "right"
         directions = uniform(diagram, start)
