@@ -3,4 +3,4 @@
 
 NAME = 'sar'
 VERSION = '0.1.0'
-DIGEST = '881e0f6831d6'
+DIGEST = '65e8168620b5'
