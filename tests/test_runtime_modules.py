@@ -30,6 +30,7 @@ PYTHON_TEMPLATES = {
     "ros2/templates/package/package/machine.py.j2",
     "ros2/templates/package/package/monitor.py.j2",
     "ros2/templates/package/package/node.py.j2",
+    "ros2/templates/package/package/px4_offboard.py.j2",
     "ros2/templates/package/setup.py.j2",
     "ros2/templates/package/test/test_copyright.py.j2",
     "ros2/templates/package/test/test_machines.py.j2",
@@ -91,7 +92,15 @@ def test_modules_are_copied_with_a_header(
     assert system is not None
     dies = ir.Contract("Dies", function="uav_mavros_land")  # for the modules of watchdogs
     members = tuple(replace(each, contracts=(dies,)) for each in system.members)
-    system = replace(system, members=members)
+    climb = ir.Named("px4_offboard_msgs", "TakeOff")  # for those of offboard control
+    functions = tuple(
+        replace(each, communication=replace(each.communication, type=climb))
+        if each.name == "uav_mavros_takeoff"
+        else each
+        for each in system.functions
+    )
+    interfaces = (*system.interfaces, ir.Action(climb, (), (), (), True))
+    system = replace(system, members=members, functions=functions, interfaces=interfaces)
     files = emit(system, [Request(target, options)], Diagnostics())[target]
     texts = {file.path.partition("sar_behavior/")[2]: file.text for file in files}
     texts = {path.replace("src/", "").replace("sar_behavior/", ""): t for path, t in texts.items()}

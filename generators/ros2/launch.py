@@ -23,6 +23,7 @@ from .command_topics import check_command_topics
 from .names import TARGET
 from .package import called_functions
 from .params import given
+from .served import OFFBOARD, is_served
 
 _ROBOT = "robot"
 """Launch file of one robot."""
@@ -55,7 +56,8 @@ class LaunchedNode:
 class LaunchedRole:
     """A role of the swarm, of which `least` members are launched by default.
 
-    `bringup` is the launch file of the nodes of its functions and components, in another package.
+    `bringup` is the launch file of the nodes of its functions and components, in another package;
+    `servers` are the executables of functions of this one.
     `robots` are the nodes of members with values of their own, by index.
     """
 
@@ -67,6 +69,7 @@ class LaunchedRole:
     nodes: tuple[LaunchedNode, ...]
     bringup: str | None
     robots: Mapping[int, tuple[LaunchedNode, ...]]
+    servers: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -144,6 +147,7 @@ def _roles(
                 )
                 for robot in role.robots
             },
+            _servers(member, system),
         )
 
 
@@ -155,6 +159,13 @@ def _nodes(
         name = node.name if node.part is not None else module
         watchdog = _watchdog(member, node.machine, system) if node.part is None else None
         yield LaunchedNode(module, name, node.part, given(node, report), node.remaps, watchdog)
+
+
+def _servers(member: Member, system: System) -> tuple[str, ...]:
+    called = [each.function for each in member.contracts if each.function is not None]
+    for node in behavior_nodes(member, system):
+        called += called_functions(node.machine)
+    return (OFFBOARD,) if any(is_served(system.function(name)) for name in called) else ()
 
 
 def _watchdog(member: Member, machine: StateMachine, system: System) -> Watchdog | None:

@@ -15,6 +15,9 @@ _MODULES = (
         "launching",
         "lease",
         "model",
+        "offboard_flight",
+        "offboard_node",
+        "px4_offboard",
         "models",
         "node",
         "parameters",
@@ -39,8 +42,8 @@ _IMPORTED = (
     *("math", "operator", "re", "signal", "sys", "threading", "traceback", "typing"),
     *("action_msgs", "builtin_interfaces", "rcl_interfaces", "rclpy", "std_msgs"),
 )
-# Parameters that ROS declares in every node.
-_PARAMETERS = ("use_sim_time", "start_type_description_service")
+# Parameters that ROS or its host declares in every node.
+_PARAMETERS = ("use_sim_time", "start_type_description_service", "member", "stay", "swarm")
 _MADE_OF: dict[type, tuple[str, ...]] = {
     Action: ("_Goal", "_Result", "_Feedback", "_SendGoal", "_GetResult", "_FeedbackMessage"),
     Service: ("_Request", "_Response", "_Event"),

@@ -19,6 +19,7 @@ from .monitors import WatchedSwarm
 from .names import TARGET
 from .network_files import network_files
 from .options import Options
+from .served import MODULES
 from .view import MachineView, PackageView, package_view
 
 _RUNTIME = Path(__file__).parent / "runtime"
@@ -98,6 +99,13 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
         yield OutputFile(f"{root}/{root}/callbacks.py", text, keep=True, owner=root, facts=facts)
     for machine in package.machines:
         yield _machine(machine, package, legal)
+    for served in package.served:
+        text = _fill(f"package/package/{served.executable}.py", node=served, header=head)
+        path = f"{root}/{root}/{served.executable}.py"
+        yield OutputFile(path, text.rewritten(WIDTH, narrowed), origin=served.origin)
+        for module in MODULES:
+            text = runtime_source(_RUNTIME / f"{module}.py", head)
+            yield OutputFile(f"{root}/{root}/{module}.py", text)
     if package.monitors:
         yield OutputFile(f"{root}/{root}/property_monitors.py", f"{head}\n{monitors_source()}")
         for module in _OF_MONITORS:

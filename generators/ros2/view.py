@@ -38,6 +38,7 @@ from .options import Options
 from .params import parameters
 from .ported import ported
 from .readme import Rows, tables
+from .served import INTERFACES, ServedNode, served_nodes, served_packages
 from .told_conditions import conditions, heard_or_sent
 from .topics import topics
 
@@ -95,6 +96,7 @@ class PackageView:
     machines: tuple[MachineView, ...]
     callbacks: tuple[tuple[str, str], ...]
     launches: tuple[Launch, ...]
+    served: tuple[ServedNode, ...]
     monitors: tuple[WatchedSwarm, ...]
     networks: tuple[Network, ...]
     interfaces: tuple[InterfacePackage, ...]
@@ -125,9 +127,10 @@ def package_view(
         return None
     name = NAMES.package(system, options.package, report)
     modules = NAMES.of_modules(machines, report)
-    written = [*interfaces_to_write(system, options.interfaces), *envelopes_of(system).values()]
+    described = f"{options.interfaces},{INTERFACES}"
+    written = [*interfaces_to_write(system, described), *envelopes_of(system).values()]
     interfaces = group_by_package(map(ported, written), 2)
-    check_described(system, options.interfaces, NAMES.target, report)
+    check_described(system, described, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
     of_actions = messages_of_actions(system)
     callbacks: dict[str, str] = {}
@@ -158,7 +161,8 @@ def package_view(
         "a watchdog is started with the robots of a swarm",
         "give the member a role in a swarm, or remove the contract",
     )
-    depends = [("depend", needed) for needed in package.dependencies(system, machines)]
+    needs = {*package.dependencies(system, machines), *served_packages(system)}
+    depends = [("depend", needed) for needed in sorted(needs)]
     if launched:
         tools = ("ament_index_python", "launch", "launch_ros")
         depends += [("exec_depend", needed) for needed in tools]
@@ -174,6 +178,7 @@ def package_view(
         machines=views,
         callbacks=tuple(callbacks.items()),
         launches=tuple(launched),
+        served=served_nodes(system),
         monitors=watched_swarms(system, launched, modules, report) if options.monitors else (),
         networks=tuple(networks(system, launched, options, report)),
         interfaces=interfaces,

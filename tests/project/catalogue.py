@@ -18,8 +18,8 @@ PACKAGES = {
     "Create 3 base, and turtlebot4_msgs 1.0.4 of Humble, of 2024-02-15",
     "crazyswarm2": "Crazyflies with Crazyswarm2: crazyflie_interfaces 1.0.5 of 2026-07-20, for "
     "Humble and Jazzy",
-    "px4": "PX4 1.16 over XRCE-DDS: px4_msgs 2.0.1 of 2025-08-07; commands and states, no offboard "
-    "control",
+    "px4": "PX4 1.16 over XRCE-DDS: px4_msgs 2.0.1 of 2025-08-07; offboard control, commands and "
+    "states",
     "mavros": "MAVROS for ROS 2: mavros_msgs 2.12.0 of 2025-09-14",
     "slam_toolbox": "slam_toolbox 2.6.8 of Humble, of 2024-01-23: services of its maps",
     "sensors": "standard sensors of ROS: sensor_msgs, on the topics that most drivers use",

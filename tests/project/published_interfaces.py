@@ -25,6 +25,8 @@ PARTS = {
     "srv": ("request", "response"),
     "action": ("goal", "result", "feedback"),
 }
+OWN = "px4_offboard_msgs"
+"""Package of actions that target `ros2` writes: nobody else publishes it."""
 ABOUT = ("repository", "commit", "date", "distribution", "version", "license")
 Outline = Mapping[str, list[str]]
 AnyInterface = MessageType | ServiceType | ActionType
@@ -43,11 +45,12 @@ def _line(node: Field | Constant) -> str:
 
 
 def shipped(library: str) -> Iterator[tuple[str, str, str, AnyInterface]]:
-    """Yield package, kind and name of each interface of a library, and its declaration."""
+    """Yield package, kind and name of each published interface, and its declaration."""
     for _, node in load([resources.library() / library], Diagnostics()).declarations():
         if isinstance(node, (MessageType, ServiceType, ActionType)):
             package, _, name = str(node.name).partition("/")
-            yield package, INTERFACES[type(node)], name, node
+            if package != OWN:
+                yield package, INTERFACES[type(node)], name, node
 
 
 def record(folder: Path, library: str, package: str, about: Mapping[str, str]) -> str:

@@ -98,8 +98,8 @@ def install(folder: Path) -> None:
     (folder / "setup.sh").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def build(folder: Path, *packages: str) -> None:
-    """Build packages of the workspace with colcon, all of them if none is named."""
+def build(folder: Path, *packages: str, workspace: Path | None = None) -> None:
+    """Build packages of the workspace, or of another one; all of them if none is named."""
     venv = folder / "venv"
     environment = {
         **os.environ,
@@ -120,7 +120,9 @@ def build(folder: Path, *packages: str) -> None:
     # Only Python uses the interfaces, so nothing is gained by an optimised build, nor by C++.
     command += ["--cmake-args", "-GNinja", "-DBUILD_TESTING=OFF", "-DCMAKE_BUILD_TYPE=None"]
     command += [f"-DCMAKE_PROJECT_INCLUDE={HERE / 'without_cpp.cmake'}"]
-    subprocess.run(command, cwd=folder / "ws", env=environment, check=True, stdout=sys.stderr)
+    subprocess.run(
+        command, cwd=workspace or folder / "ws", env=environment, check=True, stdout=sys.stderr
+    )
 
 
 def sources() -> Iterator[tuple[str, str]]:

@@ -60,6 +60,17 @@ class Ros:
         paths = [str(package), self.environment["PYTHONPATH"]]
         self.environment["PYTHONPATH"] = os.pathsep.join(paths)
 
+    def overlay(self, install: Path) -> None:
+        """Let processes that are started from now on use the packages of another workspace."""
+        prefixes = [each.parent for each in sorted(install.glob("*/share"))]
+        sites = [str(found) for each in prefixes for found in each.glob("lib/python3.*/site-*")]
+        for name, paths in (
+            ("PYTHONPATH", sites),
+            ("AMENT_PREFIX_PATH", list(map(str, prefixes))),
+            ("LD_LIBRARY_PATH", [f"{each}/lib" for each in prefixes]),
+        ):
+            self.environment[name] = os.pathsep.join([*paths, self.environment[name]])
+
     def start(self, *command: object, **options: Any) -> subprocess.Popen[str]:
         """Start a process."""
         process = subprocess.Popen(

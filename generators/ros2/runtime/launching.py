@@ -79,6 +79,9 @@ def describe_swarm(swarm):
         for name in ('functions', 'components'):
             about = f'whether {name} are launched, by package {swarm.bringup}'
             arguments.append((name, installed, about))
+    if any(role.servers for role in swarm.roles.values()):
+        about = f'whether nodes of {swarm.package} that have servers of functions are launched'
+        arguments.append(('servers', 'true', about))
     for name, role in swarm.roles.items():
         about = f'how many of {name}: {limits(role)}; when empty {role.least}, or as many as named'
         arguments.append((f'{name}_count', '', about))
@@ -152,6 +155,7 @@ class _Launch:
                 PushRosNamespace(LaunchConfiguration('namespace')),
                 PushRosNamespace(f'{role}_{number}'),
                 *(self._behavior(role, number, node) for node in nodes),
+                *(self._server(role, number, name) for name in self._servers(role)),
                 *(self._watchdog(role, number, node) for node in nodes if node.watchdog),
                 *self._bringup(role, number),
             ]
@@ -190,6 +194,27 @@ class _Launch:
             respawn=self._is_on('respawn'),
             respawn_delay=self._delay,
             **({'namespace': ''} if self._swarm.is_managed else {}),
+            **self._common(),
+        )
+
+    def _servers(self, role):
+        servers = self._swarm.roles[role].servers
+        # A world has the servers of the functions.
+        return servers if servers and self._is_on('servers') and not self._is_on('world') else ()
+
+    def _server(self, role, number, name):
+        own = self._config / f'{role}_{number}.yaml'
+        parameters = {
+            'member': f'{role}[{number}]',
+            'use_sim_time': self._is_on('use_sim_time'),
+        }
+        return Node(
+            package=self._swarm.package,
+            executable=name,
+            name=name,
+            parameters=[parameters, *([str(own)] if own.exists() else [])],
+            respawn=self._is_on('respawn'),
+            respawn_delay=self._delay,
             **self._common(),
         )
 

@@ -11,7 +11,8 @@ class Role(NamedTuple):
     A role of a swarm, with `least` robots by default.
 
     It has `lower` to `upper` robots, without a limit if `upper` is None. `nodes` are those of a
-    robot, `bringup` is the launch file with those of its functions and components.
+    robot, `bringup` is the launch file with those of its functions and components, `servers` are
+    executables with servers of functions.
     """
 
     least: int
@@ -19,6 +20,7 @@ class Role(NamedTuple):
     upper: Any
     nodes: Any
     bringup: str = ''
+    servers: Any = ()
 
 
 class RobotError(Exception):
