@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl import driver
+from swarmdsl.analysis.checks import check_with_events
 from swarmdsl.base.diagnostics.collector import Level
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.settings import Settings
@@ -137,3 +139,38 @@ def test_typed_name_keeps_machines_and_memory(tmp_path: Path) -> None:
     gc.collect()
     # What remains of 60 edits is less than a tenth of what one of them would leave.
     assert len(gc.get_objects()) - before < 600
+
+
+DATA = "struct Data {{ x : {0} }}\n"
+READER = """\
+swarm event {0} : Data
+statemachine M {{ initial A; state A {{ on Start [event.x > 1] -> B; on Start -> A }} final B }}
+"""
+
+
+def test_machine_is_checked_once_for_each_meaning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    checked: list[object] = []
+
+    def counted(*given: object) -> None:
+        checked.extend(each for each in given if isinstance(each, StateMachine))
+        check_with_events(*given)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(driver.workspace, "check_with_events", counted)
+    file = tmp_path / "model.swarm"
+    file.write_text(DATA.format("float64") + READER.format("Start"), encoding="utf-8")
+    workspace = Workspace([file])
+
+    def after(name: str, type_: str = "float64") -> tuple[list[str], int]:
+        checked.clear()
+        workspace.update({file: DATA.format(type_) + READER.format(name)})
+        return [each.name for each in workspace.report], len(checked)
+
+    lost = ["unresolved-name"] * 2
+    assert after("Star") == (lost, 1)
+    assert after("Start") == ([], 0)
+    assert after("Star") == (lost, 0)
+    # What the event depends on is another one now.
+    assert after("Star", "string")[0] == lost
+    assert after("Start", "string") == (["bad-operand"], 1)

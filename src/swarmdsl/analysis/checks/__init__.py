@@ -120,6 +120,18 @@ STATE_MACHINE_PASSES: Sequence[Callable[[StateMachine, Context], None]] = (
     check_lossy_events,
 )
 
+NO_EVENT_PASSES = frozenset(
+    (
+        check_structure,
+        check_livelock,
+        check_activities,
+        check_undelayed_sends,
+        check_variables,
+        check_initialization,
+    )
+)
+"""Those of them that find the same, whatever the events are that a machine names."""
+
 COMMON_PASSES: Sequence[Callable[[Declaration, Context], None]] = (
     check_values,
     check_known,
@@ -164,13 +176,32 @@ def check_project(project: Project, context: Context) -> None:
 
 def check_declaration(file: File, declaration: Declaration, context: Context) -> None:
     """Run the passes over one declaration."""
-    check_names_inside(declaration, context.report, file.parsed.skipped_names)
+    check_with_events(file, declaration, context)
+    check_without_events(file, declaration, context)
+
+
+def check_with_events(file: File, declaration: Declaration, context: Context) -> None:
+    """Run the passes over one declaration that may look at the events which it names."""
     if declaration in file.parsed.incomplete:
         return
     if file.library:
         _check_in_library(file, declaration, context)
+    elif isinstance(declaration, StateMachine):
+        for run in STATE_MACHINE_PASSES:
+            if run not in NO_EVENT_PASSES:
+                run(declaration, context)
     else:
         _run(declaration, context)
+
+
+def check_without_events(file: File, declaration: Declaration, context: Context) -> None:
+    """Run the other passes, after those: a state machine has guards whose conditions they need."""
+    check_names_inside(declaration, context.report, file.parsed.skipped_names)
+    if isinstance(declaration, StateMachine) and not (
+        file.library or declaration in file.parsed.incomplete
+    ):
+        for run in (*COMMON_PASSES, *NO_EVENT_PASSES):
+            run(declaration, context)
 
 
 def _check_in_library(file: File, declaration: Declaration, context: Context) -> None:
@@ -194,6 +225,8 @@ __all__ = [
     "check_declaration",
     "check_optimization",
     "check_project",
+    "check_with_events",
+    "check_without_events",
     "make_context",
     "validate",
 ]

@@ -8,6 +8,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 from swarmdsl.analysis.resolve.scopes import FileScope
@@ -53,6 +54,7 @@ def other_outcome(name: str) -> str | None:
     return _OTHER_OUTCOMES.get(name.lower())
 
 
+@cache
 def misspelled_outcome(name: str) -> str | None:
     """Return the outcome of an activity that a name is nearly: `succeeded` for `suceeded`."""
     return closest(name, ("succeeded", "aborted", "preempted"), _LIKE_OUTCOME)

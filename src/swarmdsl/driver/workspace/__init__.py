@@ -12,9 +12,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from swarmdsl.analysis.checks import (
-    check_declaration,
     check_optimization,
     check_project,
+    check_with_events,
+    check_without_events,
     make_context,
     validate,
 )
@@ -37,6 +38,7 @@ from swarmdsl.driver.workspace.invalidation import (
 )
 from swarmdsl.driver.workspace.rebinding import rebind, rebinding
 from swarmdsl.driver.workspace.relink import link_outside
+from swarmdsl.driver.workspace.repeated_checks import RepeatedChecks
 from swarmdsl.project.libraries import imported_name
 from swarmdsl.project.loader import File, Project, expanded, load
 from swarmdsl.syntax.ast import Component, Member, StateMachine
@@ -249,7 +251,7 @@ class Workspace:
             return
         context = make_context(self.project, self._collector(), self._facts)
         linking.record_uses(stale, context.interfaces.declared)
-        self._check(stale | checked, context)
+        self._check(stale | checked, context, checked - stale)
         if self._exceeds_hint_limit():
             self._check_all()
 
@@ -273,19 +275,33 @@ class Workspace:
             if not fragments.isdisjoint(document.fragments):
                 document.join()
 
-    def _check(self, stale: set[Fragment], context: Context) -> None:
-        """Run the checks of the whole model, and those of the stale fragments."""
+    def _check(self, stale: set[Fragment], context: Context, rebound: set[Fragment]) -> None:
+        """Run the checks of the whole model, and those of the stale fragments.
+
+        In those that are `rebound`, nothing but events means something else.
+        """
         self._together = self._collector()
         check_project(self.project, context.reporting_to(self._together))
         before, self._reused = self._reused, context.facts.reused
         turned = (self._fragments.get(node.span.source) for node in before ^ self._reused)
-        stale = stale.union(fragment for fragment in turned if fragment is not None)
+        others = {fragment for fragment in turned if fragment is not None}
+        stale, rebound = stale | others, rebound - others
+        repeated = RepeatedChecks(self._fragments)
         for fragment in stale:
-            fragment.checked = self._collector()
+            known = repeated.recall(fragment) if fragment in rebound else None
+            fragment.checked = self._collector() if known is None else known
+            if known is not None:
+                continue
             of_fragment = context.reporting_to(fragment.checked)
+            if fragment not in rebound:
+                fragment.eventless = self._collector()
+                fragment.results = {}
+            without = context.reporting_to(fragment.eventless)
             for declaration in fragment.parsed.model.declarations:
                 reused = declaration in self._reused
-                check_declaration(fragment.file, declaration, of_fragment)
+                check_with_events(fragment.file, declaration, of_fragment)
+                if fragment not in rebound:
+                    check_without_events(fragment.file, declaration, without)
                 if not reused:
                     context.forget(declaration)
             for optimization in fragment.parsed.model.optimizations:
@@ -298,6 +314,7 @@ class Workspace:
                     *(self._fragments[each] for each in shown if each in self._fragments),
                 }
             )
+            repeated.keep(fragment)
         self._update_reported(stale)
 
     def _update_reported(self, fragments: set[Fragment]) -> None:
@@ -317,7 +334,7 @@ class Workspace:
             total = Tally()
             total.add(self._loaded.tally(name))
             for fragment in self._reported:
-                for report in (fragment.outside, fragment.inside, fragment.checked):
+                for report in fragment.reports():
                     total.add(report.tally(name))
             if not total.allows_hint:
                 return True

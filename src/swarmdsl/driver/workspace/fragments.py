@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -24,8 +24,9 @@ class Fragment:
 
     `uses` are the fragments that it depends on, `users` those that depend on it. It is
     `suppressed` if an unresolved name in it was not reported, because it may be declared in
-    unparsed text. A fragment is parsed again if it or one that it uses changes: a linked tree is
-    never linked again.
+    unparsed text. `eventless` are results of checks that look at no events, `checked` the others;
+    `results` are some of these for other meanings of the events (`repeated_checks.py`). A fragment
+    is parsed again if it or one that it uses changes: a linked tree is never linked again.
     """
 
     def __init__(self, source: Source, file: File, parser: ReportingParser, levels: Levels) -> None:
@@ -52,6 +53,8 @@ class Fragment:
         self.outside = Diagnostics(self.levels)
         self.inside = Diagnostics(self.levels)
         self.checked = Diagnostics(self.levels)
+        self.eventless = Diagnostics(self.levels)
+        self.results: dict[Hashable, Diagnostics] = {}
         self.runs = _NONE
         self.suppressed = False
         self.use(())
@@ -89,8 +92,12 @@ class Fragment:
 
     def found(self) -> Iterator[Diagnostic]:
         """Diagnostics of linking and checking."""
-        for report in (self.outside, self.inside, self.checked):
+        for report in self.reports():
             yield from report
+
+    def reports(self) -> tuple[Diagnostics, ...]:
+        """Return the collectors of linking and checking."""
+        return self.outside, self.inside, self.checked, self.eventless
 
     @property
     def noted(self) -> bool:

@@ -77,7 +77,7 @@ def rebinding(
             found.machines.add(fragment)
         elif mentions or not _is_settled(fragment):
             found.stale.add(fragment)
-        elif fragment in users or len(fragment.checked):
+        elif fragment in users or len(fragment.checked) or len(fragment.eventless):
             found.checked.add(fragment)
     return found
 
@@ -93,7 +93,7 @@ def rebind(
     removed = set(change.removed)
     changed = {fragment for fragment in found.machines if _rebind(fragment, scopes)}
     for fragment in found.machines:
-        nodes = (ref.target for _, ref in _event_references(fragment) if ref.target is not None)
+        nodes = (ref.target for _, ref in event_references(fragment) if ref.target is not None)
         shown = (label.span for each in fragment.outside for label in each.related)
         sources = {node.span.source for node in nodes} | {span.source for span in shown}
         behind = (fragments.get(source) for source in sources)
@@ -116,12 +116,12 @@ def rebind(
 def _rebind(fragment: Fragment, scopes: Scopes) -> bool:
     """Bind the events of a fragment again; return True if one is another one than before."""
     scope, report = scopes[fragment.file], Diagnostics(fragment.levels)
-    before = [ref.target for _, ref in _event_references(fragment)]
-    for node, ref in _event_references(fragment):
+    before = [ref.target for _, ref in event_references(fragment)]
+    for node, ref in event_references(fragment):
         ref.target = None
         bind_reference(node, ref, Event, scope, report)
     fragment.outside = report
-    after = [ref.target for _, ref in _event_references(fragment)]
+    after = [ref.target for _, ref in event_references(fragment)]
     return any(one is not other for one, other in zip(before, after, strict=True))
 
 
@@ -148,7 +148,7 @@ def _is_rebindable(fragment: Fragment, mention: re.Pattern[str] | None) -> bool:
         return False
     if not _is_settled(fragment, outside=False):
         return False
-    spans = [ref.span for _, ref in _event_references(fragment)]
+    spans = [ref.span for _, ref in event_references(fragment)]
     places = {(span.start, span.end) for span in spans}
     for found in fragment.outside:
         at = found.primary.span if found.primary is not None else None
@@ -163,12 +163,13 @@ def _is_rebindable(fragment: Fragment, mention: re.Pattern[str] | None) -> bool:
 def _is_settled(fragment: Fragment, *, outside: bool = True) -> bool:
     """Return True if nothing that was reported of a fragment depends on other names."""
     reports = (fragment.outside, fragment.inside) if outside else (fragment.inside,)
-    named = any(each.name in _ABOUT_NAMES for each in fragment.checked)
+    named = any(each.name in _ABOUT_NAMES for each in (*fragment.checked, *fragment.eventless))
     empty = not any(map(len, reports)) and not len(fragment.syntax)
     return empty and not named and not fragment.suppressed
 
 
-def _event_references(fragment: Fragment) -> Iterator[tuple[Node, Ref[Event]]]:
+def event_references(fragment: Fragment) -> Iterator[tuple[Node, Ref[Event]]]:
+    """Yield the references to events in a fragment, each with its node."""
     for declaration in fragment.parsed.model.declarations:
         for node, ref in references(declaration):
             if ref.kind == Event.__name__:
