@@ -38,7 +38,6 @@ HOLES = {
     "add `behavior` with": "which machine it runs is unknown",
     "add `connect ...": "the source is unknown",
     "add `on ": "where to react, and what comes then, is a decision",
-    "add `send ": "when to send is a decision",
     "let `Here` wait": "for what is a decision",
     "give it a duration": "how long is a decision",
     "write `after` and the time": "it takes the condition apart",

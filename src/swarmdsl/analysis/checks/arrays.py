@@ -62,13 +62,18 @@ def check_array_effect(effect: Append | Remove | Clear, typing: Typing) -> None:
                 help="it takes an array",
             )
     elif type_.size is not None and not type_.bounded:
+        bounded = f"{type_.element}[<={type_.size}]"
         typing.report.report(
             "bad-operand",
             effect.span,
             operator=word,
             operands=f"`{type_}`",
-            help=f"its length never changes; `{type_.element}[<={type_.size}]` has at most "
-            f"{type_.size} items",
+            help=Advice(
+                f"its length never changes; `{bounded}` has at most {type_.size} items",
+                "bound",
+                bounded,
+                effect.target.span.text,
+            ),
         )
     elif type_.size is None and isinstance(effect, Append):
         typing.report.report(

@@ -96,7 +96,11 @@ def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Contex
             trigger.span,
             where=where_of("swarm", names),
             name=trigger.event.name,
-            help=f"add `send {trigger.event.name}` to an effect, or declare it as `swarm operator`",
+            help=Advice(
+                f"add `send {trigger.event.name}` to an effect, or declare it as `swarm operator`",
+                "operator event",
+                str(trigger.event.name),
+            ),
         )
 
 

@@ -12,6 +12,7 @@ from swarmdsl.analysis.checks.events import behaviors_of, where_of
 from swarmdsl.analysis.event_topics import event_of, received_topic
 from swarmdsl.analysis.resolve.multiplicity import greatest
 from swarmdsl.analysis.resolve.states import regions
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.project.loader import Project
@@ -211,5 +212,10 @@ def _report(trigger: EventTrigger | MonitorTrigger, ignored: _Ignored, context: 
             *(Label(state.name.span, "it is ignored in this state") for state in shown),
             Label(place, f"{who} may send it at any time"),
         ),
-        help=f"add `on {name}` or `defer {name}` to these states, or to one around them",
+        help=Advice(
+            f"add `on {name}` or `defer {name}` to these states, or to one around them",
+            "insert",
+            f"defer {name}",
+            *(state.name.span for state in ignored.states),
+        ),
     )

@@ -22,6 +22,7 @@ from swarmdsl.syntax.ast import (
     DeferredEvent,
     Event,
     EventTrigger,
+    ExpressionTree,
     Fitness,
     Heartbeat,
     Property,
@@ -29,6 +30,7 @@ from swarmdsl.syntax.ast import (
     Send,
     StateMachine,
     Swarm,
+    Value,
     nodes_of,
 )
 from swarmdsl.syntax.types import DURATION
@@ -55,7 +57,7 @@ def check_heartbeat(swarm: Swarm, context: Context) -> None:
                 "early-loss",
                 item.timeout.span,
                 related=(Label(item.period.span, "the time between two heartbeats"),),
-                help="write a longer time, such as three heartbeats: one of them may be late",
+                help=_longer(item.period.tree),
             )
 
 
@@ -90,6 +92,13 @@ def check_membership(project: Project, context: Context) -> None:
                 "remove declaration",
             ),
         )
+
+
+def _longer(period: ExpressionTree | None) -> str:
+    text = "write a longer time, such as three heartbeats: one of them may be late"
+    if isinstance(period, Value) and period.unit and isinstance(period.value, (int, float)):
+        return Advice(text, "propose", f"{3 * period.value:g} {period.unit}")
+    return text
 
 
 def _awaited(machine: StateMachine) -> list[EventTrigger | DeferredEvent]:

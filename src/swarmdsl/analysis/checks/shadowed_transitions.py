@@ -199,7 +199,9 @@ def _report(item: Item, blockers: Sequence[Item], context: Context) -> None:
             Label(guards[0].span, message),
             *(Label(guard.span, "or this one") for guard in guards[1:]),
         ]
-        help_ = "change one of the guards, their order, or remove a transition"
+        help_ = Advice(
+            "change one of the guards, their order, or remove a transition", "remove transition"
+        )
     context.report.report("transition-never-fires", item.span, related=tuple(related), help=help_)
 
 

@@ -130,7 +130,9 @@ class TypeLinker:
     def _check_bound(self, ref: TypeRef) -> bool:
         """Return True for the valid bound of a string; report any other bound."""
         if ref.name not in ("string", "wstring"):
-            what, size, help_ = f"a `{ref.name}`", "a bound", "`[<=4]` is the bound of an array"
+            what, size = f"a `{ref.name}`", "a bound"
+            array = f"{ref.name}[{ref.bound}]"
+            help_ = Advice("`[<=4]` is the bound of an array", "propose", array)
         elif not ref.bound.startswith("<="):
             what, size, help_ = "a string", "such a bound", write(f"{ref.name}<={bound_of(ref)}")
         elif not is_size(bound_of(ref)):

@@ -233,11 +233,13 @@ class Typing:
         else:
             help_ = _bool_hint(tree, found) if expected == BOOL else None
             if found == DURATION and is_number(expected):
-                help_ = f"`seconds({tree.span.text})` is a number in `s`"
+                seconds = f"seconds({tree.span.text})"
+                help_ = Advice(f"`{seconds}` is a number in `s`", "propose", seconds)
             if expected == DURATION and isinstance(tree, Value) and tree.unit == "m":
                 help_ = f"`m` is metres: write `{tree.value} min`"
             elif expected == DURATION and has_dimension(unit_of(found)):
-                help_ = f"a duration in seconds: `1 s * ({tree.span.text} / 1 s)`"
+                product = f"1 s * ({tree.span.text} / 1 s)"
+                help_ = Advice(f"a duration in seconds: `{product}`", "propose", product)
             elif expected == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = Advice(
                     f"give it a unit: `{tree.span.text} s`", "add unit", f"{tree.span.text} s"

@@ -226,7 +226,13 @@ class Application:
         """Hint for a division of integers with other numbers."""
         if not all(known is None or is_number(known) for known in self.types):
             return self._duration_hint()
-        return "it divides integers: `floor(a / b)` divides real numbers and rounds down"
+        operands = self.tree.arguments if isinstance(self.tree, Call) else self.tree.operands
+        quotient = " / ".join(each.span.text for each in operands)
+        return Advice(
+            "it divides integers: `floor(a / b)` divides real numbers and rounds down",
+            "propose",
+            f"floor({quotient})",
+        )
 
     def _require(
         self, test: Callable[[Type], bool], hint: Callable[[], str | None] | None = None

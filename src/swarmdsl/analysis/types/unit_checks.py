@@ -117,7 +117,8 @@ def _help(tree: ExpressionTree, found: Unit | None, expected: Unit | None) -> st
     if expected is None and isinstance(tree, Value):
         return f"declare it with its unit, `in {found}`, or write a plain number"
     if expected is None:
-        return _without(tree, found)
+        divisor = unit_of_ros(found.dimension) if found is not None else None
+        return Advice(_without(tree, found), "propose", f"{_operand(tree)} / 1 {divisor or '%'}")
     if isinstance(tree, Value) and tree.unit:
         return Advice(f"write a number in `{expected}`", "other unit", str(expected))
     if found is None:

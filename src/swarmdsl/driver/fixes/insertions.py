@@ -236,6 +236,16 @@ def _of_swarm(event: Event | None) -> Iterator[Fix]:
         yield Fix(f"Declare `swarm event {event.name}`", (at,))
 
 
+def _operator(problem: Problem, name: str) -> Iterator[Fix]:
+    """Declare an event as one that a person sends."""
+    event = problem.named(name, Event)
+    if event is not None and not event.operator:
+        source, start, _ = event.span.absolute
+        at = source.text.rfind("event", start, event.name.span.absolute.start)
+        edit = (Span(source, at, at), "operator ")
+        yield Fix(f"Declare `swarm operator event {name}`", (edit,))
+
+
 def _reliable(problem: Problem, name: Span) -> Iterator[Fix]:
     event = problem.declared(name)
     for setting in event.delivery if isinstance(event, Event) else ():
@@ -251,9 +261,9 @@ def _delayed(problem: Problem) -> Iterator[Fix]:
             return
 
 
-def _bound(problem: Problem, type_: str) -> Iterator[Fix]:
+def _bound(problem: Problem, type_: str, name: str = "") -> Iterator[Fix]:
     for variable in problem.every(Variable):
-        if variable.name == problem.span.text:
+        if variable.name == (name or problem.span.text):
             yield replacing(variable.type.span.absolute, type_)
             return
 
@@ -293,6 +303,7 @@ RULES: Rules = {
     "import": _import,
     "insert": _into_all,
     "make plain": _no_regions,
+    "operator event": _operator,
     "reliable": _reliable,
     "replace part": _instead,
 }
