@@ -22,6 +22,7 @@ PACKAGES = {
     "states",
     "mavros": "MAVROS for ROS 2: mavros_msgs 2.12.0 of 2025-09-14",
     "slam_toolbox": "slam_toolbox 2.6.8 of Humble, of 2024-01-23: services of its maps",
+    "explore_lite": "explore_lite of ROS 2, of 2025-07-24: it hears a topic, and has no action",
     "sensors": "standard sensors of ROS: sensor_msgs, on the topics that most drivers use",
     "tf2": "frames and poses: tf2_msgs and geometry_msgs",
 }
