@@ -15,6 +15,9 @@ from swarmdsl.tools.diagram.measure import width
 from swarmdsl.tools.diagram.shapes import PORT, PSEUDO_STATES, Direction, port_text
 from swarmdsl.tools.diagram.text_blocks import Block
 
+_MAX_TRIED = 60
+"""Maximum number of nodes for which both directions of the whole are tried."""
+
 
 @dataclass(frozen=True, slots=True)
 class Box:
@@ -74,10 +77,10 @@ def lay_out(diagram: Diagram, direction: Direction | None = None) -> Picture:
         direction = "right" if diagram.kind == "internal" else "down"
     if direction is not None:
         return _picture(Compound(diagram, routes, uniform(diagram, direction)))
-    pictures = [
-        _picture(Compound(diagram, routes, directions))
-        for directions in choose_directions(diagram, routes)
-    ]
+    choices = list(choose_directions(diagram, routes))
+    if len(routes.nodes) > _MAX_TRIED:
+        choices = choices[:1]
+    pictures = [_picture(Compound(diagram, routes, directions)) for directions in choices]
     return min(pictures, key=lambda each: fitted_size(each.width, each.height))
 
 

@@ -10,22 +10,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from swarmdsl.codegen.diagram.graph import Diagram, Node
-from swarmdsl.tools.diagram.layout.border import Border
 from swarmdsl.tools.diagram.layout.cell_sides import END_GAP
 from swarmdsl.tools.diagram.layout.container_layout import ContainerLayout, along_across
-from swarmdsl.tools.diagram.layout.coordinates import LABEL_GAP
-from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes, Route
+from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.layered import layered
 from swarmdsl.tools.diagram.layout.layered_graph import Cell, Link, Placement, Point, Side
+from swarmdsl.tools.diagram.layout.level import PORT_LINE, Level
+from swarmdsl.tools.diagram.layout.level_orders import order_levels
 from swarmdsl.tools.diagram.layout.loops import Loop, loop_room
 from swarmdsl.tools.diagram.layout.regions import place_regions, stretch_regions
-from swarmdsl.tools.diagram.measure import width
+from swarmdsl.tools.diagram.layout.straightening import LABEL_GAP
 from swarmdsl.tools.diagram.shapes import (
-    PORT,
     PSEUDO_STATES,
     Direction,
     Shape,
-    port_text,
     resized,
     shape_of,
     with_indent,
@@ -37,8 +35,6 @@ _REGION_PADDING = 14
 _SIDES: tuple[Side, ...] = ("first", "last")
 _FROM_RULE, _FROM_ARROW = 5, 12
 """Distance of the end of an edge from a line, and from an arrow head inside."""
-_PORT_LINE = 16
-"""Space above and below the line to a port at the border; its name is above."""
 
 
 class Compound:
@@ -56,7 +52,18 @@ class Compound:
             if edge.label
         }
         self.layouts: dict[str, ContainerLayout] = {}
+        self.levels: dict[str, Level] = {}
+        self._make_levels(diagram.frame, directions[diagram.frame.id])
+        order_levels(diagram.frame, self.levels)
         self._lay_out(diagram.frame, directions[diagram.frame.id], 0)
+
+    def _make_levels(self, node: Node, around: Direction) -> None:
+        """Make the layered graphs of all containers; `around` is the direction outside."""
+        if node.nodes or node.kind == "frame":
+            direction = self.directions[node.id]
+            self.levels[node.id] = Level(node, direction, around, self.edge_routes, self.labels)
+            for child in node.nodes:
+                self._make_levels(child, direction)
 
     def _lay_out(self, node: Node, around: Direction, title: int) -> None:
         """Lay out the children of a node and then the node.
@@ -102,58 +109,23 @@ class Compound:
         self, node: Node, shape: Shape, around: Direction, title: int
     ) -> ContainerLayout:
         """Lay out the children of a container and add its header and padding."""
-        direction = self.directions[node.id]
-        cells = [self._cell(child, direction) for child in node.nodes]
-        index = {child.id: at for at, child in enumerate(node.nodes)}
-        borders: dict[tuple[int, Side], int] = {}
-        ports: dict[str, int] = {}
-        for port in node.ports:
-            ports[port.id] = len(cells)
-            at_border: Side = "last" if port.id in self.edge_routes.right_ports else "first"
-            length = width(port_text(port), "line") + PORT + 8
-            cells.append(Cell(length, 2 * _PORT_LINE, _PORT_LINE, _PORT_LINE, at_border))
-        links: list[Link] = []
-        numbers: list[int] = []
-        for number, leg in self.edge_routes.inner[node.id]:
-            route = self.edge_routes.routes[number]
-            _, source, target = route.legs[leg]
-            ends: list[int] = []
-            for end, port_id, side in (
-                (source, route.edge.source_port, route.entry(leg)),
-                (target, route.edge.target_port, route.exit(leg)),
-            ):
-                if end is not None:
-                    ends.append(index[end])
-                elif port_id is not None:
-                    ends.append(ports[port_id])
-                else:
-                    borders[number, side] = len(cells)
-                    ends.append(len(cells))
-                    cells.append(Cell(0, 0, 0, 0, side))
-            links.append(self._link(route, number, leg, ends[0], ends[1], cells, direction))
-            numbers.append(number)
-        # Regions fill their state unless an edge runs between them.
-        beside = node.kind == "parallel" and all(
-            leg != self.edge_routes.routes[number].main
-            for number, leg in self.edge_routes.inner[node.id]
-        )
-        border = Border(node.id, self.edge_routes, borders, direction != around)
-        if border.passes_header() and direction == "down" and not beside:
-            # Edges that enter at the top pass to the right of the name.
-            links, cells = _with_title(links, cells, title)
-            shift = 1
+        level = self.levels[node.id]
+        for at, child in enumerate(node.nodes):
+            self._size(level.cells[level.cell_of(at)], child, level.direction)
+        if level.titled:
+            level.cells[0].breadth = title - PADDING
+        for number, link in zip(level.numbers, level.links, strict=True):
+            self._fix_ends(level, number, link)
+        if level.beside:
+            placement = place_regions(level.cells, level.links)
         else:
-            shift = 0
-        pitch, before = (5, False) if direction == "down" else (3, True)
-        if beside:
-            placement = place_regions(cells, links)
-        else:
-            in_row = self.diagram.kind == "composition"
-            placement = layered(cells, links, pitch, before, in_row)
-        placement.cells = placement.cells[shift:]
-        return self._wrap(node, shape, around, title, placement, numbers, border, ports, beside)
+            level.place_ends()
+            placement = layered(level, self.diagram.kind == "composition")
+        placement.cells = placement.cells[level.titled :]
+        return self._wrap(level, shape, around, title, placement)
 
-    def _cell(self, child: Node, direction: Direction) -> Cell:
+    def _size(self, cell: Cell, child: Node, direction: Direction) -> None:
+        """Give a cell the size of its node."""
         inside = self.layouts[child.id]
         length, breadth = along_across(direction, inside.width, inside.height)
         if child.nodes:
@@ -166,8 +138,9 @@ class Compound:
             # Separate the edges of a pseudostate slightly.
             reach = 0 if child.kind == "initial" else (high - low) // 2 - 3
             low, high = (low + high) // 2 - reach, (low + high) // 2 + reach
-        barred = tuple(self._barred(child, inside, direction))
-        return Cell(length, breadth + inside.loops, low, high, barred=barred)
+        cell.length, cell.breadth = length, breadth + inside.loops
+        cell.low, cell.high = low, high
+        cell.barred = tuple(self._barred(child, inside, direction))
 
     def _barred(
         self, child: Node, inside: ContainerLayout, direction: Direction
@@ -180,39 +153,15 @@ class Compound:
         for at, side in inside.arrows:
             yield at - _FROM_ARROW, at + _FROM_ARROW, side
 
-    def _link(
-        self,
-        route: Route,
-        number: int,
-        leg: int,
-        source: int,
-        target: int,
-        cells: list[Cell],
-        direction: Direction,
-    ) -> Link:
-        _, source_id, target_id = route.legs[leg]
-        edge = route.edge
-        link = Link(source, target, route.flipped)
-        if cells[source].border is not None or cells[target].border is not None:
-            link.flipped = cells[source].border == "last" or cells[target].border == "first"
-        link.source_at = self._crossing(source_id, number, leg > 0, edge.source_port, direction)
+    def _fix_ends(self, level: Level, number: int, link: Link) -> None:
+        """Set the positions at which a link must end."""
+        route = self.edge_routes.routes[number]
+        leg = next(at for at, each in enumerate(route.legs) if each[0] == level.node.id)
+        _, source, target = route.legs[leg]
+        edge, way = route.edge, level.direction
+        link.source_at = self._crossing(source, number, leg > 0, edge.source_port, way)
         last = len(route.legs) - 1
-        link.target_at = self._crossing(target_id, number, leg < last, edge.target_port, direction)
-        if edge.source_port is not None and source_id is not None:
-            link.source_side = (
-                "last" if edge.source_port in self.edge_routes.right_ports else "first"
-            )
-        if edge.target_port is not None and target_id is not None:
-            link.target_side = (
-                "last" if edge.target_port in self.edge_routes.right_ports else "first"
-            )
-        block = self.labels.get(number)
-        # The label is beside the source, inside the container that the edge may leave.
-        if block is not None and leg == route.labelled:
-            link.label = along_across(direction, block.width, block.height)
-        if leg == route.labelled and (block is not None or edge.kind == "association"):
-            link.min_layers = 2
-        return link
+        link.target_at = self._crossing(target, number, leg < last, edge.target_port, way)
 
     def _crossing(
         self, node: str | None, number: int, crosses: bool, port: str | None, direction: Direction
@@ -228,19 +177,11 @@ class Compound:
         return inside.crossings[number] if crosses else None
 
     def _wrap(
-        self,
-        node: Node,
-        shape: Shape,
-        around: Direction,
-        title: int,
-        placement: Placement,
-        numbers: list[int],
-        border: Border,
-        ports: dict[str, int],
-        beside: bool,
+        self, level: Level, shape: Shape, around: Direction, title: int, placement: Placement
     ) -> ContainerLayout:
         """Put a layout into the box of its container."""
-        direction = self.directions[node.id]
+        node, direction, border = level.node, level.direction, level.border
+        ports, beside = level.ports, level.beside
         head = shape.block.height
         pad = 0 if beside else PADDING
         if node.kind == "region":
@@ -276,7 +217,9 @@ class Compound:
         if beside:
             regions = {child.id: self.layouts[child.id] for child in node.nodes}
             stretch_regions(inside, regions, length - before_along, self.edge_routes)
-        for number, way, label in zip(numbers, placement.routes, placement.labels, strict=True):
+        for number, way, label in zip(
+            level.numbers, placement.routes, placement.labels, strict=True
+        ):
             points = [moved(point) for point in way]
             if beside and (number, "last") in border.cells:
                 # Regions extend to the end.
@@ -300,13 +243,5 @@ class Compound:
         for port_id, cell in ports.items():
             across = moved(placement.cells[cell])[1]
             at_end = port_id in self.edge_routes.right_ports
-            inside.ports[port_id] = shown((length if at_end else 0, across + _PORT_LINE))
+            inside.ports[port_id] = shown((length if at_end else 0, across + PORT_LINE))
         return inside
-
-
-def _with_title(links: list[Link], cells: list[Cell], title: int) -> tuple[list[Link], list[Cell]]:
-    """Reserve space for a title in the first layer."""
-    for link in links:
-        link.source += 1
-        link.target += 1
-    return links, [Cell(0, title - PADDING, 0, 0, title=True), *cells]

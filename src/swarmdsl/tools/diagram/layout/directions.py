@@ -49,7 +49,7 @@ def choose_directions(diagram: Diagram, routes: EdgeRoutes) -> Iterator[Directio
     for direction in ("down", "right"):
         start: Direction = "down" if direction == "down" else "right"
         directions = uniform(diagram, start)
-        least = _search(diagram, sizes, directions, _moves(diagram, containers))
+        least = _search(diagram, routes, sizes, directions, _moves(diagram, containers))
         found.append((least, len(found), directions))
     yield from (directions for _, _, directions in sorted(found, key=lambda each: each[:2]))
 
@@ -75,7 +75,11 @@ def _moves(diagram: Diagram, containers: Sequence[Node]) -> list[list[str]]:
 
 
 def _search(
-    diagram: Diagram, sizes: Sizes, directions: Directions, moves: Sequence[Sequence[str]]
+    diagram: Diagram,
+    routes: EdgeRoutes,
+    sizes: Sizes,
+    directions: Directions,
+    moves: Sequence[Sequence[str]],
 ) -> float:
     """Turn what makes the diagram smaller on its page; return its size then."""
 
@@ -87,9 +91,21 @@ def _search(
         before = least
         for move in moves:
             turned = directions | {each: _OTHER[directions[each]] for each in move}
+            _align(diagram.frame, turned, routes)
             if (found := size(turned)) < least * (1 - _LEAST_GAIN):
                 least = found
                 directions.update(turned)
         if least == before:
             return least
     return least
+
+
+def _align(node: Node, directions: Directions, routes: EdgeRoutes) -> None:
+    """Give states with regions that edges enter or leave the direction around them.
+
+    Regions fill their state, so that there is no room in which such an edge could turn.
+    """
+    for child in node.nodes:
+        if child.kind == "parallel" and routes.inner[child.id]:
+            directions[child.id] = directions[node.id]
+        _align(child, directions, routes)

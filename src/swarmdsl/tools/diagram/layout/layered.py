@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from swarmdsl.tools.diagram.layout.coordinates import assign_coordinates
-from swarmdsl.tools.diagram.layout.layered_graph import Cell, Link, Placement
-from swarmdsl.tools.diagram.layout.layering import make_layers
+from swarmdsl.tools.diagram.layout.layered_graph import Placement
+from swarmdsl.tools.diagram.layout.level import Level
 from swarmdsl.tools.diagram.layout.ordering import order
 from swarmdsl.tools.diagram.layout.routing import route
 
 
-def layered(
-    cells: Sequence[Cell], links: Sequence[Link], pitch: int, before: bool, in_row: bool
-) -> Placement:
-    """Lay out cells and links; `pitch` is the distance of a label from its line.
+def layered(level: Level, in_row: bool) -> Placement:
+    """Lay out the cells and links of a container whose cells have their sizes.
 
-    `before` selects the default side of labels. With `in_row`, the cells of a layer are aligned at
-    their start.
+    With `in_row`, the cells of a layer are aligned at their start.
     """
-    layers = make_layers(cells, links, pitch)
-    order(layers)
-    assign_coordinates(layers, cells, links, pitch, before)
-    return route(layers, cells, links, pitch, in_row)
+    if not level.is_ordered:
+        order(level.layers)
+    assign_coordinates(level.layers, level.cells, level.links, level.pitch, level.label_before)
+    return route(level.layers, level.cells, level.links, level.pitch, in_row)

@@ -8,6 +8,7 @@ Simple and Efficient Bilayer Cross Counting (2002).
 from __future__ import annotations
 
 from bisect import bisect_left, insort
+from collections.abc import Sequence
 
 from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Vertex
 
@@ -22,8 +23,14 @@ Neighbours = dict[int, list[tuple[float, Vertex, float]]]
 """Neighbors by vertex id, with the relative positions of both ends of the edge."""
 
 
-def order(layers: Layers) -> None:
-    """Order and number the vertices of each layer."""
+def order(
+    layers: Layers, first: Sequence[Vertex] = (), last: Sequence[Vertex] = (), again: bool = False
+) -> int:
+    """Order and number the vertices of each layer; return the number of crossings.
+
+    `first` and `last` are vertices at the border in the order that they have outside, which counts
+    as a layer before and after all others. With `again`, the present order is improved.
+    """
     before: Neighbours = {}
     after: Neighbours = {}
     for segment in layers.segments:
@@ -35,12 +42,18 @@ def order(layers: Layers) -> None:
         above, below = _relative_position(upper), _relative_position(lower)
         after.setdefault(id(upper.vertex), []).append((above, lower.vertex, below))
         before.setdefault(id(lower.vertex), []).append((below, upper.vertex, above))
-    _initial_order(layers, before)
+    if not again:
+        _initial_order(layers, before)
+    outer = [_outer_layer(first), _outer_layer(last)]
+    for place, vertex in enumerate(first):
+        before[id(vertex)] = [(0.5, outer[0][place], 0.5)]
+        after[id(outer[0][place])] = [(0.5, vertex, 0.5)]
+    for place, vertex in enumerate(last):
+        after[id(vertex)] = [(0.5, outer[1][place], 0.5)]
+    counted = [outer[0], *layers.layers]
     count = sum(map(len, layers.layers))
     sweeps = min(_SWEEPS, _MAX_SORTED // max(count, 1))
-    if not sweeps:
-        return
-    best, least = [list(layer) for layer in layers.layers], _crossings(layers, after)
+    best, least = [list(layer) for layer in layers.layers], _crossings(counted, after)
     small = count <= _MAX_SWAPPED
     since = 0
     for sweep in range(sweeps):
@@ -48,19 +61,25 @@ def order(layers: Layers) -> None:
             break
         since += 1
         if sweep % 2 == 0:
-            for layer in layers.layers[1:]:
+            for layer in layers.layers[not first :]:
                 _sort(layer, before, sweep % 4 >= 2)
         else:
-            for layer in reversed(layers.layers[:-1]):
+            for layer in reversed(layers.layers if last else layers.layers[:-1]):
                 _sort(layer, after, sweep % 4 >= 2)
         if small:
             _swap_neighbours(layers, before, after)
-        crossings = _crossings(layers, after)
+        crossings = _crossings([outer[0], *layers.layers], after)
         if crossings < least:
             best, least, since = [list(layer) for layer in layers.layers], crossings, 0
     layers.layers[:] = best
     for layer in layers.layers:
         _number(layer)
+    return least
+
+
+def _outer_layer(inner: Sequence[Vertex]) -> list[Vertex]:
+    """Return the ends outside of edges at the border, in order."""
+    return [Vertex(0, 0, -1, order=place) for place in range(len(inner))]
 
 
 def _initial_order(layers: Layers, before: Neighbours) -> None:
@@ -122,27 +141,39 @@ def _sort(
 
 def _swap_neighbours(layers: Layers, before: Neighbours, after: Neighbours) -> None:
     """Swap adjacent vertices as long as that removes crossings."""
+    count = len(layers.layers)
+    changed = set(range(count))
     for _ in range(_ROUNDS):
-        better = False
-        for layer in layers.layers:
-            # The adjacent layers do not change meanwhile.
-            places = [
-                {
-                    id(vertex): [
-                        other.order + part for _, other, part in neighbours.get(id(vertex), ())
-                    ]
-                    for vertex in layer
-                }
-                for neighbours in (before, after)
-            ]
-            for place in range(len(layer) - 1):
-                one, other = layer[place], layer[place + 1]
-                if sum(_gain(beside[id(one)], beside[id(other)]) for beside in places) > 0:
-                    layer[place], layer[place + 1] = other, one
-                    one.order, other.order = place + 1, place
-                    better = True
-        if not better:
+        # A layer stays as it is until one beside it changes.
+        looked_at = sorted({at + by for at in changed for by in (-1, 0, 1)})
+        changed.clear()
+        for at in looked_at:
+            if 0 <= at < count and _swap_in(layers.layers[at], before, after):
+                changed.add(at)
+        if not changed:
             return
+
+
+def _swap_in(layer: list[Vertex], before: Neighbours, after: Neighbours) -> bool:
+    """Swap adjacent vertices of a layer; return True if one was better."""
+    # The adjacent layers do not change meanwhile.
+    places = [
+        [
+            [other.order + part for _, other, part in neighbours.get(id(vertex), ())]
+            for vertex in layer
+        ]
+        for neighbours in (before, after)
+    ]
+    better = False
+    for place in range(len(layer) - 1):
+        if sum(_gain(beside[place], beside[place + 1]) for beside in places) > 0:
+            one, other = layer[place], layer[place + 1]
+            layer[place], layer[place + 1] = other, one
+            one.order, other.order = place + 1, place
+            for beside in places:
+                beside[place], beside[place + 1] = beside[place + 1], beside[place]
+            better = True
+    return better
 
 
 def _gain(ones: list[float], others: list[float]) -> int:
@@ -150,9 +181,9 @@ def _gain(ones: list[float], others: list[float]) -> int:
     return sum((a > b) - (a < b) for a in ones for b in others)
 
 
-def _crossings(layers: Layers, after: Neighbours) -> int:
+def _crossings(layers: Sequence[Sequence[Vertex]], after: Neighbours) -> int:
     total = 0
-    for layer in layers.layers:
+    for layer in layers:
         pairs = sorted(
             (vertex.order + part, other.order + end)
             for vertex in layer

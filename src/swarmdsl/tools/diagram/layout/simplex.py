@@ -55,6 +55,7 @@ class _Solver:
         self.count = count
         self.tail = [edge[0] for edge in edges]
         self.head = [edge[1] for edge in edges]
+        self.both = [edge[0] + edge[1] for edge in edges]
         self.length = [edge[2] for edge in edges]
         self.weight = [edge[3] for edge in edges]
         self.incident: list[list[int]] = [[] for _ in range(count)]
@@ -153,7 +154,7 @@ class _Solver:
 
     def number(self, root: int, parent: int, low: int) -> int:
         """Assign preorder numbers to a subtree; return its size."""
-        tail, head, tree, parents = self.tail, self.head, self.tree, self.parent
+        both, tree, parents = self.both, self.tree, self.parent
         lows, lasts = self.low, self.last
         parents[root] = parent
         order = []
@@ -167,7 +168,7 @@ class _Solver:
             up = parents[node]
             for edge in tree[node]:
                 if edge != up:
-                    child = tail[edge] if head[edge] == node else head[edge]
+                    child = both[edge] - node
                     parents[child] = edge
                     stack.append(child)
         order.reverse()
@@ -175,7 +176,7 @@ class _Solver:
         lasts[root] = number - 1
         for node in order:
             up = parents[node]
-            before = tail[up] if head[up] == node else head[up]
+            before = both[up] - node
             if lasts[node] > lasts[before]:
                 lasts[before] = lasts[node]
         return number - low
@@ -235,7 +236,7 @@ class _Solver:
         while stack:
             here = stack.pop()
             for edge in self.incident[here]:
-                other = self.head[edge] if self.tail[edge] == here else self.tail[edge]
+                other = self.both[edge] - here
                 if low <= numbers[other] <= last:
                     if self.in_tree[edge] and self.parent[other] == edge:
                         stack.append(other)
@@ -273,8 +274,7 @@ class _Solver:
             self.rank[here] += delta
             for edge in self.tree[here]:
                 if edge != self.parent[here]:
-                    other = self.head[edge] if self.tail[edge] == here else self.tail[edge]
-                    stack.append(other)
+                    stack.append(self.both[edge] - here)
 
     def update(self, start: int, goal: int, cut: int, forward: bool) -> int:
         """Correct cut values from a node up to the common ancestor with `goal`."""

@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.codegen.diagram.graph import Diagram, Node
 from swarmdsl.tools.diagram.layout.container_layout import along_across
-from swarmdsl.tools.diagram.layout.coordinates import LABEL_GAP, LINE_GAP, NODE_GAP
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
-from swarmdsl.tools.diagram.layout.layered_graph import Side
 from swarmdsl.tools.diagram.layout.routing import TRACK
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
+from swarmdsl.tools.diagram.layout.straightening import LABEL_GAP, LINE_GAP, NODE_GAP
 from swarmdsl.tools.diagram.shapes import Direction, Shape, shape_of
 from swarmdsl.tools.diagram.text_blocks import label_block
 
@@ -42,36 +41,42 @@ class Sizes:
         self._layers: dict[str, list[_Layer]] = {}
         self._shapes: dict[str, Shape] = {}
         self._turning: dict[str, int] = {}
-        self._known: dict[tuple[str, Direction, Direction, tuple[Size, ...]], Size] = {}
+        self._containers: dict[str, tuple[str, ...]] = {}
+        self._known: dict[tuple[str, Direction, tuple[Direction, ...]], Size] = {}
 
     def of(self, frame: Node, directions: Mapping[str, Direction]) -> Size:
         """Width and height of the diagram."""
         return self._size(frame, directions[frame.id], directions)
 
     def _size(self, node: Node, around: Direction, directions: Mapping[str, Direction]) -> Size:
-        shape = self._shapes.get(node.id)
-        if shape is None:
-            shape = self._shapes[node.id] = shape_of(node, "down", self._routes.right_ports)
         if not node.nodes:
+            shape = self._shape(node)
             return shape.width, shape.height
-        direction = directions[node.id]
-        inner = tuple(self._size(child, direction, directions) for child in node.nodes)
-        key = (node.id, direction, around, inner)
+        turned = tuple(directions[each] for each in self._inside(node))
+        key = (node.id, around, turned)
         if key not in self._known:
-            self._known[key] = self._container(node, shape, direction, around, inner)
+            direction = directions[node.id]
+            inner = {child.id: self._size(child, direction, directions) for child in node.nodes}
+            self._known[key] = self._container(node, direction, around, inner)
         return self._known[key]
 
+    def _shape(self, node: Node) -> Shape:
+        if node.id not in self._shapes:
+            self._shapes[node.id] = shape_of(node, "down", self._routes.right_ports)
+        return self._shapes[node.id]
+
+    def _inside(self, node: Node) -> tuple[str, ...]:
+        """Return the containers in a node, from itself down."""
+        if node.id not in self._containers:
+            self._containers[node.id] = tuple(each.id for each in node.walk() if each.nodes)
+        return self._containers[node.id]
+
     def _container(
-        self,
-        node: Node,
-        shape: Shape,
-        direction: Direction,
-        around: Direction,
-        inner: tuple[Size, ...],
+        self, node: Node, direction: Direction, around: Direction, sizes: Mapping[str, Size]
     ) -> Size:
         if node.id not in self._layers:
             self._layers[node.id] = self._layered(node)
-        sizes = dict(zip((child.id for child in node.nodes), inner, strict=True))
+        shape = self._shape(node)
         layers = self._layers[node.id]
         if node.kind == "parallel":
             layers = [_Layer(list(node.nodes))]
@@ -117,12 +122,12 @@ class Sizes:
         turning = 0
         for route, leg, source, target, label in legs:
             turning += source is None or target is None
-            start, out = self._end(source, route.entry(leg), index, ranks, len(layers))
-            stop, into = self._end(target, route.exit(leg), index, ranks, len(layers))
-            if source is not None:
-                start += extra
-            if target is not None:
-                stop += extra
+            start = ranks[index[source]] + extra if source is not None else None
+            stop = ranks[index[target]] + extra if target is not None else None
+            if start is None:
+                start = -1 if route.entry(leg) == "first" else len(layers)
+            if stop is None:
+                stop = -1 if route.exit(leg) == "first" else len(layers)
             low, high = min(start, stop), max(start, stop)
             for at in range(max(low, 0), min(high, len(layers))):
                 layers[at].segments += 1
@@ -131,14 +136,5 @@ class Sizes:
             if label is not None:
                 at = start + (1 if stop > start else -1)
                 layers[min(max(at, 0), len(layers) - 1)].labels.append(label)
-            del out, into
         self._turning[node.id] = turning
         return [layer for layer in layers if layer.children or layer.labels]
-
-    @staticmethod
-    def _end(
-        node: str | None, side: Side, index: dict[str, int], ranks: list[int], count: int
-    ) -> tuple[int, bool]:
-        if node is not None:
-            return ranks[index[node]], True
-        return (-1 if side == "first" else count), False
