@@ -20,8 +20,8 @@ ASPECT = 1.6
 """Preferred ratio of width to height."""
 _LEAST_GAIN = 0.03
 """Share of its size that a diagram must lose for a turn: small edits then rarely turn something."""
-_MAX_SEARCHED = 400
-"""Maximum number of nodes for which single containers are turned."""
+_MAX_SEARCHED = 60
+"""Maximum number of containers for which single ones are turned, not only whole levels."""
 _ROUNDS = 4
 _OTHER: dict[Direction, Direction] = {"down": "right", "right": "down"}
 
@@ -67,8 +67,9 @@ def _moves(diagram: Diagram, containers: Sequence[Node]) -> list[list[str]]:
                 walk(child, depth + 1)
 
     walk(diagram.frame, 0)
-    moves = [*levels, *([node.id] for node in containers[1:])]
-    if len(containers) < _MAX_SEARCHED:
+    moves = levels
+    if len(containers) <= _MAX_SEARCHED:
+        moves += ([node.id] for node in containers[1:])
         moves += ([each.id for each in node.nodes if each.nodes] for node in containers[1:])
     # From the level at which a turn changes most to single containers.
     return [move for at, move in enumerate(moves) if move and move not in moves[:at]]

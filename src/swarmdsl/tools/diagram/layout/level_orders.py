@@ -16,6 +16,8 @@ from swarmdsl.tools.diagram.layout.level import Level
 from swarmdsl.tools.diagram.layout.ordering import order
 
 _ROUNDS = 3
+_MAX_SWEPT = 2_000
+"""Maximum number of vertices for which levels are ordered again."""
 _SCALE = 1000
 """Extent of a side on which crossings have their places before they have coordinates."""
 
@@ -33,7 +35,8 @@ def order_levels(frame: Node, levels: Mapping[str, Level]) -> None:
     orders = _Orders(nested)
     orders.inside_out({})
     least, best = orders.crossings(), orders.taken()
-    for _ in range(_ROUNDS):
+    count = sum(len(layer) for level in nested for layer in level.layers.layers)
+    for _ in range(_ROUNDS if count <= _MAX_SWEPT else 0):
         if not least:
             break
         orders.outside_in()

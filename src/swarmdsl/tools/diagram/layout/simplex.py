@@ -66,27 +66,29 @@ class _Solver:
         self.in_tree = [False] * len(edges)
         self.tree: list[list[int]] = [[] for _ in range(count)]
         self.cut = [0] * len(edges)
-        # For each node of the rooted tree: the edge to its parent, its preorder number, and the
-        # highest number in its subtree.
+        # For each node of the rooted tree: the edge to its parent, and its depth.
         self.parent = [-1] * count
-        self.low = [0] * count
-        self.last = [0] * count
+        self.depth = [0] * count
+        # The nodes below the edge that leaves the tree have the latest mark.
+        self.mark = [0] * count
+        self.marks = 0
 
     def solve(self) -> None:
         """Improve numbers that satisfy the constraints."""
         self.span()
-        self.number(self.count - 1, -1, 1)
-        self.cut_values()
+        self.cut_values(self.root())
         members = [edge for edge, inside in enumerate(self.in_tree) if inside]
         work, at = _MAX_STEPS, 0
         while work > 0:
             leaving, at = self.leaving(members, at)
             if leaving is None:
                 break
-            entering = self.entering(members[leaving])
+            moved = self.moved(members[leaving])
+            entering = self.entering(members[leaving], moved)
             if entering is None:
                 break
-            work -= self.exchange(members[leaving], entering) + len(members) // 4
+            self.exchange(members[leaving], entering, moved)
+            work -= 2 * len(moved) + len(members) // 4
             members[leaving] = entering
         self.balance(members)
 
@@ -152,39 +154,22 @@ class _Solver:
             joined = join(best)
             heappush(heap, (len(members[joined]), joined))
 
-    def number(self, root: int, parent: int, low: int) -> int:
-        """Assign preorder numbers to a subtree; return its size."""
-        both, tree, parents = self.both, self.tree, self.parent
-        lows, lasts = self.low, self.last
-        parents[root] = parent
-        order = []
-        stack = [root]
-        number = low
-        while stack:
-            node = stack.pop()
-            order.append(node)
-            lows[node] = lasts[node] = number
-            number += 1
-            up = parents[node]
-            for edge in tree[node]:
+    def root(self) -> list[int]:
+        """Direct the tree away from the last node; return its nodes, each after its parent."""
+        order = [self.count - 1]
+        for node in order:
+            up = self.parent[node]
+            for edge in self.tree[node]:
                 if edge != up:
-                    child = both[edge] - node
-                    parents[child] = edge
-                    stack.append(child)
-        order.reverse()
-        order.pop()  # the highest number below the root is known
-        lasts[root] = number - 1
-        for node in order:
-            up = parents[node]
-            before = both[up] - node
-            if lasts[node] > lasts[before]:
-                lasts[before] = lasts[node]
-        return number - low
+                    child = self.both[edge] - node
+                    self.parent[child] = edge
+                    self.depth[child] = self.depth[node] + 1
+                    order.append(child)
+        return order
 
-    def cut_values(self) -> None:
+    def cut_values(self, order: Sequence[int]) -> None:
         """Compute the cut values of all tree edges from the leaves to the root."""
-        order = sorted(range(self.count), key=self.low.__getitem__, reverse=True)
-        for node in order:
+        for node in reversed(order):
             if self.parent[node] >= 0:
                 self.cut[self.parent[node]] = self.cut_value(node)
 
@@ -224,23 +209,33 @@ class _Solver:
         tail, head = self.tail[edge], self.head[edge]
         return tail if self.parent[tail] == edge else head
 
-    def entering(self, leaving: int) -> int | None:
+    def moved(self, leaving: int) -> list[int]:
+        """Mark and return the nodes below a tree edge."""
+        self.marks += 1
+        mark, marks, parent, both = self.mark, self.marks, self.parent, self.both
+        found = [self.below(leaving)]
+        mark[found[0]] = marks
+        for node in found:
+            up = parent[node]
+            for edge in self.tree[node]:
+                if edge != up:
+                    child = both[edge] - node
+                    mark[child] = marks
+                    found.append(child)
+        return found
+
+    def entering(self, leaving: int, moved: Sequence[int]) -> int | None:
         """Non-tree edge with minimum slack that reconnects the tree the other way round."""
-        node = self.below(leaving)
-        low, last = self.low[node], self.last[node]
         # `leaving` may become longer until an edge in the other direction is tight.
-        outward = self.head[leaving] == node
+        outward = self.head[leaving] == moved[0]
+        ends = self.tail if outward else self.head
         best, least = None, 0
-        stack = [node]
-        numbers = self.low
-        while stack:
-            here = stack.pop()
-            for edge in self.incident[here]:
-                other = self.both[edge] - here
-                if low <= numbers[other] <= last:
-                    if self.in_tree[edge] and self.parent[other] == edge:
-                        stack.append(other)
-                elif (self.tail[edge] == here) == outward and not self.in_tree[edge]:
+        mark, marks, both = self.mark, self.marks, self.both
+        for node in moved:
+            for edge in self.incident[node]:
+                if ends[edge] == node and mark[both[edge] - node] != marks:
+                    if self.in_tree[edge]:
+                        continue
                     slack = self.slack(edge)
                     if best is None or slack < least:
                         best, least = edge, slack
@@ -248,43 +243,53 @@ class _Solver:
                             return best
         return best
 
-    def exchange(self, leaving: int, entering: int) -> int:
-        """Replace a tree edge; return the number of nodes visited."""
-        node = self.below(leaving)
-        low, last = self.low[node], self.last[node]
+    def exchange(self, leaving: int, entering: int, moved: Sequence[int]) -> None:
+        """Replace a tree edge, below which nodes have moved."""
         slack = self.slack(entering)
+        inside = self.mark[self.head[entering]] == self.marks
         if slack:
-            inside = low <= self.low[self.head[entering]] <= last
-            self.shift(node, -slack if inside else slack)
+            self.shift(moved, -slack if inside else slack)
         cut = self.cut[leaving]
-        top = self.update(self.tail[entering], self.head[entering], cut, True)
-        self.update(self.head[entering], self.tail[entering], cut, False)
+        self.update(self.tail[entering], self.head[entering], cut)
         self.cut[entering], self.cut[leaving] = -cut, 0
         self.in_tree[leaving], self.in_tree[entering] = False, True
         for edge, change in ((leaving, list.remove), (entering, list.append)):
             change(self.tree[self.tail[edge]], edge)
             change(self.tree[self.head[edge]], edge)
-        return self.number(top, self.parent[top], self.low[top]) + last - low
+        self.hang(self.head[entering] if inside else self.tail[entering], entering)
 
-    def shift(self, node: int, delta: int) -> None:
-        """Move a subtree."""
-        stack = [node]
-        while stack:
-            here = stack.pop()
-            self.rank[here] += delta
-            for edge in self.tree[here]:
-                if edge != self.parent[here]:
-                    stack.append(self.both[edge] - here)
+    def hang(self, top: int, edge: int) -> None:
+        """Direct a part of the tree away from its new top, below an edge."""
+        parent, depth, both = self.parent, self.depth, self.both
+        parent[top] = edge
+        depth[top] = depth[both[edge] - top] + 1
+        part = [top]
+        for node in part:
+            up, level = parent[node], depth[node] + 1
+            for each in self.tree[node]:
+                if each != up:
+                    child = both[each] - node
+                    parent[child] = each
+                    depth[child] = level
+                    part.append(child)
 
-    def update(self, start: int, goal: int, cut: int, forward: bool) -> int:
-        """Correct cut values from a node up to the common ancestor with `goal`."""
-        node, target = start, self.low[goal]
-        while not self.low[node] <= target <= self.last[node]:
-            edge = self.parent[node]
-            away = self.tail[edge] == node
-            self.cut[edge] += cut if away == forward else -cut
-            node = self.head[edge] if away else self.tail[edge]
-        return node
+    def shift(self, nodes: Sequence[int], delta: int) -> None:
+        """Move nodes."""
+        for node in nodes:
+            self.rank[node] += delta
+
+    def update(self, one: int, other: int, cut: int) -> None:
+        """Correct cut values on the path between the ends of a new edge, up to where they meet."""
+        parent, depth = self.parent, self.depth
+        while one != other:
+            if depth[one] >= depth[other]:
+                edge = parent[one]
+                self.cut[edge] += cut if self.tail[edge] == one else -cut
+                one = self.both[edge] - one
+            else:
+                edge = parent[other]
+                self.cut[edge] += -cut if self.tail[edge] == other else cut
+                other = self.both[edge] - other
 
     def balance(self, members: list[int]) -> None:
         """Center nodes that can move at no cost."""
@@ -293,12 +298,12 @@ class _Solver:
             if work <= 0:
                 return
             if self.cut[edge] == 0 and self.weight[edge] + self.length[edge]:
-                entering = self.entering(edge)
+                moved = self.moved(edge)
+                entering = self.entering(edge, moved)
                 if entering is None or (slack := self.slack(entering)) < 2:
                     continue
-                node = self.below(edge)
-                inside = self.low[node] <= self.low[self.head[entering]] <= self.last[node]
-                self.shift(node, -(slack // 2) if inside else slack // 2)
+                inside = self.mark[self.head[entering]] == self.marks
+                self.shift(moved, -(slack // 2) if inside else slack // 2)
                 # The tree is no longer tight there, so this edge must not be used again.
                 self.cut[edge] = 1
-                work -= self.last[node] - self.low[node] + 1
+                work -= len(moved)
