@@ -10,7 +10,8 @@ from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 
 TARGET = "ros2"
 _MODULES = (
-    *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "identity", "members"),
+    *("alarms", "callbacks", "container", "diagnostics", "engine", "functions", "host"),
+    *("identity", "members"),
     *(
         "launching",
         "lease",

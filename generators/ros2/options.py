@@ -36,3 +36,10 @@ class Options(PackageOptions):
     peers: str = peers_option()
     domain: int = domain_option()
     lease: int = lease_option()
+
+
+@dataclass(frozen=True)
+class NodeOptions(Options):
+    """The options of target `ros2`, whose nodes need no library that has one machine a process."""
+
+    composed: bool = option(False, "launch the robots of a computer in one process")

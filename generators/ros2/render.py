@@ -18,9 +18,9 @@ from .launch import configuration
 from .monitors import WatchedSwarm
 from .names import TARGET
 from .network_files import network_files
-from .options import Options
+from .options import NodeOptions, Options
 from .served import MODULES
-from .view import MachineView, PackageView, package_view
+from .view import MachineView, PackageView, Variant, package_view
 
 _RUNTIME = Path(__file__).parent / "runtime"
 _MODULES = (
@@ -38,14 +38,16 @@ _MODULES = (
 )
 _OF_LAUNCHES = ("launching", "robots")
 _OF_WATCHDOGS = ("lease", "watchdog")
+_OF_COMPOSED = ("container",)
 _OF_MONITORS = (
     *("robot_lines", "swarm_measures", "swarm_monitor", "swarm_verdicts", "swarm_watch"),
 )
 
 
-def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
+def emit(system: System, options: NodeOptions, report: Diagnostics) -> list[OutputFile]:
     """Return the files of the package with the behaviour, and of interface packages."""
-    package = package_view(system, options, report)
+    variant = Variant(is_composed=options.composed)
+    package = package_view(system, options, report, variant)
     if package is None:
         return []
     interfaces = [interface_files(each, options, report) for each in package.interfaces]
@@ -122,8 +124,9 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
     if package.launches:
         text = _fill("package/launch/robot.launch.py", header=head, **values)
         yield OutputFile(f"{root}/launch/robot.launch.py", text)
-        more = _OF_WATCHDOGS if package.has_watchdogs else ()
-        for module in (*_OF_LAUNCHES, *more):
+        watching = _OF_WATCHDOGS if package.has_watchdogs else ()
+        composing = _OF_COMPOSED if package.variant.is_composed else ()
+        for module in (*_OF_LAUNCHES, *watching, *composing):
             text = runtime_source(_RUNTIME / f"{module}.py", head)
             yield OutputFile(f"{root}/{root}/{module}.py", text)
         yield from _started(package, options, values, head)

@@ -71,12 +71,14 @@ class Variant:
     """Differences in the package of a target that extends target `ros2`.
 
     `host` is the module with the `Host` of the node. The executable of a machine is in the module
-    of the machine with the `suffix`. `depends` are further dependencies with their tags, `folders`
+    of the machine with the `suffix`. With `is_composed` one process can have the nodes of many
+    robots. `depends` are further dependencies with their tags, `folders`
     further installed folders with a pattern of their files.
     """
 
     host: str = "host"
     suffix: str = ""
+    is_composed: bool = False
     depends: tuple[tuple[str, str], ...] = ()
     folders: tuple[tuple[str, str], ...] = ()
 

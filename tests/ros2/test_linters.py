@@ -8,6 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from .conftest import write_package
+from .test_composed import MODEL as GUARDED
+
 LINTERS = ("ament_flake8", "ament_pep257")
 RUN = "import sys; from {}.main import main; sys.exit(main(sys.argv[1:]))"
 
@@ -43,6 +46,24 @@ def test_managed_nodes_pass(
 ) -> None:
     options = {"lifecycle": "true", "monitors": "true", "copyright": "2026 Example Robotics"}
     package = variant("tests/ros2/models", **options)
+    assert lint([package]) == []
+
+
+def test_packages_with_all_nodes_pass(
+    lint: Callable[[list[Path]], list[str]], tmp_path: Path
+) -> None:
+    """Also the container, and watchdogs, which no other model here has."""
+    model = tmp_path / "guarded.swarm"
+    model.write_text(GUARDED, encoding="utf-8")
+    package = write_package(model, tmp_path, composed="true", monitors="true")
+    names = {path.name for path in package.rglob("*.py")}
+    assert {
+        "container.py",
+        "lease.py",
+        "watchdog.py",
+        "field_monitor.py",
+        "robot.launch.py",
+    } <= names
     assert lint([package]) == []
 
 

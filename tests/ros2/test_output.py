@@ -340,6 +340,8 @@ def test_one_robot_is_launched_on_its_own_computer(
         ),
         ({"member": "left_2", "left_count": "2"}, "no left_2: there is left_0 to left_1"),
         ({"member": "left_0", "left_count": "5"}, "there cannot be 5 of left, but 2 to 4"),
+        ({"member": "head_0", "head_count": "9" * 5000}, "9 of head, but exactly 1"),
+        ({"member": "left_" + "9" * 5000}, "its number is too great"),
         ({"member": "left_0", "left_count": "two"}, "must be a number of robots, not `two`"),
         ({"member": "left_0", "respawn_delay": "soon"}, "a number of seconds, not `soon`"),
         ({"member": "left_0", "respawn": "yes"}, "respawn must be true or false, not `yes`"),
@@ -351,6 +353,26 @@ def test_one_robot_is_launched_on_its_own_computer(
     path = package / "launch" / "eyes.launch.py"
     with pytest.raises(Exception, match="there is no robot left2: there is left_0 to left_1"):
         launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, members="left2")
+
+
+def test_a_role_without_a_limit_has_one_in_launch_files(
+    generate: Generate, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write(generate(MODEL.replace("Eye[2..4]", "Eye[*]")), tmp_path)
+    package = tmp_path / "lab_behavior"
+
+    def launch(**arguments: str) -> list[dict[str, Any]]:
+        path = package / "launch" / "eyes.launch.py"
+        return launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, **arguments)
+
+    assert len(launch(left_count="1000", members="left_999")) == 1
+    for given, said in (
+        ({"left_count": "100000000"}, "there cannot be 100000000 of left, but 0 to 1000"),
+        ({"members": "left_1000"}, "no left_1000: there is left_0 to left_999, and left_count can"),
+    ):
+        with pytest.raises(Exception, match=re.escape(said)) as error:
+            launch(**given)
+        assert type(error.value).__name__ == "RobotError"
 
 
 WATCHED = """

@@ -46,6 +46,14 @@ swarm Field { uav : Uav[2] }
 """
 WORK = ("/uav_0/cmd/work", "lab_msgs/action/Work")
 LAND = ("/uav_0/cmd/land", "std_srvs/srv/Empty")
+CHANGE, GET = "lifecycle_msgs/srv/ChangeState", "lifecycle_msgs/srv/GetState"
+CONFIGURE, CLEAN_UP, ACTIVATE, DEACTIVATE, SHUT_DOWN = 1, 2, 3, 4, 7
+WATCHED = {
+    "function": "cmd/land",
+    "paradigm": "service",
+    "type": "std_srvs/srv/Empty",
+    "cancels": "cmd/work",
+}
 PATIENCE = 60.0
 
 
@@ -56,13 +64,7 @@ def test_a_node_that_is_killed(ros: Any, tmp_path: Path) -> None:
     package = write_package(model, tmp_path)
     ros.prefer(package)
     launched = (package / "launch" / "field.launch.py").read_text(encoding="utf-8")
-    parameters = {
-        "function": "cmd/land",
-        "paradigm": "service",
-        "type": "std_srvs/srv/Empty",
-        "cancels": "cmd/work",
-    }
-    for name, value in parameters.items():  # the launch file passes what is passed here
+    for name, value in WATCHED.items():  # the launch file passes what is passed here
         assert f"'{name}': '{value}'" in launched
     lease = tmp_path / "leases" / "fly"
     fakes = ros.fakes()
@@ -70,7 +72,7 @@ def test_a_node_that_is_killed(ros: Any, tmp_path: Path) -> None:
     fakes.service(*LAND)
     log = tmp_path / "watchdog.txt"
     with log.open("w", encoding="utf-8") as written:
-        start(ros, "watchdog", {**parameters, "lease.file": lease}, stderr=written)
+        start(ros, "watchdog", {**WATCHED, "lease.file": lease}, stderr=written)
         wait_in(log, f"{lease} is watched")
 
         node = start(ros, "fly", {"lease.file": lease, "member": "uav[0]"})
@@ -93,14 +95,78 @@ def test_a_node_that_is_killed(ros: Any, tmp_path: Path) -> None:
     assert "the node has died: cmd/land is called" in log.read_text(encoding="utf-8")
 
 
+def test_a_managed_node_that_is_killed(ros: Any, tmp_path: Path) -> None:
+    """No transition is a death, not one that fails or is not possible; a kill is."""
+    model = tmp_path / "guarded.swarm"
+    model.write_text(MODEL, encoding="utf-8")
+    ros.prefer(write_package(model, tmp_path, lifecycle="true"))
+    lease = tmp_path / "leases" / "fly"
+    fakes = ros.fakes()
+    fakes.action(*WORK, "never")
+    fakes.service(*LAND)
+
+    def node(name: str, **more: str) -> subprocess.Popen[str]:
+        """Start a node; a name of its own tells it from those that have ended."""
+        names.append(name)
+        given = {"lease.file": lease, "member": "uav[0]", **more}
+        return start(ros, "fly", given, "-r", f"__node:={name}", stderr=written)
+
+    def change(transition: int) -> bool:
+        service = f"/uav_0/{names[-1]}/change_state"
+        return bool(fakes.call(service, CHANGE, transition={"id": transition})["success"])
+
+    def state() -> str:
+        return str(fakes.call(f"/uav_0/{names[-1]}/get_state", GET)["current_state"]["label"])
+
+    def ended(started: subprocess.Popen[str]) -> int:
+        started.send_signal(signal.SIGTERM)
+        return started.wait(PATIENCE)
+
+    log = tmp_path / "log.txt"
+    names: list[str] = []
+    with log.open("w", encoding="utf-8") as written:
+        start(ros, "watchdog", {**WATCHED, "lease.file": lease}, stderr=written)
+        wait_in(log, f"{lease} is watched")
+
+        first = node("first")
+        assert not change(ACTIVATE)
+        assert (change(CONFIGURE), change(ACTIVATE)) == (True, True)
+        fakes.wait("begun", WORK[0])
+        assert not change(CLEAN_UP)
+        assert change(DEACTIVATE)
+        fakes.wait("stopped", WORK[0])
+        assert state() == "inactive"
+        assert (change(CLEAN_UP), change(CONFIGURE), change(ACTIVATE)) == (True, True, True)
+        fakes.wait("begun", WORK[0], 2)
+        assert change(SHUT_DOWN)
+        fakes.wait("stopped", WORK[0], 2)
+        assert state() == "finalized"
+        assert ended(first) == 0
+
+        # An error in a transition is logged, and leaves the node as it was before.
+        second = node("second", swarm="/1")
+        assert [change(CONFIGURE), change(CONFIGURE)] == [False, False]
+        assert state() == "unconfigured"
+        wait_in(log, "InvalidTopicNameException")
+        assert ended(second) == 0
+
+        third = node("third")
+        assert (change(CONFIGURE), change(ACTIVATE)) == (True, True)
+        fakes.wait("begun", WORK[0], 3)
+        assert fakes.count("request", LAND[0]) == 0
+        third.kill()
+        fakes.wait("request", LAND[0])
+        fakes.wait("stopped", WORK[0], 3)
+
+
 def start(
-    ros: Any, module: str, parameters: dict[str, object], **options: Any
+    ros: Any, module: str, parameters: dict[str, Any], *words: str, **options: Any
 ) -> subprocess.Popen[str]:
     """Start a node of the package with parameters."""
     given = [each for name, value in parameters.items() for each in ("-p", f"{name}:={value!s}")]
     namespace = ("-r", "__ns:=/uav_0")
     made: subprocess.Popen[str] = ros.start(
-        "-m", f"guarded_behavior.{module}", "--ros-args", *namespace, *given, **options
+        "-m", f"guarded_behavior.{module}", "--ros-args", *namespace, *words, *given, **options
     )
     return made
 

@@ -1,5 +1,6 @@
 """Launch a swarm, some of its robots, or one of them on its own computer."""
 
+import json
 import os
 from pathlib import Path
 from tempfile import gettempdir
@@ -42,7 +43,7 @@ class Swarm(NamedTuple):
 
     `bringup` is the package with the nodes of functions and components, `heartbeat` the seconds
     between heartbeats of a robot and without them until it is lost, `monitor` the executable that
-    watches the properties.
+    watches the properties. The robots of a swarm that is composed share a process.
     """
 
     package: str
@@ -52,6 +53,7 @@ class Swarm(NamedTuple):
     heartbeat: Any = None
     monitor: str = ''
     is_managed: bool = False
+    is_composed: bool = False
 
 
 def describe_swarm(swarm):
@@ -71,6 +73,8 @@ def describe_swarm(swarm):
     if swarm.monitor:
         about = 'whether the properties are watched, in a launch of the whole swarm'
         arguments.append(('monitor', 'true', about))
+    if swarm.is_composed:
+        arguments.append(('composed', 'true', 'whether the robots share a process'))
     if swarm.is_managed:
         about = 'whether the nodes configure and activate themselves'
         arguments.append(('autostart', 'true', about))
@@ -145,16 +149,23 @@ class _Launch:
         """Return a group of nodes for each robot, and one for the monitor."""
         is_whole = not self._text('members').strip()
         has_monitor = self._swarm.monitor and is_whole and self._is_on('monitor')
-        monitor = [self._monitor()] if has_monitor else []
-        return [*monitor, *(self._robot(role, number) for role, number in self._robots)]
+        shared = [self._monitor()] if has_monitor else []
+        if self._is_composed:
+            shared.append(self._container())
+        return [*shared, *(self._robot(role, number) for role, number in self._robots)]
+
+    @property
+    def _is_composed(self):
+        return self._swarm.is_composed and self._is_on('composed')
 
     def _robot(self, role, number):
         nodes = self._swarm.roles[role].nodes
+        alone = () if self._is_composed else nodes
         return GroupAction(
             [
                 PushRosNamespace(LaunchConfiguration('namespace')),
                 PushRosNamespace(f'{role}_{number}'),
-                *(self._behavior(role, number, node) for node in nodes),
+                *(self._behavior(role, number, node) for node in alone),
                 *(self._server(role, number, name) for name in self._servers(role)),
                 *(self._watchdog(role, number, node) for node in nodes if node.watchdog),
                 *self._bringup(role, number),
@@ -163,6 +174,53 @@ class _Launch:
 
     def _behavior(self, role, number, node):
         """Return a node, with the parameters of the role and its own, which go before them."""
+        parameters, paths = self._given(role, number, node)
+        made = LifecycleNode if self._swarm.is_managed else Node
+        return made(
+            package=self._swarm.package,
+            executable=node.executable,
+            name=node.name,
+            parameters=[parameters, *paths],
+            remappings=node.remappings,
+            respawn=self._is_on('respawn'),
+            respawn_delay=self._delay,
+            **({'namespace': ''} if self._swarm.is_managed else {}),
+            **self._common(),
+        )
+
+    def _container(self):
+        """Return the process with the nodes of all robots, which starts failed ones again."""
+        respawn = ['--respawn', str(self._delay)] if self._is_on('respawn') else []
+        nodes = [
+            word
+            for role, number in self._robots
+            for node in self._swarm.roles[role].nodes
+            for word in self._words(role, number, node)
+        ]
+        common = self._common()
+        container = Node(
+            package=self._swarm.package,
+            executable='container',
+            respawn=self._is_on('respawn'),
+            respawn_delay=self._delay,
+            **{**common, 'arguments': [*respawn, *nodes, *common['arguments']]},
+        )
+        return GroupAction([PushRosNamespace(LaunchConfiguration('namespace')), container])
+
+    def _words(self, role, number, node):
+        """Return the arguments of the container for a node."""
+        parameters, paths = self._given(role, number, node)
+        words = ['-r', f'__node:={node.name}']
+        for old, new in node.remappings or ():
+            words += ['-r', f'{old}:={new}']
+        for name, value in parameters.items():
+            words += ['-p', f'{name}:={json.dumps(value)}']
+        for path in paths:
+            words += ['--params-file', path]
+        return ['--node', node.executable, f'{role}_{number}', *words, '--']
+
+    def _given(self, role, number, node):
+        """Return the parameters of a node, and the paths of files with more of them."""
         member = f'{role}[{number}]' + (f'.{node.part}' if node.part else '')
         parameters = {
             'member': member,
@@ -184,18 +242,7 @@ class _Launch:
             parameters['model.others'] = 'ignore'
         files = (f'{role}.yaml', f'{role}_{number}.model.yaml', f'{role}_{number}.yaml')
         paths = [self._config / file for file in files]
-        made = LifecycleNode if self._swarm.is_managed else Node
-        return made(
-            package=self._swarm.package,
-            executable=node.executable,
-            name=node.name,
-            parameters=[parameters, *(str(path) for path in paths if path.exists())],
-            remappings=node.remappings,
-            respawn=self._is_on('respawn'),
-            respawn_delay=self._delay,
-            **({'namespace': ''} if self._swarm.is_managed else {}),
-            **self._common(),
-        )
+        return parameters, [str(path) for path in paths if path.exists()]
 
     def _servers(self, role):
         servers = self._swarm.roles[role].servers

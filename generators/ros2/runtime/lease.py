@@ -14,11 +14,11 @@ _SETTINGS = (Parameter('lease.file', 'string', '', 'File that is locked while th
 _PATIENCE = 2.0
 """Time for which another process may have the lock, in seconds: a watchdog looks at the file."""
 _PAUSE = 0.05
-_held = []
+_held = {}
 
 
 def hold(node):
-    """Lock the file of a node until its process ends; the system unlocks it, however it ends."""
+    """Lock the file of a node until it ends; the system unlocks it, however its process ends."""
     parameters.declare(node, _SETTINGS)
     path = parameters.values(node, _SETTINGS)['lease.file']
     if not path:
@@ -34,13 +34,16 @@ def hold(node):
             raise StartError(f'parameter `lease.file`: another node has {path}')
         time.sleep(_PAUSE)
     note(file, RUNNING)
-    _held.append(file)
+    _held[node] = file
 
 
-def leave():
-    """Note that the process ends as it should: nothing has to be done for it."""
-    for file in _held:
-        note(file, ENDED)
+def leave(node, is_well):
+    """Unlock the file of a node; nothing has to be done for one that ends as it should."""
+    file = _held.pop(node, None)
+    if file is not None:
+        if is_well:
+            note(file, ENDED)
+        file.close()
 
 
 def locked(file):

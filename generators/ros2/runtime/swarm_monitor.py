@@ -52,7 +52,12 @@ class MonitorNode(Node):
     def __init__(self, swarm, name, on_end):
         super().__init__(name)
         self.failed = False
-        self.host = Monitor(self, swarm)
+        self.host = None
+        self._swarm = swarm
+
+    def prepare(self):
+        """Begin to watch; raise StartError if the parameters do not allow it."""
+        self.host = Monitor(self, self._swarm)
 
 
 class Monitor:

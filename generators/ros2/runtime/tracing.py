@@ -200,14 +200,14 @@ class Output:
         self._node = node
         self._machine = machine
         self._member = member
-        self._state = node.create_publisher(String, '~/state', _LAST)
-        self._transitions = node.create_publisher(String, '~/transitions', _HISTORY)
         try:
             if keep and Path(path).exists():
                 Path(path).rename(_numbered(Path(path)))
             self._file = open(path, 'w', encoding='utf-8') if path else None
         except OSError as error:
             raise StartError(f'the trace cannot be written: {error}') from None
+        self._state = node.create_publisher(String, '~/state', _LAST)
+        self._transitions = node.create_publisher(String, '~/transitions', _HISTORY)
 
     def tell(self, line, taken, final):
         """Write a line, with the transitions taken and the final state of the machine, if any."""

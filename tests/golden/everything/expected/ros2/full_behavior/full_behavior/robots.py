@@ -5,15 +5,19 @@ import re
 from typing import Any, NamedTuple
 
 _ROBOT = re.compile(r'(\w+)\[([0-9]+)\]|(\w+)_([0-9]+)')
+_MOST = 1000
+"""Number of robots that a role without a limit of its own may have."""
+_DIGITS = 18
+"""Length of the longest number that is read."""
 
 
 class Role(NamedTuple):
     """
     A role of a swarm, with `least` robots by default.
 
-    It has `lower` to `upper` robots, without a limit if `upper` is None. `nodes` are those of a
-    robot, `bringup` is the launch file with those of its functions and components, `servers` are
-    executables with servers of functions.
+    It has `lower` to `upper` robots, without a limit in the model if `upper` is None. `nodes` are
+    those of a robot, `bringup` is the launch file with those of its functions and components,
+    `servers` are executables with servers of functions.
     """
 
     least: int
@@ -22,6 +26,11 @@ class Role(NamedTuple):
     nodes: Any
     bringup: str = ''
     servers: Any = ()
+
+    @property
+    def most(self):
+        """Return the greatest number of robots."""
+        return self.upper if self.upper is not None else max(self.lower, _MOST)
 
 
 class RobotError(Exception):
@@ -40,9 +49,7 @@ def chosen(roles, text, counts):
     for name, role in roles.items():
         given = counts.get(name, '').strip()
         needed = [number + 1 for each, number in named if each == name and number is not None]
-        count = max([role.least, *needed])
-        if role.upper is not None:
-            count = min(count, role.upper)
+        count = min(max([role.least, *needed]), role.most)
         numbers[name] = _count(name, role, given) if given else count
     robots = []
     for name, number in named or [(name, None) for name in roles]:
@@ -67,25 +74,25 @@ def _named(roles, text):
         if not match or role not in roles:
             there = '; '.join(_range(each, roles[each], roles[each].least) for each in roles)
             raise RobotError(f'there is no robot {name}: {there}')
-        yield role, int(match[2] or match[4])
+        number = match[2] or match[4]
+        if len(number) > _DIGITS:
+            raise RobotError(f'there is no robot {name}: its number is too great')
+        yield role, int(number)
 
 
 def _count(name, role, text):
     if not text.isdecimal():
         raise RobotError(f'{name}_count must be a number of robots, not `{text}`')
-    count = int(text)
-    if count < role.lower or (role.upper is not None and count > role.upper):
-        raise RobotError(f'there cannot be {count} of {name}, but {limits(role)}')
-    return count
+    if len(text) > _DIGITS or not role.lower <= int(text) <= role.most:
+        raise RobotError(f'there cannot be {text} of {name}, but {limits(role)}')
+    return int(text)
 
 
 def limits(role):
     """Return how many robots a role may have."""
-    if role.upper is None:
-        return f'at least {role.lower}'
-    if role.upper == role.lower:
+    if role.most == role.lower:
         return f'exactly {role.lower}'
-    return f'{role.lower} to {role.upper}'
+    return f'{role.lower} to {role.most}'
 
 
 def _range(name, role, count):

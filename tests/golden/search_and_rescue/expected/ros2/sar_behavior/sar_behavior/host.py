@@ -101,6 +101,7 @@ class Host:
         self._calls = {}
         self._instance = None
         self._waiting = []
+        self._releases = []
         self._is_configured = self.stays = False
         self.cancel_timeout = self.server_timeout = 0
         parameters.declare(node, (*_SETTINGS, *behavior.parameters))
@@ -108,7 +109,11 @@ class Host:
     # ---- called by nodes
 
     def configure(self):
-        """Create all clients and topics; raise StartError if the node cannot start."""
+        """
+        Create all clients and topics; raise StartError if the node cannot start.
+
+        `release` destroys what was created, also after an error.
+        """
         node, behavior = self._node, self._behavior
         if behavior.missing_callbacks:
             missing = ', '.join(behavior.missing_callbacks)
@@ -123,12 +128,14 @@ class Host:
         # Timeouts of servers do not depend on a simulated clock.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._alarms = Alarms(node, steady, self._group, self.post)
-        self._clients = {
-            name: function.client(node, self._group)
-            for name, function in behavior.functions.items()
-        }
+        self._releases += [self._delays.clear, self._alarms.clear]
+        self._clients = {}
+        for name, function in behavior.functions.items():
+            client = self._clients[name] = function.client(node, self._group)
+            self._releases.append(client.destroy)
         self._losses = Losses(self, self._tell_lost)
         self._diagnostics = Diagnostics(node, behavior.machine.name, self._member, self._losses)
+        self._releases.append(self._diagnostics.release)
         swarm = settings['swarm'] or node.get_namespace().rpartition('/')[0]
         self._topics = Topics(
             node,
@@ -140,9 +147,11 @@ class Host:
             self._receive,
             self._losses.add,
         )
+        self._releases.append(self._topics.release)
         self._models = models.Models(
             node, settings, swarm, behavior.machine.name, self._group, self._alarms, self.warn
         )
+        self._releases.append(self._models.release)
         self._members = members.Members(
             node,
             settings,
@@ -153,17 +162,19 @@ class Host:
             self._deliver if behavior.follows_members else None,
             self._models.counts,
         )
+        self._releases.append(self._members.release)
         self._types = {topic.event: topic.interface for topic in behavior.topics}
-        self._injected = None
         if settings['debug.inject']:
-            self._injected = node.create_subscription(
+            injected = node.create_subscription(
                 String, '~/events', self._inject, hearing(Delivery()), callback_group=self._group
             )
+            self._releases.append(lambda: node.destroy_subscription(injected))
         self._servers = Servers()
         self._pauses = Pauses()
         self._period = settings['diagnostics.period']
         path, keep = settings['trace.file'], settings['trace.keep']
         self._output = Output(node, behavior.machine.name, self._member, path, keep)
+        self._releases.append(self._output.release)
         self.stays = settings['stay']
         self._is_configured = True
         if self._period > 0:
@@ -179,23 +190,13 @@ class Host:
 
     def release(self):
         """Destroy everything that `configure` has created."""
-        if not self._is_configured:
-            return
         self._is_configured = False
         for call in self._calls.values():
             call.drop()
         self._calls.clear()
-        self._delays.clear()
-        self._alarms.clear()
-        for client in self._clients.values():
-            client.destroy()
-        self._topics.release()
-        self._members.release()
-        self._models.release()
-        if self._injected is not None:
-            self._node.destroy_subscription(self._injected)
-        self._diagnostics.release()
-        self._output.release()
+        releases, self._releases = self._releases, []
+        for release in releases:
+            release()
 
     # ---- used by calls of functions
 
@@ -319,6 +320,9 @@ class Host:
         """Note that the machine was ended before it began."""
 
     def _end(self, then):
+        if not self._is_configured:
+            then()
+            return
         if self._models.withdraw():
             self._not_begun()
         if self._instance is not None and self._instance.running:

@@ -29,11 +29,16 @@ _STDERR = 2
 class StateMachineNode(Node):
     """Runs a state machine; `on_end` is called when it has ended or failed."""
 
-    def __init__(self, behavior, name, on_end):
-        super().__init__(name)
+    def __init__(self, behavior, name, on_end, **options):
+        super().__init__(name, **options)
         self.failed = False
+        self.host = None
+        self._behavior = behavior
         self._on_end = on_end
-        self.host = Host(self, behavior, on_end=self._end)
+
+    def prepare(self):
+        """Begin to run the machine; raise StartError if the parameters do not allow it."""
+        self.host = Host(self, self._behavior, on_end=self._end)
         self.host.configure()
         self.host.begin()
 
@@ -54,29 +59,49 @@ def run_node(make, name, args=None):
     ending = queue.SimpleQueue()
     for each in (signal.SIGINT, signal.SIGTERM):
         signal.signal(each, lambda *_: ending.put(None))
-    spinner = _Spinner(make, name, args, lambda: ending.put(None))
+    spinner = Spinner(make, name, Ros(args), lambda: ending.put(None))
     spinner.start()
     ending.get()
-    code = spinner.end()
+    code = spinner.end(end_in)
+    leave(code)
+
+
+def leave(code):
+    """End the process with an exit code."""
     # The middleware may hang when Python ends.
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(code)
 
 
-class _Spinner(threading.Thread):
+class Ros:
+    """ROS in a process with one node: it begins and ends with the node."""
+
+    def __init__(self, args):
+        self._args = args
+
+    def begin(self):
+        """Initialize ROS; without its handlers of signals, goals can be cancelled after one."""
+        rclpy.init(args=self._args, signal_handler_options=SignalHandlerOptions.NO)
+
+    def end(self):
+        """Shut down ROS."""
+        rclpy.try_shutdown()
+
+
+class Spinner(threading.Thread):
     """
-    Starts the node, runs it and shuts it down.
+    Starts a node, runs it and shuts it down; `ros` begins before and ends after it.
 
     Signals only reach the main thread while it does not wait in ROS. No callback blocks, so one
     thread is enough for all of them.
     """
 
-    def __init__(self, make, name, args, on_end):
+    def __init__(self, make, name, ros, on_end):
         super().__init__(name='node', daemon=True)
         self._make = make
         self._name = name
-        self._args = args
+        self._ros = ros
         self._on_end = on_end
         self._begun = threading.Event()
         self._is_to_end = False
@@ -87,8 +112,7 @@ class _Spinner(threading.Thread):
     def run(self):
         """Run the node until it is to end."""
         try:
-            # Without handlers of rclpy, ROS still works after a signal, so goals can be cancelled.
-            rclpy.init(args=self._args, signal_handler_options=SignalHandlerOptions.NO)
+            self._ros.begin()
             self._spin()
         except StartError as error:
             rclpy.logging.get_logger(self._name).fatal(str(error))
@@ -101,20 +125,31 @@ class _Spinner(threading.Thread):
             self._on_end()
         self._shut_down()
 
-    def end(self):
-        """End the machine and the node; return the exit code."""
-        limit = _end_in(_LATE, 1)
+    @property
+    def stopping(self):
+        """Return the time that the node may take to stop, in seconds."""
+        host = None if self._node is None else self._node.host
+        return _MARGIN if host is None else host.cancel_timeout / SECOND + _MARGIN
+
+    def end(self, limited):
+        """
+        End the machine and the node; return the exit code.
+
+        `limited` is called with the seconds that each step may take and the exit code if it takes
+        longer, as `end_in`.
+        """
+        limit = limited(_LATE, 1)
         self._begun.wait()
         limit.cancel()
         if self._executor is not None and not self._is_broken:
-            stopping = self._node.host.cancel_timeout / SECOND + _MARGIN
-            limit = _end_in(stopping + _LATE, 1)
+            stopping = self.stopping
+            limit = limited(stopping + _LATE, 1)
             stopped = threading.Event()
             self._executor.create_task(self._node.host.end, stopped.set)
             stopped.wait(stopping)
             limit.cancel()
         code = int(self._is_broken or self._node.failed)
-        _end_in(_LATE, code)
+        limited(_LATE, code)
         self._is_to_end = True
         if self._executor is not None and not self._is_broken:
             self._executor.create_task(int)  # wakes it
@@ -123,6 +158,7 @@ class _Spinner(threading.Thread):
 
     def _spin(self):
         self._node = self._make(self._name, self._on_end)
+        self._node.prepare()
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(self._node)
         self._begun.set()
@@ -130,16 +166,18 @@ class _Spinner(threading.Thread):
             self._executor.spin_once()
 
     def _shut_down(self):
-        """Shut down the executor, which spins no more, then the node, then ROS."""
+        """Shut down the executor, which spins no more, then the node, then ROS if it is alone."""
         if self._executor is not None:
             self._executor.shutdown(timeout_sec=_MARGIN)
-            # The node does not destroy clients of actions, and ROS may hang if they are left.
-            self._node.host.release()
+        if self._node is not None:
+            if self._node.host is not None:
+                # The node does not destroy clients of actions, and ROS may hang if they are left.
+                self._node.host.release()
             self._node.destroy_node()
-        rclpy.try_shutdown()
+        self._ros.end()
 
 
-def _end_in(seconds, code):
+def end_in(seconds, code):
     """
     Limit the time until the process has ended, also in the middleware; return the timer.
 
