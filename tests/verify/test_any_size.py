@@ -86,10 +86,7 @@ SENTENCES = {
     "each drone : always possible in Fly or in Wait or in Dock": (
         *("unknown", "it is about what is possible; it holds for 1 drone"),
     ),
-    "each drone : in Wait leads to in Dock within 5 s": (
-        "unknown",
-        "it is about time; for 1 drone, ",
-    ),
+    "each drone : in Wait leads to in Dock within 5 s": ("fails", ""),
     "never count(drone in Dock) > 200": ("unknown", "more than 100 robots"),
     "drone[0] in Dock only after drone[0] hears Grant": ("holds", "for 1 or more drone"),
 }

@@ -28,6 +28,8 @@ from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Scenario
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.execution.verify.environment import Options
 from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.run import written
+from swarmdsl.execution.verify.verdict import UNSURE
 
 from .conftest import model_of, verdicts_of
 from .random_timed import random_timed_swarm
@@ -114,6 +116,57 @@ def test_a_function_without_a_scenario_takes_a_second(modelled: Modelled) -> Non
     model = modelled(f"{_PRELUDE}{text} 1 s")
     (verdict,) = verdicts_of(model).values()
     assert "functions would take longer than 1 s; try `--time exact`" in verdict.reason
+
+
+_TRIES = _CALL.replace("on succeeded, aborted -> S1", "on succeeded -> S1\n    on aborted -> S0")
+_PAIR = """message Pair {
+  one : int32
+  two : int32
+}
+event Both : Pair
+"""
+
+
+def test_what_need_not_happen_at_all_is_late(
+    modelled: Modelled, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = f"{_TRIES}{_ONE}property P of S : each a : in S0 leads to in S1 within 10 min"
+    (verdict,) = verdicts_of(modelled(f"{_PRELUDE}{text}")).values()
+
+    # The function is aborted each time, a second after the last one.
+    assert verdict.outcome == "fails"
+    assert verdict.run is not None
+    assert verdict.run.loop == 1
+    model, trace = tmp_path / "model.swarm", tmp_path / "P.jsonl"
+    trace.write_text("".join(f"{line}\n" for line in written(verdict.run)))
+    run(["simulate", str(model), "--replay", str(trace)])
+    assert "property `P` is violated" in capsys.readouterr().err
+    # How probable that is, nobody says.
+    (verdict,) = verdicts_of(modelled(f"{_PRELUDE}{text} at least 0.9")).values()
+    assert verdict.reason == UNSURE
+
+
+def test_values_that_were_not_tried_end_no_loop(modelled: Modelled) -> None:
+    compared = "state S1 {\n on Both [event.one < event.two] -> S0\n"
+    text = _TRIES.replace("state S1 {", compared)
+    sentence = "each a : in S0 leads to in S1 within"
+    model = modelled(f"{_PRELUDE}{_PAIR}{text}{_ONE}property P of S : {sentence} 10 min")
+    (verdict,) = verdicts_of(model).values()
+
+    assert model.doubts(model.groups())
+    assert verdict.outcome == "fails"
+
+
+def test_clocks_do_not_decide_what_is_not_known_without_them(modelled: Modelled) -> None:
+    compared = "state S1 {\n on Both [event.one < event.two] -> S0\n"
+    text = _CALL.replace("state S1 {", compared)
+    sentence = "each a : in S0 leads to in S1 within"
+    whole = f"{_PRELUDE}{_PAIR}{text}{_ONE}property P of S : {sentence} 1 s"
+    for exact in (False, True):
+        (verdict,) = verdicts_of(modelled(whole, exact=exact)).values()
+        assert verdict.outcome == "unknown"
+        assert "clocks do not decide: only some values of `Both.one` were tried" in verdict.reason
+        assert verdict.place is not None
 
 
 def test_a_function_that_never_answers_is_late(modelled: Modelled) -> None:

@@ -48,21 +48,24 @@ class Demands:
         self._system = system
         self._slice = Slice(system, data, extra, lengths=lengths)
         self._demanded = frozenset(self._slice.demanded)
+        self._variables = {name for kind, name, _ in self._demanded if kind == "var"}
+        self._fields: dict[str, set[Path]] = {}
+        for kind, name, path in self._demanded:
+            if kind == "event":
+                self._fields.setdefault(name, set()).add(path)
+        self.identity = self._counts_identity()
+        """True if it counts who a robot or a sender is."""
 
     def keeps(self, machine: str, variable: str) -> bool:
         """Return True if a variable decides on anything."""
-        return any(
-            kind == "var" and name == f"{machine}.{variable}" for kind, name, _ in self._demanded
-        )
+        return f"{machine}.{variable}" in self._variables
 
     @property
     def growing(self) -> set[str]:
         """Variables that are computed from themselves, as in `n = n + 1`."""
         return self._slice.growing
 
-    @property
-    def identity(self) -> bool:
-        """True if it counts who a robot or a sender is."""
+    def _counts_identity(self) -> bool:
         named = any(
             kind in ("robot", "sender") or self._reads_header("node", (kind, name, path))
             for kind, name, path in self._demanded
@@ -93,8 +96,7 @@ class Demands:
 
     def fields(self, event: str) -> list[Path]:
         """Return the fields of an event that decide on anything."""
-        found = {path for kind, name, path in self._demanded if (kind, name) == ("event", event)}
-        return sorted(found)
+        return sorted(self._fields.get(event, ()))
 
     def timed(self) -> Iterator[Doubt]:
         """Yield a doubt if the time decides on anything."""

@@ -8,7 +8,11 @@ from swarmdsl.base.source import Span
 
 @dataclass(frozen=True)
 class Doubt:
-    """Reason why a proof is not complete, with its place in the model."""
+    """Reason why a proof is not complete, with its place in the model.
+
+    If there are only `more` runs than were looked at, nothing else ends those that were.
+    """
 
     reason: str
     place: Span | None = None
+    more: bool = False

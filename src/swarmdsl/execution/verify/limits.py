@@ -7,10 +7,14 @@ import sys
 import time
 from collections.abc import Callable
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, replace
 
 _KILOBYTES = 1 if sys.platform == "darwin" else 1024
 """Bytes in the unit of `ru_maxrss`."""
+
+
+def _used() -> int:
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * _KILOBYTES
 
 
 @dataclass(frozen=True)
@@ -46,11 +50,18 @@ class Budget:
         if limits.seconds is not None and time.monotonic() - self._began >= limits.seconds:
             self.reached = "time"
             return False
-        used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * _KILOBYTES
-        if limits.memory is None or used < limits.memory:
+        # The system takes its time to tell.
+        if limits.memory is None or _used() < limits.memory:
             return True
         self.reached = "memory"
         return False
+
+    def some(self, states: int) -> Budget:
+        """Return the limits of a search for something near, which few states show."""
+        some = Budget(replace(self._limits, states=min(states, self.most)), self._tell)
+        some._began = self._began
+        some.interrupted = self.interrupted
+        return some
 
     @property
     def most(self) -> int:

@@ -28,7 +28,6 @@ from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.strangers import messages_to
 from swarmdsl.execution.verify.terms import facts_of, mask_of
-from swarmdsl.execution.verify.timing import Bounds
 from swarmdsl.execution.verify.uncovered import uncovered, uncovered_lifespans
 
 MOST_STATES, MOST_MOVES = 500, 5_000
@@ -54,6 +53,7 @@ class Model:
         assert subject.system is not None
         self.subject = subject
         self.system = subject.system
+        self.properties = properties
         self.options = options
         self.counts = counts
         scenario = replace(options.scenario or Scenario(), counts=counts)
@@ -87,14 +87,18 @@ class Model:
             robots,
             lambda names: self.sends(names or {each.machine.name for each in everybody}),
         )
+        self.returns = any(map(self.environment.absences, robots))
+        """True if a robot is lost for a time."""
         self._crew = crew_of(subject, robots, self.environment)
         self._doubts: dict[int, list[Doubt]] = {}
         self._addressees = set(addressed(self.machines.values()))
         self._robots: list[list[str | None]] = []
         self._gather(facts)
+        self._quotients: dict[tuple[int, int, bool, bool], Quotient] = {}
+        self._alone: dict[Any, Model] = {}
+        """Models of one robot, by its name and the names of properties."""
         self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
         self._unfinished = [each for each in self.kinds if not each.is_complete]
-        self._quotients: dict[tuple[int, int, bool, bool], Quotient] = {}
 
     @property
     def outside(self) -> list[str]:
@@ -111,11 +115,6 @@ class Model:
         """True if robots that follow who is there may lose sight of any other one."""
         return self._crew.guesses and any(self._follows(each.kind.cast) for each in self.kinds)
 
-    @property
-    def returns(self) -> bool:
-        """True if a robot is lost for a time."""
-        return any(kind.kind.absences for kind in self.kinds)
-
     # ---- groups
 
     def named(self, properties: Iterable[ir.Property]) -> set[str]:
@@ -129,13 +128,18 @@ class Model:
             and each.robots.quantifier == "index"
         }
 
-    def alone(self, property_: ir.Property, robot: str | None, budget: Budget) -> Model:
+    def alone(self, properties: Sequence[ir.Property], robot: str | None, budget: Budget) -> Model:
         """Return the automaton of one robot, to which others may send anything at any time.
 
-        Only what decides on this robot and a property counts: of this there is less.
+        Only what decides on this robot and some properties counts: of this there is less.
         """
+        key = (robot, tuple(each.name for each in properties))
+        if key in self._alone:
+            return self._alone[key]
         found = Diagnostics()
-        made = Model(self.subject, self.counts, [property_], self.options, budget, found, robot)
+        made = self._alone[key] = Model(
+            self.subject, self.counts, properties, self.options, budget, found, robot
+        )
         assert not found.has_errors, "the swarm has been made before"
         return made
 
@@ -290,7 +294,10 @@ class Model:
             names += [v.name for v in machine.variables if self.demands.keeps(machine.name, v.name)]
             # Conditions of properties can read params of the robot that its machine lacks.
             values = {**actor.params, **{name: actor.data.get(name) for name in names}}
-            times = self._times(actor) if self.options.exact else ()
+            times = [
+                self.options.timing.function(each.function, actor.robot)
+                for each in self._activities([actor] if self.options.exact else ())
+            ]
             shown.append((machine.name, repr(sorted(values.items())), tuple(times)))
         happens = self.environment.key(
             cast[0].robot,
@@ -298,12 +305,6 @@ class Model:
             (event.name for event in self.system.events),
         )
         return cast[0].robot.role, tuple(shown), happens
-
-    def _times(self, actor: Actor) -> Iterator[Bounds]:
-        """Yield the times of the functions that a machine calls."""
-        for state in self.machines[actor.machine.name].walk():
-            if state.activity is not None:
-                yield self.options.timing.function(state.activity.function, actor.robot)
 
     def _kind(
         self,

@@ -7,17 +7,16 @@ from itertools import islice
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
+from swarmdsl.execution.verify.alone import hearing_all, is_alone, without_others
 from swarmdsl.execution.verify.explore import Graph, observe
 from swarmdsl.execution.verify.flaws import OPEN
-from swarmdsl.execution.verify.groups import Group, Local
+from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.laps import endless
 from swarmdsl.execution.verify.lassos import Lassos
 from swarmdsl.execution.verify.late_runs import late
 from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.moves import Move
-from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.observer import Observer
 from swarmdsl.execution.verify.play import play
 from swarmdsl.execution.verify.possible import prove_possible
@@ -29,11 +28,11 @@ from swarmdsl.execution.verify.sentence import (
     table_of,
 )
 from swarmdsl.execution.verify.subjects import about, place_of
-from swarmdsl.execution.verify.terms import Terms, arriving, facts_of
-from swarmdsl.execution.verify.timed import prove_exactly
+from swarmdsl.execution.verify.timed import not_with_clocks, prove_exactly
 from swarmdsl.execution.verify.timed_observer import LateObserver
 from swarmdsl.execution.verify.verdict import (
     ESTIMATE,
+    UNSURE,
     Outcome,
     Verdict,
     not_run,
@@ -41,10 +40,10 @@ from swarmdsl.execution.verify.verdict import (
     violated,
 )
 
-_SAFE = ("never", "always", "only", "times")
-"""Patterns that a finite run violates."""
 _MOST_LASSOS = 60
 """Number of loops that are tried on the engine."""
+_MOST_NEAR = 2_000
+"""Number of states among which a loop is looked for if a property is about time."""
 
 
 def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
@@ -73,18 +72,43 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
         # A longer run, in which robots are far from each other and hear of all, may violate it.
         again = _without_clocks(property_, model, me, budget, lonely=True)
         verdict = again if again.outcome == "fails" else verdict
-    if verdict.outcome != "unknown" or verdict.place is not None:
+    if verdict.outcome != "unknown":
         return verdict
+    if verdict.place is not None:
+        return verdict
+    if property_.within is not None:
+        never = _never(property_, model, me, budget)
+        if never is not None:
+            return never
     if model.options.exact and not model.environment.faults:
         return prove_exactly(property_, model, me, budget, verdict)
     way_out = ""
-    if model.options.exact:
+    doubt = not_with_clocks(property_, model, me)
+    if doubt is not None and property_.within is not None:
+        way_out = f"; clocks do not decide: {doubt.reason}"
+        verdict = replace(verdict, place=doubt.place)
+    elif model.options.exact:
         way_out = "; clocks are for robots that are not lost: try `--faults 0`"
     elif property_.within is not None and model.environment.faults:
         way_out = "; without losses, try `--time exact --faults 0`"
     elif property_.within is not None:
         way_out = "; try `--time exact`"
     return replace(verdict, reason=verdict.reason + way_out)
+
+
+def _never(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict | None:
+    """Return a verdict if what must happen in time need not happen at all: a loop shows it."""
+    endless = replace(property_, within=None, chance=None)
+    if not is_about_ends(endless):
+        return None
+    some = budget.some(_MOST_NEAR)
+    found = _in_the_end(endless, model, me, some, lonely=False, timed=True)
+    budget.interrupted |= some.interrupted
+    if found.run is None:
+        return None
+    if property_.chance is not None:
+        return Verdict(property_, "unknown", found.states, UNSURE, robot=me)
+    return replace(found, property=property_)
 
 
 def _without_clocks(
@@ -104,17 +128,14 @@ def _without_clocks(
         seen.add(mine)
     groups = cone(model, every, seen) or every
     is_sure = model.complete and not model.doubts(groups)
-    if mine is not None and is_sure and _is_alone(property_):
-        states = _alone(property_, every[mine].automaton)
+    if mine is not None and is_sure and is_alone(property_):
+        states = hearing_all(property_, every[mine].automaton)
         if states is not None:
             return Verdict(property_, "holds", states, robot=me, alone=True)
-    if mine is not None and not is_sure and _is_alone(property_):
-        alone = model.alone(property_, me, budget)
-        (own,) = alone.groups([property_], me=me)
-        if alone.complete and not alone.doubts([own]):
-            states = _alone(property_, own.automaton)
-            if states is not None:
-                return Verdict(property_, "holds", states, robot=me, alone=True)
+    if mine is not None and not is_sure and is_alone(property_):
+        states = without_others(property_, model, me, budget)
+        if states is not None:
+            return Verdict(property_, "holds", states, robot=me, alone=True)
     if property_.kind == "possible":
         place = groups.index(every[mine]) if mine is not None else None
         return prove_possible(property_, model, model.network(groups, spared=me), place, me, budget)
@@ -143,9 +164,15 @@ def _without_clocks(
 
 
 def _in_the_end(
-    property_: ir.Property, model: Model, me: str | None, budget: Budget, *, lonely: bool
+    property_: ir.Property,
+    model: Model,
+    me: str | None,
+    budget: Budget,
+    *,
+    lonely: bool,
+    timed: bool = False,
 ) -> Verdict:
-    """Decide on a property that runs that go on for ever can violate.
+    """Decide on a property that runs that go on for ever can violate; `timed` ones fit times.
 
     If robots of a group must be told apart to decide, each is looked at by itself.
     """
@@ -156,12 +183,20 @@ def _in_the_end(
         seen |= {number for number, group in enumerate(every) if group.robots == (me,)}
         groups = cone(model, every, seen) or every
         observer = observer_of(
-            property_, model, groups, me, lonely=lonely, others=len(groups) < len(every)
+            property_,
+            model,
+            groups,
+            me,
+            lonely=lonely,
+            others=len(groups) < len(every),
+            timed=timed,
         )
         if observer.others:
             # What holds for a moment ends when any robot does something.
             groups = every
-            observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
+            observer = observer_of(
+                property_, model, groups, me, lonely=lonely, others=False, timed=timed
+            )
         graph = observe(observer.network, observer, budget)
         if graph.bad is not None:
             return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
@@ -170,7 +205,7 @@ def _in_the_end(
         found = 0
         for lasso in islice(lassos, _MOST_LASSOS):
             found += 1
-            if lasso.loop and doubts:
+            if lasso.loop and any(not each.more for each in doubts):
                 # What is not covered may end the loop.
                 break
             run = endless(observer.network, lasso, property_, me)
@@ -206,8 +241,12 @@ def observer_of(
     others: bool,
     eager: bool = False,
     lonely: bool = False,
+    timed: bool = False,
 ) -> Observer:
-    """Return the observer of a property in some groups, of one robot if it is about each."""
+    """Return the observer of a property in some groups, of one robot if it is about each.
+
+    Runs of a property with `within` must fit times, and all runs with `timed`.
+    """
     table = table_of(property_)
     is_timed = property_.within is not None
     # What must happen is asked of robots that are there.
@@ -215,7 +254,7 @@ def observer_of(
     network = model.network(
         groups,
         base=max(table.size, 2).bit_length(),
-        timed=is_timed,
+        timed=is_timed or timed,
         spared=spared,
         eager=eager,
         lonely=lonely,
@@ -243,61 +282,3 @@ def _not_violated(
         reason = unfinished(model, budget)
         return Verdict(property_, "up to", states, reason, robot=me, full=full)
     return Verdict(property_, "holds", states, robot=me, full=full)
-
-
-# ---- one robot, whatever the others do
-
-
-def _is_alone(property_: ir.Property) -> bool:
-    """Return True if a property is about one robot, and about what arrives from outside."""
-    if property_.kind not in _SAFE:
-        return False
-    return all(isinstance(f, ir.Fact) and f.robots is None for f in facts_of(property_))
-
-
-def _alone(property_: ir.Property, automaton: Local) -> int | None:
-    """Prove a property of one robot that hears all messages at any time.
-
-    Return the number of states that were looked at, or None if it may be violated so.
-    """
-    group = Group(automaton, ("",))
-    table = table_of(property_)
-    terms = Terms(property_, Network([group], automaton.whole.alphabet, 0, lossy=False))
-    scope = property_.scope.claims if property_.scope is not None else ()
-    claims = [terms.truth(each) for each in (*property_.claims, *scope)]
-    outside = list(arriving(terms.facts))
-
-    def step(memory: int, bits: int, others: frozenset[int] = frozenset()) -> int:
-        holding = [terms.holds(t, 0, bits) or int(t in others) for t in range(len(terms))]
-        return table.step(memory, tuple(bool(each(holding, holding)) for each in claims))
-
-    def after(memory: int, move: Move) -> int:
-        for moment in move.moments:
-            memory = step(memory, moment.holding)
-        return memory
-
-    first = automaton.first
-    bits = 0
-    for moment in first.moments:
-        bits |= moment.holding
-    seen = {(first.target, step(0, bits))}
-    todo = list(seen)
-    while todo:
-        state, memory = todo.pop()
-        if table.is_bad(memory) or table.fails_at_end(memory):
-            return None
-        if table.is_settled(memory):
-            continue
-        # A line of another robot, on which an event may arrive from outside.
-        holding = automaton.look(state).holding
-        found = {(state, step(memory, holding, others)) for others in outside}
-        moves = list(automaton.moves(state) or ())
-        loss = automaton.loss(state)
-        if loss is not None:
-            moves.append(loss)
-        for message in range(len(automaton.whole.alphabet.messages)):
-            moves += automaton.moves_on(state, message)
-        found |= {(move.target, after(memory, move)) for move in moves}
-        todo += found - seen
-        seen |= found
-    return len(seen)

@@ -63,7 +63,9 @@ def combinations(name: str, parts: Iterable[Part], blank: Callable[[], dict[str,
         if not is_complete:
             place = getattr(part.exact, "origin", None)
             way = "compare it with constants only, and compute nothing with it"
-            doubts.append(Doubt(f"only some values of `{shown}` were tried: {way}", place))
+            doubts.append(
+                Doubt(f"only some values of `{shown}` were tried: {way}", place, more=True)
+            )
         elif any(each is not True for _, each in part.cuts):
             conditions.append(f"`{shown}` {_regions(part.cuts)}")
         if part.path:
@@ -72,7 +74,7 @@ def combinations(name: str, parts: Iterable[Part], blank: Callable[[], dict[str,
     for choice in product(*(values for _, values in axes)):
         if len(made) == _MOST:
             way = "compare fewer of its fields with fewer constants"
-            doubts.append(Doubt(f"only {_MOST} values of `{name}` were tried: {way}"))
+            doubts.append(Doubt(f"only {_MOST} values of `{name}` were tried: {way}", more=True))
             break
         message = blank()
         for (path, _), value in zip(axes, choice, strict=True):

@@ -13,10 +13,11 @@ from swarmdsl.base.records import replace
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
 from swarmdsl.execution.verify.clock_table import ClockTable
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
+from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.explore import Graph, observe
 from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.influence import cone
-from swarmdsl.execution.verify.limits import Budget
+from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.possible import prove_possible
 from swarmdsl.execution.verify.run import steps_between
@@ -29,12 +30,21 @@ from swarmdsl.execution.verify.timed_runs import violating
 from swarmdsl.execution.verify.verdict import Verdict, unfinished, violated
 
 
+def not_with_clocks(property_: ir.Property, model: Model, me: str | None) -> Doubt | None:
+    """Return the reason why clocks do not decide on a property, None if they may."""
+    return next(iter(model.doubts(_Proof(property_, model, me, Budget(Limits())).cone)), None)
+
+
 def prove_exactly(
     property_: ir.Property, model: Model, me: str | None, budget: Budget, known: Verdict
 ) -> Verdict:
     """Decide on a property with clocks, which `known` leaves open without them."""
     proof = _Proof(property_, model, me, budget)
-    if is_about_ends(property_) or not model.complete or model.doubts(proof.cone):
+    doubt = next(iter(model.doubts(proof.cone)), None)
+    if doubt is not None:
+        reason = f"{known.reason}; clocks do not decide: {doubt.reason}"
+        return replace(known, reason=reason, place=doubt.place)
+    if is_about_ends(property_) or not model.complete:
         return known
     return proof.verdict()
 

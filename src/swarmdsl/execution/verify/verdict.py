@@ -18,6 +18,9 @@ from swarmdsl.execution.verify.run import Run
 ESTIMATE = "estimate it with `swarmc simulate --runs 1000`"
 """Advice for probabilities."""
 
+UNSURE = f"some runs violate it: how probable they are is not covered: {ESTIMATE}"
+"""Reason why a property with a probability is not decided."""
+
 INTERRUPTED = "the search was interrupted"
 
 Outcome = Literal["holds", "fails", "up to", "unknown"]
@@ -52,8 +55,7 @@ def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> 
     if run.flaw:
         return Verdict(property_, "unknown", states, not_run(run.flaw), robot=me)
     if property_.chance is not None:
-        reason = f"some runs violate it: how probable they are is not covered: {ESTIMATE}"
-        return Verdict(property_, "unknown", states, reason, robot=me)
+        return Verdict(property_, "unknown", states, UNSURE, robot=me)
     return Verdict(property_, "fails", states, robot=me, run=run)
 
 
