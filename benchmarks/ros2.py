@@ -28,6 +28,7 @@ PINGS = 300
 IDLE = 4.0
 """Seconds without messages to measure an idle node."""
 MANY = 20
+TOGETHER = 10
 STATES = 1000
 _SWARMC = str(Path(sys.executable).with_name("swarmc"))
 
@@ -40,6 +41,8 @@ endless statemachine Echo {
   state A { on Ping / send Pong -> B }
   state B { on Ping / send Pong -> A }
 }
+member Robot { behavior Echo }
+swarm Many { robot : Robot[10] }
 """
 
 BY_HAND = "by hand"
@@ -95,7 +98,8 @@ def _nodes(folder: Path, found: Section) -> None:
 
     model = folder / "echo.swarm"
     model.write_text(MODEL, encoding="utf-8")
-    process([_SWARMC, "build", str(model), "--target", "ros2", "--out", str(folder / "src")])
+    build = [_SWARMC, "build", str(model), "--target", "ros2", "--out", str(folder / "src")]
+    process([*build, "--option", "ros2.composed=true"])
     package = folder / "src" / "ros2" / "bench_behavior"
     ros = harness.Ros(FOLDER, [package], 19, folder)
     by_hand = [str(peers.FOLDER / "ros2_node.py"), "--ros-args"]
@@ -123,6 +127,7 @@ def _nodes(folder: Path, found: Section) -> None:
         idle = min(value[_IDLE] for value in taken[GENERATED]) / IDLE * 100
         found.goal("a generated node when idle, % of one CPU", idle, _SHARE, "{:.2f}")
         _many(ros, commands, found)
+        _together(ros, commands[GENERATED], found)
     finally:
         ros.close()
 
@@ -184,6 +189,33 @@ def _many(ros: Any, commands: dict[str, list[str]], found: Section) -> None:
             f"message to all within {median(answers) * 1e3:.1f} ms; together they take "
             f"{idle / IDLE * 100:.1f} % of one CPU when idle, and {memory / 1e6:.0f} MB"
         )
+
+
+def _together(ros: Any, command: list[str], found: Section) -> None:
+    """Compare the memory of ten nodes in one process with that of ten processes."""
+    spaces = [f"/together_{number}" for number in range(TOGETHER)]
+    container = ["-m", "bench_behavior.container"]
+    for space in spaces:
+        container += ["--node", "echo", space, "--"]
+    memory = {}
+    for name, started in (
+        ("one", [container]),
+        ("many", [[*command, "-r", f"__ns:={space}"] for space in spaces]),
+    ):
+        with _driver(ros) as ask:
+            nodes = [ros.start(*words, **_QUIET) for words in started]
+            ask(connect=spaces)
+            ask(rounds=50)
+            memory[name] = sum(_memory(node.pid) for node in nodes)
+            for node in nodes:
+                _end(node)
+    found.goal(
+        f"memory of {TOGETHER} nodes in one process (option `composed`), relative to "
+        f"{TOGETHER} processes with {memory['many'] / 1e6:.0f} MB",
+        memory["one"] / memory["many"],
+        1 / 3,
+        "{:.2f}",
+    )
 
 
 _QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
