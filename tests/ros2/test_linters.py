@@ -79,6 +79,15 @@ def test_machines_in_libraries_pass(
     assert lint(modules) == []
 
 
+def test_offboard_control_passes(
+    lint: Callable[[list[Path]], list[str]], variant: Callable[..., Path]
+) -> None:
+    package = variant("tests/ros2/px4")
+    modules = [*package.rglob("*offboard*.py"), *package.rglob("*.launch.py")]
+    assert len(modules) == 5
+    assert lint(modules) == []
+
+
 def test_the_linters_work(lint: Callable[[list[Path]], list[str]], tmp_path: Path) -> None:
     (tmp_path / "bad.py").write_text('import sys\nimport os\n\n\ndef f(id):\n    """does"""\n')
     found = "\n".join(lint([tmp_path]))
