@@ -170,7 +170,7 @@ def test_only_pages_of_this_computer_are_answered(seen: Seen) -> None:
         own = address.removesuffix("/")
         abort = {"event": "Abort"}
         assert ask(address, "GET", "/")[0] == 200
-        assert ask(address, "POST", "/send", abort, Origin=own) == (200, '{"heard": 2}')
+        assert ask(address, "POST", "/send", abort, Origin=own) == (200, '{"heard": 2, "lost": []}')
         for wrong in (
             {"Origin": "https://example.org"},
             {"Origin": "null"},
@@ -201,7 +201,7 @@ def test_others_need_the_token(seen: Seen) -> None:
         known = {**elsewhere, "Cookie": cookie.partition(";")[0]}
         assert ask(address, "GET", "/", None, **known)[0] == 200
         answer = ask(address, "POST", "/send", {"event": "Abort"}, **known)
-        assert answer == (200, '{"heard": 1}')
+        assert answer == (200, '{"heard": 1, "lost": []}')
         foreign = {**known, "Origin": "http://example.org"}
         assert ask(address, "POST", "/send", {"event": "Abort"}, **foreign)[0] == 403
         bearer = {"Authorization": "Bearer let-me-in"}

@@ -13,7 +13,10 @@ import pytest
 from .conftest import HERE, check_trace, write_package
 from .fleet import Fleet
 from .radio import missing
+from .watching import FleetPage, address_of, browser_beside, watched
 
+EXAMPLES = HERE.parents[1] / "examples"
+PICTURES = HERE.parents[1] / "docs" / "pictures"
 PERIOD, TIMEOUT = 0.2, 2.5
 SLACK = 2.0
 """Seconds that a machine which does much else may add to a timeout."""
@@ -27,8 +30,7 @@ _ROUNDED = 0.002
 def behaviors(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     """The packages of the swarms that run as fleets."""
     folder = tmp_path_factory.mktemp("fleets")
-    examples = HERE.parents[1] / "examples"
-    return [write_package(examples / name, folder) for name in ("agriculture", "search_and_rescue")]
+    return [write_package(EXAMPLES / name, folder) for name in ("agriculture", "search_and_rescue")]
 
 
 @pytest.fixture
@@ -109,8 +111,27 @@ def count(node: Any, event: str) -> int:
     return sum(line["event"] == event for line in node.trace)
 
 
-def test_the_farm_is_partitioned_and_a_scout_is_killed(fleet: Callable[..., Fleet]) -> None:
-    made = fleet("base_0", "scout_0", "scout_1")
+def now(*nodes: Any) -> dict[str, str]:
+    """Return the states of robots as their own traces tell them."""
+    return {node.parameters["member"]: ", ".join(node.trace[-1]["configuration"]) for node in nodes}
+
+
+def test_the_farm_is_partitioned_and_a_scout_is_killed(
+    fleet: Callable[..., Fleet], bless: bool, tmp_path: Path
+) -> None:
+    """A person sees it, and ends the work of all that can hear."""
+    made = fleet("base_0", "scout_0", "scout_1", "ground")
+    ground, follow = made.computers["ground"], ("--follow", "ros2:/field")
+    with (
+        browser_beside(ground.prefix, tmp_path) as browser,
+        watched(ground, EXAMPLES / "agriculture", *follow) as process,
+    ):
+        page = FleetPage(browser, address_of(process))
+        _watch_the_farm(made, page, PICTURES if bless else None)
+        assert page.wrong == []
+
+
+def _watch_the_farm(made: Fleet, page: FleetPage, pictures: Path | None) -> None:
     # All that it sends and hears has a time that is a second away.
     made.set_clock_wrong("scout_1", 1000)
     farm = Farm(made)
@@ -122,6 +143,7 @@ def test_the_farm_is_partitioned_and_a_scout_is_killed(fleet: Callable[..., Flee
     second.wait_in("Work.Survey")
     for node in (base, first):
         assert heard_of(node, "member_joined", "scout[1]", begun(second) - 1) < _FOUND
+    page.wait_for("scout[1]", "there", "Work.Survey")
     farm.fakes.listeners("/field/base_0/rain")
 
     cut = time.time()
@@ -131,12 +153,21 @@ def test_the_farm_is_partitioned_and_a_scout_is_killed(fleet: Callable[..., Flee
     farm.fakes.publish("/field/base_0/rain", data=True)
     second.wait_in("Landed")
     assert first.trace[-1]["configuration"] == ["Work.Survey"]
+    page.wait_for("scout[0]", "lost", "Work.Survey")
+    page.wait_for("scout[1]", "there", "Landed")
+    there = {"scout[0]": "lost", "scout[1]": "there", "base[0]": "there"}
+    states = now(base, first, second)
+    assert page.shown() == {name: (each, states[name]) for name, each in there.items()}
+    assert page.alarms() == ["scout[0] is lost"]
+    if pictures is not None:
+        page.draw(pictures, "fleet-cut")
 
     healed = time.time()
     made.radio.heal("scout_0")
     for node, other in ((base, "scout[0]"), (first, "base[0]"), (first, "scout[1]")):
         assert heard_of(node, "member_joined", other, healed) < PERIOD + SLACK
     first.wait_in("Landed")
+    page.wait_for("scout[0]", "there", "Landed")
 
     before = [count(node, "member_lost") for node in (base, first, second)]
     made.radio.lose(0.2)
@@ -151,13 +182,26 @@ def test_the_farm_is_partitioned_and_a_scout_is_killed(fleet: Callable[..., Flee
     second.process.send_signal(signal.SIGKILL)
     for node in (base, first):
         assert heard_of(node, "member_lost", "scout[1]", killed) < TIMEOUT + SLACK
+    page.wait_for("scout[1]", "lost", "Work.Survey")
     again = farm.scout(1)
     again.wait_in("Work.Survey")
     for node in (base, first):
         heard_of(node, "member_joined", "scout[1]", killed)
     again.wait_for("Weather")  # the last one
-    for node in (base, first, again):
-        assert node.terminate() == 0
+    page.wait_for("scout[1]", "there", "Work.Survey")
+
+    made.radio.cut("scout_0")
+    page.wait_for("scout[0]", "lost", "Work.Survey")
+    page.press("Abort", "lost: scout[0]")
+    for node, state in ((base, "Closed"), (again, "Parked")):
+        page.wait_for(node.parameters["member"], "ended", state)
+        assert node.exit_code() == 0
+    assert now(base, first, again) == {name: each for name, (_, each) in page.shown().items()}
+    assert now(first) == {"scout[0]": "Work.Survey"}
+    made.radio.heal("scout_0")
+    assert first.exit_code() == 0
+    page.wait_for("scout[0]", "ended", "Parked")
+    assert page.alarms() == []
 
 
 # In 25 s, DDS would forget a robot without the lease of the profile.

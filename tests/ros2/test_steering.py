@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-import os
-import re
 import signal
-import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import click
 import pytest
 
 from ..player.conftest import browser as browser
 from .conftest import load_module, write_package
 from .domains import free_domain
+from .watching import FleetPage, address_of, watched
 
-ROOT = Path(__file__).resolve().parents[2]
-PATIENCE = 60.0
 PLACED = """(async () => {
   const place = () => player.moment.members[player.recording.number("drone[1]")].place;
   while (place()?.[0] !== 4.5) await new Promise(requestAnimationFrame);
@@ -69,48 +63,17 @@ def drone(ros: Any, number: int) -> Any:
     return ros.node("fleet_lab_behavior.flying", f"/crew/drone_{number}", member=name, **given)
 
 
-@contextmanager
-def fleet(ros: Any, *options: str) -> Iterator[subprocess.Popen[str]]:
-    """A fleet that is watched with the Python of ROS, and packages of these tests."""
-    site = str(Path(click.__file__).parents[1])
-    paths = [ros.environment["PYTHONPATH"], str(ROOT / "src"), site]
-    process = subprocess.Popen(
-        [ros.python, "-m", "swarmdsl", "fleet", ros.scratch / "model", *options],
-        env={**ros.environment, "PYTHONPATH": os.pathsep.join(paths)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        stdin=subprocess.DEVNULL,
-        text=True,
-    )
-    assert process.stdout is not None
-    try:
-        yield process
-        process.send_signal(signal.SIGINT)
-        assert process.wait(PATIENCE) == 0
-        assert "Traceback" not in process.stdout.read()
-    finally:
-        process.kill()
-        process.wait()
-        process.stdout.close()
-
-
 def test_robots_are_seen_and_steered(lab: Any, browser: Any) -> None:
     fakes = lab.fakes()
     fakes.publisher("/crew/drone_0/battery", "sensor_msgs/msg/BatteryState")
     fakes.publisher("/crew/drone_1/pose", "geometry_msgs/msg/PoseStamped")
     first, second = drone(lab, 0), drone(lab, 1)
-    with fleet(lab, "--follow", "ros2:/crew") as process:
-        assert process.stdout is not None
-        said = next((line for line in process.stdout if "http://" in line), "")
-        found = re.search(r"http://\S+", said)
-        assert found, said
-        page = browser.new_page()
-        page.set_default_timeout(PATIENCE * 1000)
-        page.goto(found[0])
+    with watched(lab, lab.scratch / "model", "--follow", "ros2:/crew") as process:
+        fleet = FleetPage(browser, address_of(process))
+        page = fleet.page
 
         def robot(number: int, status: str, state: str) -> None:
-            row = page.locator(f"tr.{status}[data-robot='drone[{number}]']")
-            row.get_by_text(state, exact=True).wait_for()
+            fleet.wait_for(f"drone[{number}]", status, state)
 
         robot(0, "there", "Air")
         fakes.listeners("/crew/drone_0/battery", "/crew/drone_1/pose")
@@ -125,9 +88,7 @@ def test_robots_are_seen_and_steered(lab: Any, browser: Any) -> None:
         page.evaluate(PLACED)
         # Each robot is found by the publisher of the page before something can be sent.
         page.get_by_label("message of Near").fill('{"data": 3}')
-        while "sent to 2 nodes" not in page.locator("#operate").inner_text():
-            page.get_by_role("button", name="Near", exact=True).click()
-            page.locator("#operate [role=status]", has_text=": ").wait_for()
+        fleet.press("Near", "sent to 2 nodes")
         robot(0, "there", "Close")
         robot(1, "there", "Close")
         second.terminate(signal.SIGKILL)
@@ -136,13 +97,14 @@ def test_robots_are_seen_and_steered(lab: Any, browser: Any) -> None:
         page.get_by_role("button", name="Abort", exact=True).click()
         robot(0, "there", "Landed")
         page.close()
+        assert fleet.wrong == []
     first.wait_in("Landed")
     first.terminate()
 
 
 def test_robots_are_lines_where_the_output_is_no_terminal(lab: Any) -> None:
     node = drone(lab, 0)
-    with fleet(lab, "--terminal", "--follow", "ros2:") as process:
+    with watched(lab, lab.scratch / "model", "--terminal", "--follow", "ros2:") as process:
         assert process.stdout is not None
         lines = iter(process.stdout)
         assert any(line == "drone[0] there Air start\n" for line in lines)

@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from rclpy.duration import Duration
 from rclpy.logging import LoggingSeverity
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
@@ -14,6 +15,8 @@ from .engine import Observer, Run
 from .parameters import StartError
 from .values import MILLISECOND, to_json
 
+_PATIENCE = Duration(seconds=4)
+"""Time for those who follow the node to hear its end: the middleware asks again after 3 s."""
 HISTORY = 1000
 """Number of lines that a node keeps for those who subscribe later."""
 _LAST = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -234,7 +237,9 @@ class Output:
         self._node.get_logger().log(said, LoggingSeverity.INFO)
 
     def release(self):
-        """Destroy the publishers, and close the file."""
+        """Let followers hear the last line; destroy the publishers, and close the file."""
+        if self._node.context.ok():
+            self._transitions.wait_for_all_acked(_PATIENCE)
         self._node.destroy_publisher(self._state)
         self._node.destroy_publisher(self._transitions)
         if self._file is not None:

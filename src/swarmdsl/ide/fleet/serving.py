@@ -93,7 +93,8 @@ class _Handler(LocalHandler):
         if not isinstance(fields, dict):
             return {"failed": "`data` has the fields of a message"}
         try:
-            return {"heard": self.server.watch.send(asked["event"], fields)}
+            heard, lost = self.server.watch.send(asked["event"], fields)
+            return {"heard": heard, "lost": lost}
         except NotSentError as error:
             return {"failed": str(error)}
 

@@ -106,6 +106,10 @@ class Standing:
 
     # ---- what is told
 
+    def lost(self) -> list[str]:
+        """Return the robots that are lost."""
+        return [name for name, robot in self._robots.items() if self._status(robot) == GONE]
+
     def head(self) -> dict[str, Any]:
         """Return all as plain data."""
         return {
@@ -155,9 +159,7 @@ class Standing:
         }
 
     def _alarms(self) -> Iterator[str]:
-        for name, robot in self._robots.items():
-            if self._status(robot) == GONE:
-                yield f"{name} is lost"
+        yield from (f"{name} is lost" for name in self.lost())
         yield from self._strangers()
         for name, verdict in self._verdicts.items():
             if verdict == "false":

@@ -59,10 +59,11 @@ def show(watch: Watch, out: TextIO) -> None:
 def send(watch: Watch, name: str) -> str:
     """Send an event without data; return what became of it."""
     try:
-        heard = watch.send(name, {})
+        heard, lost = watch.send(name, {})
     except NotSentError as error:
         return f"{name} is not sent: {error}"
-    return f"{name} is sent to {heard} node{'s' if heard != 1 else ''}"
+    but = f"; lost: {', '.join(lost)}" if lost else ""
+    return f"{name} is sent to {heard} node{'s' if heard != 1 else ''}{but}"
 
 
 def lines_of(head: Mapping[str, Any]) -> dict[str, str]:

@@ -23,6 +23,8 @@ from swarmdsl.tools.player.recording import Recording
 Tell = Callable[[Diagnostics], None]
 Head = dict[str, Any]
 """Standing of the robots as plain data."""
+Sent = tuple[int, list[str]]
+"""Number of nodes that listen to an event, and the robots that are lost: they may not hear it."""
 Send = Callable[[OperatorEvent, Mapping[str, Any]], int]
 """Sends an event with the given fields; returns how many nodes listen. Raises NotSentError."""
 _PATIENCE = 1000
@@ -129,7 +131,7 @@ class Watch:
         with self._lock:
             return self._standing.head()
 
-    def send(self, name: str, fields: Mapping[str, Any]) -> int:
+    def send(self, name: str, fields: Mapping[str, Any]) -> Sent:
         """Send an event to the robots; raise NotSentError if it cannot be."""
         event = next((each for each in self.events if each.name == name), None)
         if event is None:
@@ -139,7 +141,7 @@ class Watch:
         heard = self._send(event, fields)
         with self.noting() as standing:
             standing.note_sent(name, heard)
-        return heard
+            return heard, standing.lost()
 
     def _publish(self) -> None:
         head = self._standing.head()

@@ -72,8 +72,9 @@ export function operate({ recording }) {
       const data = fields ? JSON.parse(fields.value) : {};
       const body = JSON.stringify({ event: name, data });
       const answer = await fetch("send", { method: "POST", headers: { "Content-Type": "application/json" }, body });
-      const { heard, failed } = await answer.json();
-      const words = failed ?? `sent to ${heard} node${heard === 1 ? "" : "s"}`;
+      const { heard, lost, failed } = await answer.json();
+      const but = lost?.length ? `; lost: ${lost.join(", ")}` : "";
+      const words = failed ?? `sent to ${heard} node${heard === 1 ? "" : "s"}${but}`;
       said.textContent = printable(`${name}: ${words}`);
     } catch (error) {
       said.textContent = printable(`${name} is not sent: ${error.message}`);
