@@ -66,6 +66,8 @@ MAPPING = tuple(
         ),
         ("events of members", _EXACT, "raised by heartbeats: `follows_members=True`"),
         ("number of present robots", _EXACT, "heard in time: `machine.world.present(`"),
+        ("contract on an event", _EXACT, "property of the monitor: `Abort`, with option monitors"),
+        ("contract `when dead`", _EXACT, "watchdog, which launch files start: `watchdog=`"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
         ("initial state of a machine that is final", _EXACT, "the node ends at once: `Kind.FINAL`"),
         ("name that Python cannot have", _REJECTED, "not a valid identifier (SW0905)"),

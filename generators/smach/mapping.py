@@ -72,6 +72,8 @@ MAPPING = tuple(
         ),
         ("events of members", _REJECTED, "nodes of ROS 1 send no heartbeats (SW0903)"),
         ("number of present robots", _REJECTED, "nodes of ROS 1 send no heartbeats (SW0903)"),
+        ("contract on an event", _REJECTED, "checked, but no node of ROS 1 watches it"),
+        ("contract `when dead`", _REJECTED, "nodes of ROS 1 have no watchdogs (SW0916)"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `<remap from=`"),
         (
             "initial state of a machine that is final",

@@ -4,6 +4,7 @@ import importlib.util
 import re
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -12,7 +13,7 @@ from swarmdsl.codegen.api import OutputFile, Support
 from swarmdsl.codegen.registry import load
 
 
-def _constructs() -> tuple[str, str, dict[str, str]]:
+def _constructs() -> ModuleType:
     """The models that the table of target `smach` is tested with: a model for each construct."""
     path = Path(__file__).parents[1] / "smach" / "test_mapping.py"
     spec = importlib.util.spec_from_file_location("smach_mapping", path)
@@ -20,10 +21,11 @@ def _constructs() -> tuple[str, str, dict[str, str]]:
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    return module.HEADER, module.PARTS, module.FOR_ROS_2
+    return module
 
 
-HEADER, PARTS, MODELS = _constructs()
+_OF_SMACH = _constructs()
+HEADER, PARTS, MODELS = _OF_SMACH.HEADER, _OF_SMACH.PARTS, _OF_SMACH.FOR_ROS_2
 
 
 def test_every_construct_has_a_model() -> None:
@@ -40,6 +42,12 @@ def test_the_table_is_true(
     body = MODELS[mapped.construct]
     end = "" if body == "final A" else "final End"
     model = f"{HEADER}statemachine Work {{ initial A; {body} {end} }}"
+    if mapped.construct in _OF_SMACH.CONTRACTS:
+        contracted = model + _OF_SMACH.CONTRACTED(_OF_SMACH.CONTRACTS[mapped.construct])
+        path, options = _OF_SMACH.WATCHING[mapped.construct]
+        (word,) = re.findall("`([^`]*)`", mapped.means)
+        assert word in generate(contracted, **options)[f"lab_behavior/{path}"].text
+        return
     if mapped.construct == "connector":
         (word,) = re.findall("`([^`]*)`", mapped.means)
         assert word in generate(model + PARTS)["lab_behavior/launch/uavs.launch.py"].text

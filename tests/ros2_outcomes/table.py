@@ -8,7 +8,7 @@ from collections.abc import Callable
 from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.codegen.api import Mapped, Support
 
-from ..smach.test_mapping import BOX, FOR_ROS_2, HEADER, PARTS
+from ..smach.test_mapping import BOX, CONTRACTED, CONTRACTS, FOR_ROS_2, HEADER, PARTS, WATCHING
 
 _ONE_ROW_HERE = (
     *("constant goal or request", "goal or request of values"),
@@ -39,6 +39,11 @@ def check_row(
     """Check what a row says of a machine with this body."""
     end = "" if body == "final A" else "final End"
     model = f"{HEADER}statemachine Work {{ initial A; {body} {end} }}"
+    if mapped.construct in CONTRACTS:
+        path, options = WATCHING[mapped.construct]
+        (word,) = re.findall("`([^`]*)`", mapped.means)
+        assert word in generate(model + CONTRACTED(CONTRACTS[mapped.construct]), **options)[path]
+        return
     if mapped.construct == "connector":
         assert "remappings=" in generate(model + PARTS)["launch/uavs.launch.py"]
         return

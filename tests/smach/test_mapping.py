@@ -28,6 +28,17 @@ sensor Ear { in heard : Note }
 member Uav { left : Eye; right : Eye; ear : Ear; connect right.seen -> ear.heard }
 swarm Uavs { uav : Uav }
 """
+CONTRACTS = {
+    "contract on an event": "contract Abort : on Go within 2 s reach End",
+    "contract `when dead`": "contract Dies : when dead call ask",
+}
+CONTRACTED = "member Uav {{ behavior Work; {} }}  swarm Uavs {{ uav : Uav }}".format
+"""A swarm of a member with a contract."""
+WATCHING = {
+    "contract on an event": ("lab_behavior/uavs_monitor.py", {"monitors": "true"}),
+    "contract `when dead`": ("launch/uavs.launch.py", {}),
+}
+"""File of what watches a contract on ROS 2, and the options that it takes."""
 BOX = "state In { on Go -> Deep }  state Deep { on Go -> In }"
 MOVE = "do move(x = 1.0)"
 ENDS = "on succeeded, aborted -> End"
@@ -137,6 +148,8 @@ MODELS = {
         state A { on Go / send Call after 3 s; on Stop / cancel Call -> End }""",
     "events of members": "state A { on member_lost -> End }",
     "number of present robots": "state A { on Go [present() > 1] -> End }",
+    "contract on an event": "state A { on Go -> End }",
+    "contract `when dead`": "state A { on Go -> End }",
     "connector": "state A { on Go -> End }",
     "initial state of a machine that is final": "final A",
     "name that Python cannot have": """
@@ -175,6 +188,11 @@ def test_the_table_is_true(
     body = MODELS[mapped.construct]
     end = "" if body == "final A" else "final End"
     model = f"{HEADER}statemachine Work {{ initial A; {body} {end} }}"
+    if mapped.construct in CONTRACTS:
+        told = reported(model + CONTRACTED(CONTRACTS[mapped.construct]))
+        codes = [CODES[name].code for name, _, _ in told]
+        assert codes == re.findall(r"\((SW\d{4})\)", mapped.means)
+        return
     if mapped.construct == "connector":
         (word,) = re.findall("`([^`]*)`", mapped.means)
         assert word in generate(model + PARTS)["launch/uav.launch"].text
