@@ -97,11 +97,7 @@ def test_wrapped_and_dissolved_again(path: Path) -> None:
         with workspace.overriding(texts):
             after = lower(workspace.project)
             behaviour(before, after, name, "Group")
-            here = workspace.file(path)
-            assert here is not None
-            at = here.source.text.index("state Group {")
-            wrapped = selected_states(here, Span(here.source, at, at))
-            assert wrapped is not None
+            here, wrapped = group(workspace, path)
             inner = [each for each in walk(wrapped.states[0]) if isinstance(each, State)]
             assert len(inner) > count - 1
             back = inline_state(workspace, here, wrapped)
@@ -109,6 +105,20 @@ def test_wrapped_and_dissolved_again(path: Path) -> None:
             with workspace.overriding(back):
                 again = lower(workspace.project)
         assert dump(again) == dump(before)
+        with workspace.overriding(texts):
+            here, wrapped = group(workspace, path)
+            if why_not_extract(wrapped) is None:
+                with workspace.overriding(extract_machine(workspace, here, wrapped)):
+                    behaviour(before, lower(workspace.project), name, "Group")
+
+
+def group(workspace: Workspace, path: Path) -> tuple[File, Selection]:
+    file = workspace.file(path)
+    assert file is not None
+    at = file.source.text.index("state Group {")
+    found = selected_states(file, Span(file.source, at, at))
+    assert found is not None
+    return file, found
 
 
 def behaviour(before: System, after: System, name: str, gone: str) -> None:
@@ -160,7 +170,8 @@ def test_machine_extracted(path: Path) -> None:
     file = workspace.file(path)
     if workspace.report.has_errors or file is None:
         pytest.skip("it is wrong by itself")
-    before, left = dump(lower(workspace.project)), 2
+    original, left = lower(workspace.project), 2
+    before = dump(original)
     for machine in file.model.declarations:
         for state in walk(machine) if isinstance(machine, StateMachine) else ():
             at = state.span.absolute.start
@@ -175,8 +186,12 @@ def test_machine_extracted(path: Path) -> None:
             assert comments(file.source.text) == comments(texts[path])
             with workspace.overriding(texts):
                 after = dump(lower(workspace.project))
+                system = lower(workspace.project)
             name = str(machine.name)
-            assert machine_in(after, name) == machine_in(before, name)
+            if "on done.To" not in texts[path]:
+                assert machine_in(after, name) == machine_in(before, name)
+            else:
+                behaviour(original, system, name, "")
 
 
 MODEL = """\
@@ -287,7 +302,12 @@ def test_extracted_text(model: Workspace) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "reason"),
     [
-        ("on Stop -> Y", "on Stop -> A", "`A` is named in `W`, and not inside"),
+        (
+            "on Stop -> Y",
+            "defer Go; on Stop -> A",
+            "`A` would be entered after events that `W` raises",
+        ),
+        ("[1 == 1]", "[in(A)]", "`A` is named in `W`, and not inside"),
         ("on Go -> C }", "on Go -> W.Y }", "`W.Y` is inside, and named outside of `W`"),
         ("initial A", "var n : int32 = 0; initial A", "`n` is a variable of `M`"),
         ("// on a stop", "do halt", "`W` has an activity"),
@@ -308,6 +328,23 @@ def test_not_extracted(tmp_path: Path, old: str, new: str, reason: str) -> None:
     if reason:
         with pytest.raises(RefusedError, match=re.escape(reason)):
             extract_machine(model, *place)
+
+
+def test_transitions_that_leave_end_the_machine(tmp_path: Path) -> None:
+    text = MODEL.replace("state Y\n", "state Y { on Stop -> A; on Go -> Z }\n")
+    text = text.replace("initial A", "initial W").replace(
+        "state A { on Go -> B }", "state A { on Go -> W }"
+    )
+    (tmp_path / "model.swarm").write_text(text, encoding="utf-8")
+    model = Workspace([tmp_path])
+    before = lower(model.project)
+    texts = extract_machine(model, *chosen(model, "state W"))
+    [text] = texts.values()
+    assert "  state Y {\n    on Stop -> ToA\n    on Go   -> ToZ\n  }\n" in text
+    assert "  final ToA\n  final ToZ\n}\n" in text
+    assert "    on done.ToA -> A\n    on done.ToZ -> Z\n" in text
+    with model.overriding(texts):
+        assert behaviours(before, lower(model.project), "M", "") > 10
 
 
 def test_dissolved_text(model: Workspace) -> None:
