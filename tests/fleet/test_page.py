@@ -149,6 +149,13 @@ def test_what_is_wrong_is_an_alarm(seen: Seen) -> None:
     ]
 
 
+def test_a_state_that_the_model_does_not_have_is_told(seen: Seen) -> None:
+    seen.watch.read([line(0, "robot[0]", None, "Off"), line(1, "robot[1]", None, "Nowhere")])
+    seen.watch.read([line(2, "robot[1]", "Visit", "Nowhere")])
+    assert seen.told == ["SW1010"]
+    assert rows(seen.watch)["robot[1]"]["machines"][0]["states"] == ["Nowhere"]
+
+
 def ask(
     address: str, method: str, path: str, body: object = None, **headers: str
 ) -> tuple[int, str]:

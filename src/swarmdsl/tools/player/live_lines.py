@@ -16,6 +16,7 @@ from swarmdsl.tools.player.trace_lines import plain
 _MOST_TOLD = 20
 """Number of diagnostics that are told."""
 _HELP = "`swarmc simulate --trace json` and nodes of target `ros2` write trace lines"
+_OTHER_MODEL = "the robot was built from another model: build it again, or follow it with its own"
 
 Message = dict[str, Any]
 
@@ -35,6 +36,7 @@ class LiveLines:
         self._patience = patience
         self._model = model
         self._machines = {each.name: each for each in machines}
+        self._of_model = frozenset(self._machines)
         self._of: dict[str, str] = {}
         self._number = 0
         self._told = 0
@@ -53,7 +55,7 @@ class LiveLines:
             if text.strip() and (line := self._line(text, found)) is not None:
                 if not is_beside_steps(line):
                     members += self._joined(line["member"], found)
-                    machines |= self._with_states(line)
+                    machines |= self._with_states(line, found)
                 shown.append(line)
         told = list(found)[: _MOST_TOLD - self._told]
         self._told += len(told)
@@ -104,12 +106,16 @@ class LiveLines:
         self._of[name] = member.machine
         return [member.head()]
 
-    def _with_states(self, line: Step) -> dict[str, Machine]:
-        """Return the machine of a line if it has states that were not known."""
+    def _with_states(self, line: Step, found: Diagnostics) -> dict[str, Machine]:
+        """Return the machine of a line if it has states that were not known, which is told."""
         name = self._of[line["member"]]
         known = self._machines.get(name, Machine(name, ()))
         new = [each for each in line["configuration"] if each not in known.states]
         if name in self._machines and not new:
             return {}
+        if name in self._of_model:
+            states = ", ".join(f"`{each}`" for each in new)
+            reason = f"line {self._number} of {self._name}: `{name}` has no state {states}"
+            found.report("bad-trace-line", reason=reason, help=_OTHER_MODEL)
         self._machines[name] = known.with_states(new)
         return {name: self._machines[name]}
