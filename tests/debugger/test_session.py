@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.cli import run
+
 from .client import Client, RefusedError
 
 MODEL = Path(__file__).with_name("lamps.swarm")
@@ -49,7 +51,8 @@ def test_a_session_from_the_first_event_to_the_end(client: Client) -> None:
 
     shown = client.request("swarmPicture")
     assert shown["active"] == {"bulb[0]": ["Waiting"], "bulb[1]": ["Waiting"]}
-    assert shown["events"] == [{"event": "Start", "label": "Start", "to": ["bulb[0]", "bulb[1]"]}]
+    start = {"event": "Start", "label": "Start", "to": ["bulb[0]", "bulb[1]"], "data": {"times": 0}}
+    assert shown["events"] == [start]
 
     assert client.value('send Start {"times": 2} to bulb[0]', "repl") == "Start to bulb[0]"
     stopped = client.stop()
@@ -66,6 +69,7 @@ def test_a_session_from_the_first_event_to_the_end(client: Client) -> None:
     assert client.value("event.times * most + 1") == "7"
 
     assert client.go("stepIn")["frame"]["name"] == "Lit"
+    assert "time in the state" not in client.scopes(1)["Robot"]
     assert client.go("stepIn")["reason"] == "breakpoint"
     assert [each["name"] for each in client.stack(1)] == ["Lit.On", "Lit"]
     assert client.value("blinks > 1 and not in(Off)") == "true"
@@ -201,6 +205,12 @@ def test_commands_of_the_console(client: Client) -> None:
     client.request("swarmSend", event="do.Lit.On.aborted", member="bulb[1]")
     client.stop()
     assert client.request("swarmPicture")["active"]["bulb[1]"] == ["Lit.Off"]
+    # As a page does, of which the editor knows nothing.
+    client.request("swarmGo", request="stepBack", threadId=2)
+    assert client.await_event("continued")
+    client.stop()
+    shown = client.request("swarmPicture")
+    assert (shown["member"], shown["active"]["bulb[1]"]) == ("bulb[1]", ["Lit.On"])
 
 
 def test_pause_and_restart_in_real_time(client: Client) -> None:
@@ -295,6 +305,8 @@ def test_wrong_requests_are_refused(client: Client) -> None:
         ("setBreakpoints", {"source": "here"}),
         ("completions", {"text": 3}),
         ("swarmSend", {"event": {}}),
+        ("swarmGo", {"request": "launch"}),
+        ("swarmGo", {"request": "stepIn"}),
         ("stepIn", {"threadId": 0}),
     ):
         with pytest.raises(RefusedError) as refused:
@@ -303,3 +315,8 @@ def test_wrong_requests_are_refused(client: Client) -> None:
     said = client.request("setBreakpoints", source={"path": "x"}, breakpoints=[1, {"line": "x"}])
     assert [each["verified"] for each in said["breakpoints"]] == [False, False]
     assert client.go("next")["reason"] == "pause"
+
+
+def test_streams_and_port_conflict(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["debug", "--stdio", "--tcp", "5008"]) == 2
+    assert "conflict" in capsys.readouterr().err

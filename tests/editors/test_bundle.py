@@ -106,6 +106,30 @@ def test_bundle_runs_tests(tmp_path: Path) -> None:
     assert (tmp_path / "run.html").is_file()
 
 
+def test_bundle_debugs() -> None:
+    model = ROOT / "examples" / "minimal" / "blinker.swarm"
+    requests = [
+        ("initialize", {}),
+        ("launch", {"program": str(model), "stopOnEntry": True}),
+        ("disconnect", {}),
+    ]
+    written = b""
+    for number, (command, arguments) in enumerate(requests, 1):
+        request = {"seq": number, "type": "request", "command": command, "arguments": arguments}
+        body = json.dumps(request).encode()
+        written += b"Content-Length: %d\r\n\r\n%s" % (len(body), body)
+    ran = subprocess.run([*BARE, "debug"], input=written, capture_output=True)
+    bodies = [part.partition(b"\r\n\r\n")[2] for part in ran.stdout.split(b"Content-Length: ")]
+    messages = [json.loads(body) for body in bodies if body]
+    answers = [each for each in messages if each["type"] == "response"]
+    assert [(each["command"], each["success"]) for each in answers] == [
+        ("initialize", True),
+        ("launch", True),
+        ("disconnect", True),
+    ]
+    assert (ran.returncode, ran.stderr) == (0, b"")
+
+
 def test_bundle_rejects_build() -> None:
     ran = subprocess.run([*BARE, "build", "."], capture_output=True, text=True)
     assert ran.returncode == 1

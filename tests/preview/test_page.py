@@ -218,6 +218,30 @@ def test_page_says_why_there_is_no_diagram(visit: Any, expect: Any) -> None:
     expect(shown.picture).to_contain_text("Awake")
 
 
+def test_page_controls_a_debug_session(visit: Any, expect: Any) -> None:
+    shown = visit()
+    shown.open()
+    bar = shown.page.locator("#debug")
+    expect(shown.picture).to_contain_text("Digger")
+    expect(bar).to_be_hidden()
+    event = {"event": "Go", "label": "Go", "to": ["digger[0]"]}
+    session = {"held": True, "time": 1.5, "member": "digger[0]", "events": [event]}
+    shown.tell(debug={**session, "variables": {"holes": "2"}})
+    expect(bar.locator(".where")).to_have_text("digger[0], at 1.500 s")
+    expect(bar.locator(".values")).to_have_text("holes = 2")
+    expect(bar.get_by_role("button", name="Pause")).to_be_disabled()
+    bar.get_by_role("button", name="Back").click()
+    bar.get_by_role("button", name="Go").click()
+    posted = [{"debug": {"request": "stepBack"}}, {"debug": {"event": "Go"}}]
+    assert shown.page.evaluate("posted") == posted
+    shown.tell(debug={"held": False, "time": 2})
+    expect(bar.get_by_role("button", name="Step")).to_be_disabled()
+    expect(bar.get_by_role("button", name="Pause")).to_be_enabled()
+    expect(bar.locator(".sends")).to_have_count(0)
+    shown.tell(debug=None)
+    expect(bar).to_be_hidden()
+
+
 @pytest.mark.parametrize(
     ("classes", "other", "ink", "paper", "own"),
     [

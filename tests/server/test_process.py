@@ -87,7 +87,7 @@ def test_properties_and_swarms_have_lenses_that_run_them(tmp_path):
     uri = (tmp_path / "a.swarm").as_uri()
     text = "swarm event Go : std_msgs/Empty\nswarm One { }\nproperty Quiet of One : never Go\n"
     document = {"uri": uri, "languageId": "swarm", "version": 1, "text": text}
-    offers = ("simulate", "verify", "build", "test")
+    offers = ("simulate", "debug", "verify", "build", "test")
     commands = [f"swarmdsl.{each}" for each in offers]
     options = {"capabilities": {}, "initializationOptions": {"commands": commands}}
     process = subprocess.Popen(SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
@@ -105,6 +105,7 @@ def test_properties_and_swarms_have_lenses_that_run_them(tmp_path):
     quiet = {"kind": "property", "name": "Quiet"}
     assert [(each["range"]["start"]["line"], *each["command"].values()) for each in lenses] == [
         (1, "Simulate", "swarmdsl.simulate", [uri, swarm]),
+        (1, "Debug", "swarmdsl.debug", [uri, swarm]),
         (1, "Verify", "swarmdsl.verify", [uri, swarm]),
         (1, "Build", "swarmdsl.build", [uri, swarm]),
         (1, "Test", "swarmdsl.test", [uri, swarm]),

@@ -2,6 +2,7 @@
 
 import * as vscode from "vscode";
 
+import { debug, provideDebugger } from "./debug.ts";
 import { followNodes, followTrace } from "./follow.ts";
 import { install } from "./install.ts";
 import { selectInterpreter } from "./interpreter.ts";
@@ -54,6 +55,11 @@ export function activate(context: vscode.ExtensionContext): void {
     command("simulateInRealTime", async (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = await savedFile(file);
       return uri && simulate(started, uri, subject, preview);
+    }),
+    provideDebugger(started, preview, log),
+    command("debug", async (file?: vscode.Uri | string, subject?: Simulated) => {
+      const uri = await savedFile(file);
+      return uri && debug(preview, uri, subject);
     }),
     command("play", async (file?: vscode.Uri | string, subject?: Simulated) => {
       const uri = await savedFile(file);

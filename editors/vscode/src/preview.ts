@@ -15,6 +15,13 @@ interface PageMessage {
   readonly reveal?: string;
   readonly save?: { readonly name: string; readonly base64: string };
   readonly run?: string;
+  readonly debug?: DebugCommand;
+}
+
+/** What the user wants of a debug session: a request of the protocol, or an event to send. */
+export interface DebugCommand {
+  readonly request?: string;
+  readonly event?: string;
 }
 
 /** Element of a diagram, as named by the language server; the frame has an empty name. */
@@ -40,6 +47,7 @@ export class Preview implements vscode.Disposable {
   private first: string | undefined; // initial diagram of a new page
   private wanted: PageMessage["want"];
   private highlights: Highlights | undefined;
+  private debugging: { readonly act: (command: DebugCommand) => void; readonly shown: object } | undefined;
   private isNew = false;
   private isMove = false; // the cursor has moved, not only the text around it
   private version: number | undefined; // of the text at the last position of the cursor
@@ -112,6 +120,12 @@ export class Preview implements vscode.Disposable {
     return highlights;
   }
 
+  /** Show the controls of a debug session, or none; `act` is called for what the user wants of it. */
+  showDebug(shown: object | null, act: (command: DebugCommand) => void): void {
+    this.debugging = shown ? { shown, act } : undefined;
+    void this.panel?.webview.postMessage({ debug: shown });
+  }
+
   dispose(): void {
     clearTimeout(this.timer);
     this.highlights?.dispose();
@@ -145,7 +159,7 @@ export class Preview implements vscode.Disposable {
     return new TextDecoder().decode(await vscode.workspace.fs.readFile(file));
   }
 
-  private async receive({ want, reveal, save, run }: PageMessage): Promise<void> {
+  private async receive({ want, reveal, save, run, debug }: PageMessage): Promise<void> {
     if (want !== undefined) {
       // A restored page first requests the diagram that it showed before.
       const first = this.isNew ? this.first : undefined;
@@ -157,6 +171,9 @@ export class Preview implements vscode.Disposable {
       this.wanted = want;
       await this.update();
       this.highlights?.resend();
+      if (this.debugging) {
+        await this.panel?.webview.postMessage({ debug: this.debugging.shown });
+      }
     }
     const place = /^(.*):(\d+):(\d+)$/.exec(reveal ?? "");
     if (place?.[1] !== undefined) {
@@ -168,6 +185,9 @@ export class Preview implements vscode.Disposable {
     }
     if (ACTIONS.some(({ command }) => command === run)) {
       await vscode.commands.executeCommand(run ?? "");
+    }
+    if (debug) {
+      this.debugging?.act(debug);
     }
     if (save && this.file) {
       const uri = await vscode.window.showSaveDialog({

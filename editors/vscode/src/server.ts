@@ -131,6 +131,7 @@ export class Server implements vscode.Disposable {
             "swarmdsl.references",
             "swarmdsl.preview",
             "swarmdsl.simulate",
+            "swarmdsl.debug",
             "swarmdsl.verify",
             "swarmdsl.build",
             "swarmdsl.test",

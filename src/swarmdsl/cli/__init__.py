@@ -23,8 +23,9 @@ from swarmdsl.cli.exit_code import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 
 __all__ = ["COMMANDS", "PLAIN", "main", "run"]
 
-# Arguments with which editors start the server.
+# Arguments with which editors start the server and the debug adapter.
 _SERVER = (["lsp"], ["lsp", "--stdio"])
+_DEBUGGER = (["debug"], ["debug", "--stdio"])
 
 
 def main() -> None:
@@ -93,6 +94,11 @@ def _run_plainly(arguments: Sequence[str]) -> int | None:
         from swarmdsl.ide.server.start import serve_on_standard_streams
 
         return serve_on_standard_streams()
+    if list(arguments) in _DEBUGGER:
+        from swarmdsl.ide.debugger.start import serve
+        from swarmdsl.ide.server.start import standard_streams
+
+        return serve(*standard_streams())
     if not arguments or arguments[0] not in PLAIN:
         return None
     from swarmdsl.base.errors import UsageError

@@ -3,70 +3,16 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
-from swarmdsl.ide.debugger.breakpoints import Places
-from swarmdsl.ide.debugger.controls import FAILURES, VIOLATIONS, Controls
-from swarmdsl.ide.debugger.inspection import Frame, Inspection
+from swarmdsl.ide.debugger.inspection import Frame
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required, texts
+from swarmdsl.ide.debugger.owner import Body, Handler, Session
 from swarmdsl.ide.debugger.points import Way
 from swarmdsl.ide.debugger.sending import enabled, read_command
 from swarmdsl.ide.debugger.values import Shown, text_of, type_text
-
-Body = Mapping[str, Any] | None
-
-CAPABILITIES: Mapping[str, Any] = {
-    "supportsConfigurationDoneRequest": True,
-    "supportsConditionalBreakpoints": True,
-    "supportsHitConditionalBreakpoints": True,
-    "supportsLogPoints": True,
-    "supportsBreakpointLocationsRequest": True,
-    "supportsEvaluateForHovers": True,
-    "supportsSetVariable": True,
-    "supportsStepBack": True,
-    "supportsRestartRequest": True,
-    "supportsTerminateRequest": True,
-    "supportsCompletionsRequest": True,
-    "supportsExceptionInfoRequest": True,
-    "exceptionBreakpointFilters": [
-        {"filter": VIOLATIONS, "label": "Property violated", "default": True},
-        {"filter": FAILURES, "label": "Expression failed", "default": True},
-    ],
-}
-
-
-class Session(Protocol):
-    """Session of a client, as requests use it."""
-
-    first_line: int
-    first_column: int
-    places: Places | None
-    inspection: Inspection | None
-
-    @property
-    def reason(self) -> str:
-        """Text of why the run stands still."""
-
-    def event(self, name: str, body: Body = None) -> None:
-        """Send an event to the client."""
-
-    def after_answer(self, act: Callable[[], None]) -> None:
-        """Do something when the present request has been answered."""
-
-    def looking(self) -> Controls:
-        """Return the controls of the run; raise RequestError if nothing is launched."""
-
-    def standing(self) -> Inspection:
-        """Return what looks into the run; raise RequestError unless it stands still."""
-
-    def go_on(self, way: Way) -> None:
-        """Let the run go on, when the request has been answered."""
-
-    def picture(self) -> dict[str, Any]:
-        """Return the run as pages show it."""
-
 
 # ---- breakpoints
 
@@ -154,10 +100,16 @@ def _scopes(session: Session, arguments: Arguments) -> Body:
     found = inspection.scopes(inspection.frame(required(arguments, "frameId", int)))
     return {
         "scopes": [
-            {"name": name, "variablesReference": number, "expensive": False}
+            {"name": name, "variablesReference": number, "expensive": False, **_HINTS.get(name, {})}
             for name, number in found
         ]
     }
+
+
+_HINTS: Mapping[str, Mapping[str, str]] = {
+    "Variables": {"presentationHint": "locals"},
+    "Params": {"presentationHint": "arguments"},
+}
 
 
 def _variables(session: Session, arguments: Arguments) -> Body:
@@ -273,7 +225,7 @@ def _targets(before: str, typed: str, names: list[str], kind: str) -> list[dict[
     ]
 
 
-REQUESTS: Mapping[str, Callable[[Session, Arguments], Body]] = {
+REQUESTS: Mapping[str, Handler] = {
     "setBreakpoints": _set_breakpoints,
     "breakpointLocations": _locations,
     "setExceptionBreakpoints": _set_filters,

@@ -249,9 +249,9 @@ class Controls:
         """Return True on the way to an earlier point; stand still there."""
         if not self.is_replaying:
             return False
+        self._faults.clear()
+        self._known_failures = Counter(self.world.failures)
         if self.number < self.way.point and kind != "failed":
-            self._faults.clear()
-            self._known_failures = Counter(self.world.failures)
             for deed in self.deeds.get(self.number, ()):
                 self.perform(deed)
             return True

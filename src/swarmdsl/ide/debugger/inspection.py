@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -215,8 +216,9 @@ class Inspection:
         machine = actor.machine
         number = machine.numbers.get(frame.state)
         if number and machine.states[number].timed and instance.active(frame.state):
-            elapsed = instance.elapsed(frame.state)
-            shown.append(Shown("time in the state", elapsed, DURATION))
+            with suppress(KeyError):  # in the middle of the entry, which notes it
+                elapsed = instance.elapsed(frame.state)
+                shown.append(Shown("time in the state", elapsed, DURATION))
         return shown
 
     # ---- acts of the user

@@ -14,6 +14,7 @@ from swarmdsl.execution.engine.world import FAILURES
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.inputs import Input, Reader
 from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace_line import named_numbers
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.ide.debugger.messages import RequestError
 from swarmdsl.ir import EventData, System, Transition, subexpressions
@@ -62,7 +63,7 @@ def read_event(line: Mapping[str, Any], subject: Subject, cast: Sequence[Actor])
 def enabled(
     subject: Subject, world: World, instances: Mapping[Actor, Instance]
 ) -> list[dict[str, Any]]:
-    """Return the events that would do something now, each with its receivers.
+    """Return the events that would do something now, each with its receivers and first data.
 
     One whose guard depends on its data may do something. Ends of functions that run are among them.
     """
@@ -73,6 +74,9 @@ def enabled(
         for name, label in _names(subject, world, actor):
             if _does_something(name, instance, subject.system):
                 entry = found.setdefault(name, {"event": name, "label": label, "to": []})
+                data = _default(name, subject.system)
+                if isinstance(data, dict) and data:
+                    entry["data"] = named_numbers(data)
                 entry["to"].append(actor.name or actor.machine.name)
     return list(found.values())
 
@@ -90,13 +94,17 @@ def _names(subject: Subject, world: World, actor: Actor) -> Iterator[tuple[str, 
             yield name, f"{run.activity.name} {outcome}"
 
 
+def _default(name: str, system: System | None) -> Any:
+    """Return the data of an event that says nothing; None if its type is not known."""
+    declared = system.events_by_name.get(name) if system is not None else None
+    return default_value(declared.type, system) if declared is not None and system else None
+
+
 def _does_something(name: str, instance: Instance, system: System | None) -> bool:
     decision = instance.configuration.decide(name)
     if decision.step is not None:
         return True
-    declared = system.events_by_name.get(name) if system is not None else None
-    data = default_value(declared.type, system) if declared is not None and system else None
-    event = Event(name, data)
+    event = Event(name, _default(name, system))
     for path, _ in decision.candidates:
         for edge in path:
             origin = edge.table.origin

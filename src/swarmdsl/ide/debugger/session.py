@@ -6,7 +6,6 @@ while the run stands still, it waits for them. Another thread only reads.
 
 from __future__ import annotations
 
-import os
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -14,12 +13,12 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.simulate.trace import Line, as_text
-from swarmdsl.ide.debugger import answers
+from swarmdsl.ide.debugger import answers, courses
 from swarmdsl.ide.debugger.breakpoints import Breakpoints, Places
-from swarmdsl.ide.debugger.controls import Controls, EndedError, RunAgainError
+from swarmdsl.ide.debugger.controls import GO_ON, Controls, EndedError, RunAgainError
 from swarmdsl.ide.debugger.expressions import Expressions
 from swarmdsl.ide.debugger.inspection import Inspection
 from swarmdsl.ide.debugger.messages import (
@@ -27,11 +26,10 @@ from swarmdsl.ide.debugger.messages import (
     Connection,
     RequestError,
     optional,
-    required,
 )
 from swarmdsl.ide.debugger.points import Way
 from swarmdsl.ide.debugger.programs import Program, load
-from swarmdsl.ide.debugger.sending import enabled
+from swarmdsl.ide.debugger.showing import headline, output_of, picture
 
 _INTERVAL = 0.1
 """Least time between two pictures of a run that goes on, in seconds."""
@@ -61,7 +59,9 @@ class Session:
         self._is_configured = self._is_over = False
         self._lines: list[str] = []
         self._shown = 0.0
-        self._requests = {**_LIFE, **_STEPS, **answers.REQUESTS}
+        self._told: Line | None = None
+        """Last step that the client was shown."""
+        self._requests = {**courses.REQUESTS, **answers.REQUESTS}
 
     # ---- messages
 
@@ -103,6 +103,7 @@ class Session:
         try:
             body = self._answered(command, message.get("arguments"))
         except RequestError as error:
+            self._deferred.clear()
             self._refuse(answer, str(error))
         except Exception as error:
             self._refuse(answer, f"internal error: {type(error).__name__}: {error}")
@@ -137,9 +138,9 @@ class Session:
             raise RequestError("`speed` must be a number above 0, at most 1000")
         program = load(arguments, folder, report)
         for found in report:
-            self._report(found)
+            self.event("output", output_of(found, self.first_line, self.first_column))
         if program is None:
-            raise RequestError(_headline(next(iter(report))))
+            raise RequestError(headline(next(iter(report))))
         self.program = program
         subject = program.subject
         expressions = Expressions(subject)
@@ -253,11 +254,15 @@ class Session:
         thread = controls.point.member + 1
         body = {"reason": reason, "threadId": thread, "allThreadsStopped": True}
         if text:
-            body |= {"description": _SAID.get(reason, text), "text": text}
+            body["text"] = text
+        if reason in ("exception", "pause"):
+            body["description"] = text or "Paused"
         self.event("stopped", body)
         while not self._goes_on:
             self._handle(self._messages.get())
         self._forget()
+        if controls.way == GO_ON:
+            self.event("swarmMoved", self.picture())
 
     def tell(self, text: str, category: str = "stdout") -> None:
         """Tell the user a line."""
@@ -287,173 +292,15 @@ class Session:
         self._flush()
         self._shown = time.monotonic()
         self.event("swarmMoved", self.picture())
+        controls = self.looking()
+        self._told = controls.last.get(controls.point.member)
 
     def picture(self) -> dict[str, Any]:
-        """Return the run as pages show it: active states, events to send, variables."""
-        controls, inspection = self.looking(), self.inspection
-        assert inspection is not None
-        if not controls.has_begun:
-            return {"active": {}}
-        instances = controls.instances
-        active = {
-            inspection.name(member): [instance.final]
-            if instance.final is not None
-            else instance.configuration.innermost
-            for member, instance in enumerate(instances.values())
-            if instance.running or instance.final is not None
-        }
-        gone = {inspection.name(n): None for n in range(len(instances))}
-        last = controls.last.get(controls.point.member)
-        shown: dict[str, Any] = {
-            "time": controls.world.clock.now / SECOND,
-            "active": {**gone, **active},
-        }
-        if last is not None:
-            called = last.actor.machine.called
-            name = inspection.name(controls.point.member)
-            shown["taken"] = {name: list(dict.fromkeys(map(called, last.taken)))}
-            shown["entered"] = {name: last.entered}
-        if self.is_held:
-            member = controls.point.member
-            shown["member"] = inspection.name(member)
-            shown["thread"] = member + 1
-            shown["events"] = enabled(controls.subject, controls.world, instances)
-            shown["variables"] = inspection.variables(member)
-        return shown
-
-    def _report(self, found: Diagnostic) -> None:
-        body: dict[str, Any] = {"category": "stderr", "output": f"{_headline(found)}\n"}
-        if found.primary is not None:
-            place = found.primary.span.absolute
-            line, column = place.source.line_column(place.start)
-            if place.source.path is not None:
-                path = os.path.realpath(place.source.path)
-                body |= {"source": {"name": place.source.path.name, "path": path}}
-                body |= {"line": line - 1 + self.first_line}
-                body |= {"column": column - 1 + self.first_column}
-        self.event("output", body)
+        """Return the run as pages show it."""
+        controls = self.looking()
+        assert self.inspection is not None
+        return picture(controls, self.inspection, self._told, is_held=self.is_held)
 
 
 def _begin_again() -> None:
     raise RunAgainError(0)
-
-
-def _headline(found: Diagnostic) -> str:
-    place = ""
-    if found.primary is not None:
-        at = found.primary.span.absolute
-        line, column = at.source.line_column(at.start)
-        place = f"{at.source.name}:{line}:{column}: "
-    label = f": {found.primary.message}" if found.primary and found.primary.message else ""
-    help_ = f" (help: {found.help})" if found.help else ""
-    return f"{place}{found.severity.value}[{found.code}]: {found.message}{label}{help_}"
-
-
-_SAID = {"breakpoint": "Paused on a state or transition", "exception": "Paused on a fault"}
-
-
-# ---- the life of a session
-
-
-def _initialize(session: Session, arguments: Arguments) -> Body:
-    session.first_line = 0 if optional(arguments, "linesStartAt1", bool) is False else 1
-    session.first_column = 0 if optional(arguments, "columnsStartAt1", bool) is False else 1
-    return answers.CAPABILITIES
-
-
-def _launched(session: Session, arguments: Arguments) -> Body:
-    if session.controls is not None:
-        raise RequestError("something is launched already")
-    session.begin(arguments)
-    session.after_answer(lambda: session.event("initialized"))
-    return None
-
-
-def _configured(session: Session, arguments: Arguments) -> Body:
-    session.configured()
-    return None
-
-
-def _restart(session: Session, arguments: Arguments) -> Body:
-    session.looking()
-    session.again()
-    return None
-
-
-def _end(session: Session, arguments: Arguments) -> Body:
-    def act() -> None:
-        session.event("terminated")
-        raise EndedError
-
-    session.after_answer(act)
-    return None
-
-
-_LIFE: Mapping[str, Callable[[Session, Arguments], Body]] = {
-    "initialize": _initialize,
-    "launch": _launched,
-    "configurationDone": _configured,
-    "restart": _restart,
-    "terminate": _end,
-    "disconnect": _end,
-}
-
-
-# ---- ways to go on
-
-
-def _continue(session: Session, arguments: Arguments) -> Body:
-    session.go_on(Way("breakpoint"))
-    return {"allThreadsContinued": True}
-
-
-def _moment(session: Session, arguments: Arguments) -> Body:
-    session.go_on(Way("moment"))
-    return None
-
-
-def _microstep(session: Session, arguments: Arguments) -> Body:
-    session.go_on(Way("microstep", _member(session, arguments)))
-    return None
-
-
-def _transition(session: Session, arguments: Arguments) -> Body:
-    session.go_on(Way("transition", _member(session, arguments)))
-    return None
-
-
-def _member(session: Session, arguments: Arguments) -> int:
-    return session.standing().member(required(arguments, "threadId", int))
-
-
-def _back(session: Session, arguments: Arguments) -> Body:
-    session.standing()
-    controls = session.looking()
-    before = [each for each in controls.moments if each < controls.number]
-    if not before:
-        raise RequestError("this is the start of the run")
-    session.go_back(before[-1])
-    return None
-
-
-def _back_to_breakpoint(session: Session, arguments: Arguments) -> Body:
-    session.standing()
-    session.go_back(session.looking().number, finds=True)
-    return None
-
-
-def _pause(session: Session, arguments: Arguments) -> Body:
-    if not session.is_held:
-        session.looking().wants_pause = True
-    return None
-
-
-_STEPS: Mapping[str, Callable[[Session, Arguments], Body]] = {
-    "continue": _continue,
-    "next": _moment,
-    "stepIn": _microstep,
-    "stepOut": _transition,
-    "stepBack": _back,
-    "reverseContinue": _back_to_breakpoint,
-    "pause": _pause,
-}

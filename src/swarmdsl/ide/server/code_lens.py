@@ -31,6 +31,7 @@ _KINDS: dict[type[TopLevel], Kind] = {
 }
 _PREVIEWED: tuple[Kind, ...] = ("machine", "member", "swarm")
 _SIMULATED: tuple[Kind, ...] = ("machine", "swarm", "property")
+_DEBUGGED: tuple[Kind, ...] = ("machine", "swarm")
 _VERIFIED: tuple[Kind, ...] = ("swarm", "property")
 # A build is of all that a swarm has, and its tests are beside it.
 _BUILT: tuple[Kind, ...] = ("swarm",)
@@ -40,7 +41,7 @@ _BUILT: tuple[Kind, ...] = ("swarm",)
 class CodeLens:
     """Lens at the name of a declaration; `kind` is None if it cannot be previewed."""
 
-    offer: Literal["references", "preview", "simulate", "verify", "build", "test"]
+    offer: Literal["references", "preview", "simulate", "debug", "verify", "build", "test"]
     name: Span
     kind: Kind | None = None
 
@@ -58,6 +59,8 @@ def code_lenses(file: File) -> Iterator[CodeLens]:
             yield CodeLens("preview", name, kind)
         if kind in _SIMULATED:
             yield CodeLens("simulate", name, kind)
+        if kind in _DEBUGGED:
+            yield CodeLens("debug", name, kind)
         if kind in _VERIFIED:
             yield CodeLens("verify", name, kind)
         if kind in _BUILT:

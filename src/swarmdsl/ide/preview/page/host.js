@@ -1,6 +1,6 @@
 // Connection to the host: an editor that embeds the page, or swarmc over HTTP. An editor receives
 // `{ want: { id, folded } }`, `{ reveal: "FILE:LINE:COLUMN" }`, `{ save: { name, base64 } }` and
-// `{ run: COMMAND }`.
+// `{ run: COMMAND }` and `{ debug: { request } }` or `{ debug: { event } }`.
 
 const editor = typeof acquireVsCodeApi === "function" ? acquireVsCodeApi() : undefined;
 const DARK = window.matchMedia("(prefers-color-scheme: dark)");
@@ -74,6 +74,11 @@ export async function reveal(place, say) {
 /** Run a command of the editor that it has offered. */
 export function run(command) {
   editor?.postMessage({ run: command });
+}
+
+/** Ask something of the debug session of the editor. */
+export function debug(command) {
+  editor?.postMessage({ debug: command });
 }
 
 /** Save a file where the user chooses. */

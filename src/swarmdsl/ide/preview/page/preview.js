@@ -4,10 +4,11 @@
 // diagram, `{ broken }` with the number of errors (the picture stays), `{ active }` with active states,
 // `{ taken, entered }` with transitions just taken and states they entered,
 // `{ redrawn: { id, svg } }` with a new picture of a diagram, for pages that show it,
-// `{ cursor: [{ diagram, element }], moved }`, `{ show: ID }`, and
+// `{ debug }` with the controls of a debug session or null for none, `{ cursor: [{ diagram, element }], moved }`, `{ show: ID }`, and
 // `{ unavailable: { text, actions: [{ title, command }] } }` if there are no diagrams.
 
 import { Cursor } from "./cursor.js";
+import { Debugging } from "./debugging.js";
 import { saveButtons } from "./export.js";
 import { Folding } from "./folding.js";
 import { Highlight } from "./highlight.js";
@@ -26,6 +27,7 @@ const highlight = new Highlight(element("who"), () => update());
 const view = new View(canvas, picture, click);
 const cursor = new Cursor();
 const status = new Status(element("state"), element("note"), element("explanation"));
+const debugging = new Debugging(element("debug"), host.debug);
 const search = new Search(element("find"), element("names"), find, () => canvas.focus());
 let titles = {};
 let drawn; // { id, svg, names, foldable }
@@ -108,6 +110,9 @@ function receive(message) {
   }
   if (message.taken || message.entered) {
     highlight.flash(picture, drawn?.id, message.taken ?? {}, message.entered ?? {});
+  }
+  if (message.debug !== undefined) {
+    debugging.show(message.debug);
   }
   if (message.show) {
     show(message.show);

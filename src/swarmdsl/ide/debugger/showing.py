@@ -1,0 +1,66 @@
+"""Run and diagnostics as a client shows them."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostic
+from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.ide.debugger.controls import Controls
+from swarmdsl.ide.debugger.inspection import Inspection
+from swarmdsl.ide.debugger.sending import enabled
+
+
+def headline(found: Diagnostic) -> str:
+    """Return a diagnostic on one line."""
+    place = ""
+    if found.primary is not None:
+        at = found.primary.span.absolute
+        line, column = at.source.line_column(at.start)
+        place = f"{at.source.name}:{line}:{column}: "
+    label = f": {found.primary.message}" if found.primary and found.primary.message else ""
+    help_ = f" (help: {found.help})" if found.help else ""
+    return f"{place}{found.severity.value}[{found.code}]: {found.message}{label}{help_}"
+
+
+def output_of(found: Diagnostic, first_line: int, first_column: int) -> dict[str, Any]:
+    """Return the body of an output event for a diagnostic, with its place."""
+    body: dict[str, Any] = {"category": "stderr", "output": f"{headline(found)}\n"}
+    place = found.primary.span.absolute if found.primary is not None else None
+    if place is not None and place.source.path is not None:
+        line, column = place.source.line_column(place.start)
+        path = os.path.realpath(place.source.path)
+        body["source"] = {"name": place.source.path.name, "path": path}
+        body["line"], body["column"] = line - 1 + first_line, column - 1 + first_column
+    return body
+
+
+def picture(
+    controls: Controls, inspection: Inspection, told: Line | None, *, is_held: bool
+) -> dict[str, Any]:
+    """Return a run as pages show it: active states, the last step unless that is told.
+
+    While the run stands still, also the events to send, and variables.
+    """
+    if not controls.has_begun:
+        return {"active": {}}
+    instances = controls.instances
+    active: dict[str, list[str] | None] = {}
+    for member, instance in enumerate(instances.values()):
+        states = instance.configuration.innermost if instance.running else None
+        active[inspection.name(member)] = [instance.final] if instance.final else states
+    shown: dict[str, Any] = {"time": controls.world.clock.now / SECOND, "active": active}
+    member = controls.point.member
+    last = controls.last.get(member)
+    if last is not None and last is not told:
+        called = last.actor.machine.called
+        shown["taken"] = {inspection.name(member): list(dict.fromkeys(map(called, last.taken)))}
+        shown["entered"] = {inspection.name(member): last.entered}
+    if is_held:
+        shown["member"] = inspection.name(member)
+        shown["thread"] = member + 1
+        shown["events"] = enabled(controls.subject, controls.world, instances)
+        shown["variables"] = inspection.variables(member)
+    return shown
