@@ -90,7 +90,8 @@ def rumur(model: Path, folder: Path) -> Found:
     told = _run(["./rumur"], folder, fails=True)
     violated = "No error found" not in told
     assert not violated or "error(s) found" in told, told
-    return Found(_number(r"(\d+) states", told), violated)
+    # Lines before the last one tell how many states there are so far.
+    return Found(_number(r"(\d+) states, \d+ rules", told), violated)
 
 
 def storm(models: Sequence[Path]) -> list[Found]:
