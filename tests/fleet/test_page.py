@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import struct
 from array import array
 from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
 from http.client import HTTPConnection
 from pathlib import Path
-from socket import create_connection
+from socket import SO_LINGER, SOL_SOCKET, create_connection
 from typing import Any
 
 import pytest
@@ -224,6 +226,22 @@ def test_a_client_that_asks_for_nothing_is_left(
         with create_connection(("127.0.0.1", port), 20) as silent:
             silent.sendall(b"POST /send HTTP/1.1")
             assert silent.recv(1) == b""
+
+
+def test_clients_that_leave_or_wait_disturb_nobody(
+    seen: Seen, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with serving(seen.watch, "127.0.0.1", 0, "secret") as address, ExitStack() as waiting:
+        port = int(address.split(":")[2].partition("/")[0])
+        for _ in range(60):
+            waiting.enter_context(create_connection(("127.0.0.1", port), 20))
+        for _ in range(5):
+            leaving = create_connection(("127.0.0.1", port), 20)
+            leaving.setsockopt(SOL_SOCKET, SO_LINGER, struct.pack("ii", 1, 0))
+            leaving.sendall(b"GET / HTTP/1.1\r\n")
+            leaving.close()
+        assert ask(address, "GET", "/", None, Authorization="Bearer secret")[0] == 200
+    assert capsys.readouterr().err == ""
 
 
 class Shape:
