@@ -43,7 +43,9 @@ class Border:
         )
 
     def _goes_on(self, number: int) -> bool:
-        """Return True if an edge does not end at this border."""
+        """Return True if an edge does not end at this border from inside."""
+        if number in self.routes.reserved.get(self.node, ()):
+            return True
         legs = self.routes.routes[number].legs
         at = next(at for at, leg in enumerate(legs) if leg[0] == self.node)
         _, source, target = legs[at]

@@ -159,9 +159,22 @@ class Compound:
         leg = next(at for at, each in enumerate(route.legs) if each[0] == level.node.id)
         _, source, target = route.legs[leg]
         edge, way = route.edge, level.direction
-        link.source_at = self._crossing(source, number, leg > 0, edge.source_port, way)
         last = len(route.legs) - 1
-        link.target_at = self._crossing(target, number, leg < last, edge.target_port, way)
+        crosses = self.edge_routes.crosses
+        link.source_at = self._crossing(
+            source,
+            number,
+            source is not None and crosses(source, number, leg == 0),
+            edge.source_port,
+            way,
+        )
+        link.target_at = self._crossing(
+            target,
+            number,
+            target is not None and crosses(target, number, leg == last),
+            edge.target_port,
+            way,
+        )
 
     def _crossing(
         self, node: str | None, number: int, crosses: bool, port: str | None, direction: Direction

@@ -38,7 +38,8 @@ class EdgeRoutes:
 
     `inner` lists the edges that cross a container, with the leg of their route; `loops` the
     self-loops of a node; `ends` the edges on a side of a node, True for those that start there;
-    `right_ports` the ports on the right side of their box.
+    `right_ports` the ports on the right side of their box; `reserved` the edges that end at a
+    container and have a place on a side that other edges cross.
     """
 
     def __init__(self, diagram: Diagram) -> None:
@@ -60,6 +61,8 @@ class EdgeRoutes:
             self._flip(node)
         self.ends: dict[tuple[str, Side], list[tuple[int, bool]]] = defaultdict(list)
         self._collect_ends()
+        self.reserved: dict[str, dict[int, Side]] = defaultdict(dict)
+        self._reserve()
 
     def _right_ports(self) -> set[str]:
         """Output ports, by direction or, for `inout`, by use."""
@@ -123,3 +126,22 @@ class EdgeRoutes:
             into: Side = "last" if route.flipped else "first"
             self.ends[route.edge.source, out].append((number, True))
             self.ends[route.edge.target, into].append((number, False))
+
+    def _reserve(self) -> None:
+        """Give edges that end at a container a place among those that cross the same side."""
+        crossed: set[tuple[str, Side]] = set()
+        for route in self.routes.values():
+            for leg, (container, source, target) in enumerate(route.legs):
+                if source is None and leg > 0:
+                    crossed.add((container, route.entry(leg)))
+                if target is None and leg < len(route.legs) - 1:
+                    crossed.add((container, route.exit(leg)))
+        for (node, side), ends in self.ends.items():
+            if (node, side) in crossed and self.nodes[node].kind != "parallel":
+                for number, _ in ends:
+                    if all(container != node for container, _, _ in self.routes[number].legs):
+                        self.reserved[node][number] = side
+
+    def crosses(self, node: str, number: int, is_last: bool) -> bool:
+        """Return True if the place of an edge on a node is determined inside of that."""
+        return not is_last or number in self.reserved.get(node, ())

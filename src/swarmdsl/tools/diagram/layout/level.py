@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from swarmdsl.codegen.diagram.graph import Node
 from swarmdsl.tools.diagram.layout.border import Border
@@ -61,6 +61,15 @@ class Level:
                 link.target += 1
             self.cells.insert(0, Cell(0, 0, 0, 0, title=True))
         self.layers = make_layers([] if self.beside else self.cells, self._layered(), self.pitch)
+        # Reserved places are no vertices before the order is known.
+        self.reserved = {
+            number: self.layers.cells[cell + self.titled]
+            for (number, _), cell in borders.items()
+            if not self.beside and number in routes.reserved.get(node.id, {})
+        }
+        left_out = {id(vertex) for vertex in self.reserved.values()}
+        for layer in self.layers.layers if left_out else ():
+            layer[:] = [vertex for vertex in layer if id(vertex) not in left_out]
         self.is_ordered = False
 
     def _layered(self) -> list[Link]:
@@ -88,6 +97,9 @@ class Level:
                     self.cells.append(Cell(0, 0, 0, 0, side))
             self.links.append(self._link(route, leg, ends[0], ends[1], labels.get(number)))
             self.numbers.append(number)
+        for number, side in self.routes.reserved.get(self.node.id, {}).items():
+            borders[number, side] = len(self.cells)
+            self.cells.append(Cell(0, 0, 0, 0, side))
         return borders
 
     def _link(self, route: Route, leg: int, source: int, target: int, label: Block | None) -> Link:
@@ -141,6 +153,17 @@ class Level:
             firsts.setdefault(segment.link, (segment.start, segment.end))
             lasts[segment.link] = segment.end, segment.start
         return firsts, lasts
+
+    def other_ends(self, child: str, numbers: Collection[int]) -> dict[int, End]:
+        """Return the other ends of the segments at a child, of edges with these numbers."""
+        firsts, lasts = self._outer_segments()
+        at = self.cell_of(next(at for at, each in enumerate(self.node.nodes) if each.id == child))
+        found = {}
+        for link, number in enumerate(self.numbers):
+            if number in numbers and link in firsts:
+                is_source = self.links[link].source == at
+                found[number] = (firsts if is_source else lasts)[link][1]
+        return found
 
     def place_ends(self) -> None:
         """Take the sizes of cells, and the positions at which links must end, into the layers."""

@@ -8,6 +8,7 @@ Schulze, Spoenemann, von Hanxleden: Drawing Layered Graphs with Port Constraints
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 
 from swarmdsl.codegen.diagram.graph import Node
@@ -45,6 +46,49 @@ def order_levels(frame: Node, levels: Mapping[str, Level]) -> None:
             break
         least, best = found, orders.taken()
     orders.restore(best)
+    for level in nested:
+        for child in level.node.nodes:
+            if child.id in levels and not level.beside:
+                _insert_reserved(level, levels[child.id])
+
+
+def _insert_reserved(level: Level, inner: Level) -> None:
+    """Put the reserved places on the border of a container between those of its crossings.
+
+    Each is where the order around the container has its edge, so that it crosses none there.
+    """
+    if not inner.reserved:
+        return
+    others = level.other_ends(inner.node.id, [number for number, _ in inner.border.cells])
+    for side, at in (("first", 0), ("last", -1)):
+        layer = inner.layers.layers[at]
+        fixed: list[tuple[tuple[int, int], Vertex]] = []
+        free: list[tuple[tuple[int, int], Vertex]] = []
+        for (number, where), cell in inner.border.cells.items():
+            if where == side and number in others:
+                end = others[number]
+                key = (end.vertex.order, end.at or 0)
+                vertex = inner.layers.cells[cell + inner.titled]
+                (free if number in inner.reserved else fixed).append((key, vertex))
+        crossed = sorted(key for key, _ in fixed)
+        on_border = sorted(
+            (vertex for _, vertex in fixed),
+            key=lambda each: each.order,
+            reverse=inner.border.turns,
+        )
+        free.sort(key=lambda each: each[0])
+        for rank in range(len(on_border) + 1):
+            added = [each for key, each in free if bisect_left(crossed, key) == rank]
+            if inner.border.turns:
+                added.reverse()
+            if rank < len(on_border):
+                place = layer.index(on_border[rank]) + inner.border.turns
+            else:
+                # Beyond all others outside.
+                place = 0 if inner.border.turns else len(layer)
+            layer[place:place] = added
+        for number, vertex in enumerate(layer):
+            vertex.order = number
 
 
 class _Orders:
@@ -100,6 +144,8 @@ class _Orders:
             for number, child, _, _ in self.region_ends(level)
         }
         for (number, side), cell in level.border.cells.items():
+            if number in level.reserved:
+                continue
             if level.beside:
                 keys[side].append((inside.get(number, (0.0, 0.0)), number))
             else:
