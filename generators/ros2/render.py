@@ -54,6 +54,17 @@ def emit(system: System, options: NodeOptions, report: Diagnostics) -> list[Outp
     return [*files(package, options), *(file for each in interfaces for file in each)]
 
 
+def tables(
+    package: PackageView, options: Options, *parameters: tuple[str, str, str]
+) -> dict[str, MappedText]:
+    """Return the tables of launch files and nodes of a README, with further parameters of nodes.
+
+    A parameter has its name, its default and what it is.
+    """
+    values = {"package": package, "options": options, "parameters": parameters}
+    return {name: _fill(f"package/{name}.md", **values) for name in ("launches", "nodes")}
+
+
 def interface_files(
     package: InterfacePackage, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
@@ -83,7 +94,8 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
     head = f"{legal}# {package.header}"
     yield OutputFile(f"{root}/package.xml", package.manifest)
     for name in ("setup.py", "setup.cfg", "README.md"):
-        yield OutputFile(f"{root}/{name}", _fill(f"package/{name}", header=head, **values))
+        filled = _fill(f"package/{name}", header=head, parameters=(), **values)
+        yield OutputFile(f"{root}/{name}", filled)
     yield OutputFile(f"{root}/resource/{root}", "")
     yield OutputFile(f"{root}/{root}/__init__.py", "")
     yield OutputFile(f"{root}/{root}/engine.py", f"{head}\n{engine_source()}")

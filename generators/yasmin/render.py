@@ -17,6 +17,9 @@ from ..ros2_outcomes import render as shared
 from .library import YASMIN
 from .view import FsmView, fsm_view
 
+_VIEWER = ("viewer.publish", "true", "publish states for `yasmin_viewer`")
+"""Further parameter of each node."""
+
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
     """Return the files of the package with the behaviour, and of interface packages."""
@@ -36,7 +39,7 @@ def _behavior(package: PackageView, views: list[FsmView], options: Options) -> I
     root = package.name
     head = shared.header(package, options)
     values = {"package": package, "views": views, "header": head}
-    readme = _fill("README.md", **values)
+    readme = _fill("README.md", **values, **ros2.tables(package, options, _VIEWER))
     yield from shared.shared_files(package, options, readme, Path(__file__).parent / "runtime")
     imports = _imports_of_test(package, views)
     text = _fill("test/test_yasmin.py", imports=imports, **values)

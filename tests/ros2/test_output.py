@@ -654,3 +654,27 @@ def test_a_contract_without_a_watchdog_is_told(tmp_path: Path) -> None:
     spare = "`Falls`: nothing calls `land`"
     assert told[("ros2",)] == told["smach", "2"] == [spare]
     assert told["smach", "1"] == ["`Dies`: nothing calls `land`", spare]
+
+
+def test_libraries_have_the_same_tables(compiled: Callable[[str], System]) -> None:
+    """Their nodes have one more parameter, of their own."""
+
+    def readme(target: str, **options: str) -> list[str]:
+        generator, report = load(target), Diagnostics()
+        chosen = parse_options(generator, options, report)
+        files = {each.path: each.text for each in generator.emit(compiled(MODEL), chosen, report)}
+        assert not list(report)
+        lines = files["lab_behavior/README.md"].partition("## Diagrams")[0].splitlines()
+        return [line for line in lines if line.startswith(("|", "#"))]
+
+    plain = readme("ros2")
+    assert "### Parameters of each node" in plain
+    for (target, options), own in (
+        (("yasmin", {}), "viewer.publish"),
+        (("smach", {"ros": "2"}), "introspection.publish"),
+    ):
+        more = readme(target, **options)
+        assert {*plain} <= {*more}
+        nodes = [line for line in more[more.index("## Nodes") :] if own not in line]
+        assert nodes == plain[plain.index("## Nodes") :]
+        assert [line for line in more if line.startswith(f"| `{own}` |")]

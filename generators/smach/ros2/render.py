@@ -19,6 +19,13 @@ from ..options import Options
 from .library import SMACH
 from .view import SmachView, smach_view
 
+_SHOWN = (
+    "introspection.publish",
+    "false",
+    "publish states for smach_viewer, by a node `smach_server` in the same process",
+)
+"""Further parameter of each node."""
+
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
     """Return the files of the package with the behaviour, and of interface packages."""
@@ -43,7 +50,7 @@ def _behavior(
     root = package.name
     head = shared.header(package, options)
     values = {"package": package, "views": views, "header": head}
-    readme = _fill("README.md", **values)
+    readme = _fill("README.md", **values, **ros2.tables(package, options, _SHOWN))
     yield from shared.shared_files(package, options, readme, Path(__file__).parent / "runtime")
     imports = Imports({})
     imports.module("pytest")
