@@ -18,6 +18,7 @@ import { simulate } from "./simulate.ts";
 import { showStatus } from "./status.ts";
 import type { Simulated, Subject } from "./subject.ts";
 import { build, provideTasks } from "./tasks.ts";
+import { exploreTests } from "./testing/explorer.ts";
 import { verify } from "./verify.ts";
 import { welcome } from "./welcome.ts";
 
@@ -38,6 +39,7 @@ export function activate(context: vscode.ExtensionContext): void {
     preview,
     showStatus(started),
     provideTasks(started),
+    exploreTests(started),
     command("restartServer", () => started.restart()),
     command("selectInterpreter", selectInterpreter),
     command("install", () => install(started, context.extensionUri)),

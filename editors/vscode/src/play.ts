@@ -44,10 +44,6 @@ export async function test(server: Server, file: vscode.Uri): Promise<void> {
   if (!launch) {
     return;
   }
-  if (launch.bundled) {
-    showBundledLimit("run tests");
-    return;
-  }
   await vscode.workspace.saveAll(false);
   const folder = dirname(file.fsPath);
   await playPage(launch, file, "the test that fails", ["test", folder, "--play"]);
@@ -94,7 +90,8 @@ export async function playPage(
   return html !== undefined;
 }
 
-function showPage(html: string, name: string): void {
+/** Show the page of a run beside the text. */
+export function showPage(html: string, name: string): void {
   const panel = vscode.window.createWebviewPanel(
     "swarmdsl.run",
     `Run of ${name}`,

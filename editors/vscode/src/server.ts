@@ -57,13 +57,15 @@ export class Server implements vscode.Disposable {
     });
   }
 
+  /** Launch of swarmc, or why there is none. */
+  async found(): Promise<Found> {
+    await this.queue;
+    return this.launch ? { launch: this.launch } : this.search();
+  }
+
   /** Launch of swarmc; shows an error and returns undefined if there is none. */
   async swarmc(): Promise<Launch | undefined> {
-    await this.queue;
-    if (this.launch) {
-      return this.launch;
-    }
-    const found = await this.search();
+    const found = await this.found();
     if ("launch" in found) {
       return found.launch;
     }

@@ -54,6 +54,14 @@ UNTITLED = "statemachine M { initial Idle state Idle { on Nowhere -> Idle } }"
 COLOURED = """colour =>
   [...document.querySelectorAll(".editor-instance .view-line span span")].some(each =>
     each.textContent.trim() === "Idle" && getComputedStyle(each).color === colour)"""
+WRONG = """[[test]]
+name  = "rovers bid at once"
+steps = [{ send = "MissionStart" }, { all = "rover", in = "Mission.Rescue.Bid" }]
+
+[[test]]
+name  = "time passes"
+steps = [{ pass = "1 s" }]
+"""
 PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
 
 
@@ -252,6 +260,71 @@ def test_preview_follows_the_text_and_opens_places(
     changed = text(window, "sar.swarm").replace("Rover[1..5]", "Rover[1..6]")
     (window.folder / "sar.swarm").write_text(changed, encoding="utf-8")
     expect(picture).to_contain_text("1..6")
+
+
+def test_tests_run_in_the_test_view(window: Window) -> None:
+    wrong = window.folder / "wrong.swarmtest.toml"
+    wrong.write_text(WRONG, encoding="utf-8")
+    page = window.page
+    window.command("Testing: Focus on Test Explorer View")
+    rows = page.locator(".test-explorer .monaco-list-row")
+    passed, failed = (f".codicon-testing-{each}-icon" for each in ("passed", "failed"))
+    row = rows.filter(has_text="wrong.swarmtest.toml")
+    # The bundled server lists and runs them.
+    window.command("Test: Refresh Tests")
+    expect(rows).to_have_count(2)
+    row.locator(".monaco-tl-twistie").click()
+    test = rows.filter(has_text="rovers bid at once")
+    expect(rows).to_have_count(4)
+    window.command("Test: Run All Tests with Coverage")
+    expect(test.locator(failed)).to_have_count(1)
+    expect(rows.filter(has_text="time passes").locator(passed)).to_have_count(1)
+    expect(rows.filter(has_text="mission.swarmtest.toml").locator(passed)).to_have_count(1)
+
+    window.place("wrong.swarmtest.toml", "Mission.Rescue.Bid")
+    beside = page.locator(".test-message-inline-content")
+    expect(beside).to_contain_text("expected all `rover` in `Mission.Rescue.Bid`")
+    window.open("behaviours.swarm", 40)
+    hit = page.locator(".line-numbers.coverage-deco-hit")
+    expect(hit.filter(has_text=re.compile("^40$"))).to_have_count(1)  # on aborted -> SelectRover
+    window.open("behaviours.swarm", 37)
+    expect(hit.filter(has_text=re.compile("^37$"))).to_have_count(1)  # state SelectRover
+    expect(hit.filter(has_text=re.compile("^36$"))).to_have_count(0)
+
+    window.leave()
+    window.place("wrong.swarmtest.toml", "rovers bid")
+    window.command("Test: Debug Test at Cursor")
+    run = window.view()
+    expect(run.locator("#about")).to_contain_text("SearchAndRescue")
+    expect(run.locator("body")).to_contain_text("SW1101")
+
+    window.leave()
+    window.command("Testing: Focus on Test Explorer View")
+    window.command("Test: Start Continuous Run")
+    every = page.locator(".quick-input-widget .monaco-list-row", has_text="Run").first
+    if every.is_visible():
+        every.click()
+    window.place("wrong.swarmtest.toml", "Mission.Rescue.Bid")
+    mended = WRONG.replace("Rescue.Bid", "Rescue.Ready")
+    page.keyboard.press("Control+a")
+    page.keyboard.insert_text(mended)
+    window.saved("wrong.swarmtest.toml", lambda now: now == mended)
+    expect(test.locator(passed)).to_have_count(1)
+    window.command("Test: Stop Continuous Run")
+
+    wrong.write_text(f"{WRONG}steps = [", encoding="utf-8")
+    expect(rows.filter(has_text="is not valid TOML")).to_have_count(1)
+    expect(test).to_have_count(1)  # it does not vanish
+    expect(window.problems().filter(has_text="is not valid TOML")).to_have_count(1)
+    window.leave()
+    window.command("Testing: Focus on Test Explorer View")
+    wrong.rename(window.folder / "other.swarmtest.toml")
+    expect(rows.filter(has_text="other.swarmtest.toml")).to_have_count(1)
+    expect(row).to_have_count(0)
+    (window.folder / "other.swarmtest.toml").unlink()
+    expect(rows).to_have_count(1)
+    window.command("Test: Close Coverage")
+    window.command("View: Show Explorer")
 
 
 def test_markdown_blocks_are_highlighted(window: Window) -> None:

@@ -1,0 +1,121 @@
+// Items of the Test view: test files of the workspace, and their tests.
+
+import { dirname, isAbsolute, join } from "node:path";
+
+import * as vscode from "vscode";
+
+import { described, type FileRecord, type Problem, type TestRecord } from "./records.ts";
+
+/** Identity of a test; `file` is its path as `swarmc` tells it. */
+interface Known {
+  readonly id: string;
+  readonly file: string;
+}
+
+export class Tree {
+  private readonly controller: vscode.TestController;
+  // swarmc ids of tests; an item of a file has none.
+  private readonly tests = new WeakMap<vscode.TestItem, Known>();
+
+  constructor(controller: vscode.TestController) {
+    this.controller = controller;
+  }
+
+  /** All files. */
+  get files(): vscode.TestItem[] {
+    return [...this.controller.items].map(([, item]) => item);
+  }
+
+  /** Identity of a test; undefined of a file. */
+  testOf(item: vscode.TestItem): Known | undefined {
+    return this.tests.get(item);
+  }
+
+  /** Item of a test that swarmc names; created if it is new. */
+  item({ id, name, file, line, column }: Omit<TestRecord, "type" | "subject" | "problems">): vscode.TestItem {
+    const uri = vscode.Uri.file(file);
+    const parent = this.file(uri);
+    const known = parent.children.get(id);
+    const item = known ?? this.controller.createTestItem(id, name, uri);
+    const start = new vscode.Position(line - 1, column - 1);
+    item.range = new vscode.Range(start, start);
+    item.sortText = String(line).padStart(8, "0");
+    this.tests.set(item, { id, file });
+    if (!known) {
+      parent.children.add(item);
+    }
+    return item;
+  }
+
+  /** Item of a file; created if it is new. */
+  file(uri: vscode.Uri): vscode.TestItem {
+    const known = this.controller.items.get(uri.toString());
+    if (known) {
+      return known;
+    }
+    const label = vscode.workspace.asRelativePath(uri);
+    const item = this.controller.createTestItem(uri.toString(), label, uri);
+    this.controller.items.add(item);
+    return item;
+  }
+
+  /** Show what a list has; tests and files that it does not have leave the tree. */
+  show(records: readonly (FileRecord | TestRecord)[]): void {
+    const found = new Map<vscode.TestItem, vscode.TestItem[]>();
+    for (const record of records) {
+      const parent = this.file(vscode.Uri.file(record.file));
+      const tests = found.get(parent) ?? [];
+      found.set(parent, tests);
+      if (record.type === "file") {
+        parent.error = problemText(record.problems.filter(() => !record.read));
+        continue;
+      }
+      const item = this.item(record);
+      item.error = problemText(record.problems);
+      item.description = record.subject?.name ?? "";
+      tests.push(item);
+    }
+    for (const [parent, tests] of found) {
+      parent.children.replace(tests);
+    }
+    this.controller.items.replace([...found.keys()]);
+  }
+
+  /** Show files of which nothing else is known, with the reason. */
+  explain(files: readonly vscode.Uri[], why: string): void {
+    const items = files.map((uri) => this.file(uri));
+    this.controller.items.replace(items);
+    items.forEach((item) => (item.error = why));
+  }
+}
+
+function problemText(problems: readonly Problem[]): string | undefined {
+  return problems.length ? problems.map(described).join("\n\n") : undefined;
+}
+
+/** Place of a problem, in a file that swarmc names from a folder; undefined without one. */
+export function locationOf(problem: Problem, folder: string): vscode.Location | undefined {
+  const { file, line, column, end_line, end_column } = problem;
+  if (file === null || line === null || column === null) {
+    return undefined;
+  }
+  const range = new vscode.Range(
+    line - 1,
+    column - 1,
+    (end_line ?? line) - 1,
+    (end_column ?? column) - 1,
+  );
+  return new vscode.Location(vscode.Uri.file(absolute(file, folder)), range);
+}
+
+/** Absolute path of a file that swarmc names from a folder. */
+export function absolute(file: string, folder: string): string {
+  return isAbsolute(file) ? file : join(folder, file);
+}
+
+/** Folder in which swarmc runs: paths of its diagnostics are relative to it. */
+export function workingFolder(file: vscode.Uri | undefined): string {
+  const folder = file && vscode.workspace.getWorkspaceFolder(file);
+  const first = folder ?? vscode.workspace.workspaceFolders?.[0];
+  return first?.uri.fsPath ?? (file ? dirname(file.fsPath) : process.cwd());
+}
