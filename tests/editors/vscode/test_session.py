@@ -271,7 +271,6 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     passed, failed = (f".codicon-testing-{each}-icon" for each in ("passed", "failed"))
     row = rows.filter(has_text="wrong.swarmtest.toml")
     # The bundled server lists and runs them.
-    window.command("Test: Refresh Tests")
     expect(rows).to_have_count(2)
     row.locator(".monaco-tl-twistie").click()
     test = rows.filter(has_text="rovers bid at once")
@@ -281,7 +280,8 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     expect(rows.filter(has_text="time passes").locator(passed)).to_have_count(1)
     expect(rows.filter(has_text="mission.swarmtest.toml").locator(passed)).to_have_count(1)
 
-    window.place("wrong.swarmtest.toml", "Mission.Rescue.Bid")
+    test.dblclick()  # quick open may not know the new file yet
+    window.at(2, 9)
     beside = page.locator(".test-message-inline-content")
     expect(beside).to_contain_text("expected all `rover` in `Mission.Rescue.Bid`")
     window.open("behaviours.swarm", 40)
@@ -292,7 +292,8 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     expect(hit.filter(has_text=re.compile("^36$"))).to_have_count(0)
 
     window.leave()
-    window.place("wrong.swarmtest.toml", "rovers bid")
+    test.dblclick()
+    window.at(2, 9)
     window.command("Test: Debug Test at Cursor")
     run = window.view()
     expect(run.locator("#about")).to_contain_text("SearchAndRescue")
@@ -301,10 +302,8 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     window.leave()
     window.command("Testing: Focus on Test Explorer View")
     window.command("Test: Start Continuous Run")
-    every = page.locator(".quick-input-widget .monaco-list-row", has_text="Run").first
-    if every.is_visible():
-        every.click()
-    window.place("wrong.swarmtest.toml", "Mission.Rescue.Bid")
+    test.dblclick()
+    window.at(2, 9)
     mended = WRONG.replace("Rescue.Bid", "Rescue.Ready")
     page.keyboard.press("Control+a")
     page.keyboard.insert_text(mended)
