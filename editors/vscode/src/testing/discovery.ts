@@ -3,7 +3,6 @@
 import * as vscode from "vscode";
 
 import type { Server } from "../server.ts";
-import { showMistakes } from "./mistakes.ts";
 import { runTests } from "./process.ts";
 import type { FileRecord, TestRecord } from "./records.ts";
 import { type Tree, workingFolder } from "./tree.ts";
@@ -16,8 +15,7 @@ const DELAY = 300; // milliseconds without a change before the list is made
 export class Discovery implements vscode.Disposable {
   private readonly server: Server;
   private readonly tree: Tree;
-  private readonly mistakes = vscode.languages.createDiagnosticCollection("swarmdsl-tests");
-  private readonly disposables: vscode.Disposable[] = [this.mistakes];
+  private readonly disposables: vscode.Disposable[] = [];
   private timer: NodeJS.Timeout | undefined;
   private running: Promise<void> | undefined;
   private stopping: vscode.CancellationTokenSource | undefined;
@@ -76,7 +74,6 @@ export class Discovery implements vscode.Disposable {
     }
     if (!files.length) {
       this.tree.show([]);
-      this.mistakes.clear();
       return;
     }
     const found = await this.server.found();
@@ -87,12 +84,11 @@ export class Discovery implements vscode.Disposable {
     const folders = new Set(
       files.map((file) => vscode.workspace.getWorkspaceFolder(file)?.uri.fsPath ?? file.fsPath),
     );
-    const folder = workingFolder(files[0]);
     const records: (FileRecord | TestRecord)[] = [];
     const { told, errors } = await runTests(
       found.launch,
       ["--list", "--format", "json", ...folders],
-      folder,
+      workingFolder(files[0]),
       {
         record: (record) => {
           if (record.type === "file" || record.type === "test") {
@@ -107,7 +103,6 @@ export class Discovery implements vscode.Disposable {
     }
     if (told) {
       this.tree.show(records);
-      showMistakes(this.mistakes, records, folder);
     } else {
       const which = `the swarmc of ${found.launch.origin}`;
       this.tree.explain(files, `${which} cannot list tests: it may be too old.\n${errors}`);
