@@ -49,6 +49,11 @@ def strings(value: Any) -> list[str]:
     return [text for item in inner for text in strings(item)]
 
 
+def all_sources() -> str:
+    files = (EXTENSION / "src").rglob("*.ts")
+    return "".join(path.read_text(encoding="utf-8") for path in files)
+
+
 # ---- package.json
 
 
@@ -60,7 +65,7 @@ def test_manifest_names_all_files_of_the_extension() -> None:
 
 
 def test_commands_are_those_that_the_sources_register() -> None:
-    sources = "".join(path.read_text(encoding="utf-8") for path in (EXTENSION / "src").iterdir())
+    sources = all_sources()
     registered = {f"swarmdsl.{name}" for name in re.findall(r'\bcommand\("(\w+)"', sources)}
     for_the_server = {"swarmdsl.references"}
     offered = {each["command"] for each in MANIFEST["contributes"]["commands"]}
@@ -71,7 +76,7 @@ def test_commands_are_those_that_the_sources_register() -> None:
 
 
 def test_settings_are_those_that_the_sources_read() -> None:
-    sources = "".join(path.read_text(encoding="utf-8") for path in (EXTENSION / "src").iterdir())
+    sources = all_sources()
     settings = set(MANIFEST["contributes"]["configuration"]["properties"])
     assert settings == {"swarmdsl.trace.server", *re.findall(r"swarmdsl\.server\.\w+", sources)}
     trusted = set(MANIFEST["capabilities"]["untrustedWorkspaces"]["restrictedConfigurations"])
