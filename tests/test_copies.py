@@ -13,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.records import fields_of, is_dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.codegen.source_map import Entry, MappedText, TracedStr
@@ -28,6 +29,7 @@ MODELS = [
 ]
 SPAN = Span(Source("m.swarm", "a b"), 0, 1)
 SAMPLES: dict[type, Any] = {
+    Advice: Advice("add a", "import", "a"),
     MappedText: MappedText("a\n", [Entry(1, SPAN)]),
     TracedStr: TracedStr("a", SPAN, holds=True),
     Word: Word("a", SPAN),

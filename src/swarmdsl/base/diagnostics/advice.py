@@ -25,6 +25,10 @@ class Advice(str):
         made.act, made.arguments = act, arguments
         return made
 
+    def __getnewargs__(self) -> tuple[object, ...]:  # type: ignore[override]
+        """Copy and pickle with the change."""
+        return str(self), self.act, *self.arguments
+
     def prefixed(self, text: str) -> Advice:
         """Return the same change with more text before it."""
         return Advice(f"{text}{self}", self.act, *self.arguments)

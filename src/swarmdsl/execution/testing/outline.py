@@ -53,7 +53,7 @@ def _tabled(document: Document) -> list[tuple[object, Span]]:
 
 def _scanned(source: Source) -> list[tuple[object, Span]]:
     headers = list(_HEADER.finditer(source.text))
-    ends = [*(each.start() for each in headers[1:]), len(source.text)]
+    ends = [*(each.start() for each in headers), len(source.text)][1:]
     found: list[tuple[object, Span]] = []
     for header, end in zip(headers, ends, strict=True):
         name = _NAME.search(source.text, header.end(), end)
