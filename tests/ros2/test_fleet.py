@@ -178,6 +178,8 @@ def _watch_the_farm(made: Fleet, page: FleetPage, pictures: Path | None) -> None
     assert [count(node, "member_lost") for node in (base, first, second)] == before
     made.radio.lose_nothing()
 
+    # A line that was lost comes again only as long as its sender is there.
+    page.wait_for("scout[1]", "there", "Work.Survey")
     killed = time.time()
     second.process.send_signal(signal.SIGKILL)
     for node in (base, first):
