@@ -110,6 +110,18 @@ def test_a_lost_robot_may_come_back(simulate: Simulate, judge: Judge) -> None:
     assert (verdicts(ran)["P"][0], judge(ran.out)) == ("false", "open")
 
 
+def test_a_robot_that_has_ended_may_be_lost_and_start_anew(
+    simulate: Simulate, judge: Judge
+) -> None:
+    model = f"{ENDING}\nproperty P of Crew : each robot : after in Over, never in First\n"
+    lost = '[[faults]]\nat = "20 s"\nlost = "robot[1]"\nlasts = "5 s"\n'
+    ran = simulate(model, events=[{**START, "member": "robot[1]"}], scenario=lost)
+
+    # No machine of it was running: its loss has no line.
+    assert "fault.lost" not in ran.out
+    assert (verdicts(ran)["P"][0], judge(ran.out)) == ("false", "false")
+
+
 def both(path: Path, seed: int, said: str) -> list[list[PropertyResult]]:
     """Return the verdicts on a run, and those on its trace."""
     system = pipeline.check([path]).system

@@ -251,9 +251,10 @@ class _Replay:
         name, instance = record.event, self._instance
         try:
             if name is None:
-                if self._last_event == LOST:
+                if self._last_event == LOST or instance.final is not None:
+                    # The loss of a robot whose machine has ended has no line.
                     instance = self._start_anew()
-                elif instance.running or instance.final is not None:
+                elif instance.running:
                     return "it starts a second time"
                 self._trace.begin(instance, None)
                 instance.start()

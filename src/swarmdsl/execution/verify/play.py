@@ -37,11 +37,13 @@ def play(
     property_: Property | None = None,
     *,
     is_whole: bool = False,
+    ended: bool = True,
 ) -> Run:
     """Run the steps of a network on the engine.
 
     The run shows the property, if one is given, to be violated; otherwise that is a flaw. With
-    `is_whole`, nothing more is on its way at its end.
+    `is_whole`, nothing more is on its way at its end. Unless it has `ended`, it must do so whatever
+    follows.
     """
     timeless = Play(network, [0] * (len(steps) + 1), None)
     timeless.run(steps)
@@ -66,7 +68,7 @@ def play(
     if watch is not None:
         if not watch.violations and timed.late:
             return Run((), flaw=exceeding(network.capacity, timed.late))
-        (result,) = watch.results(times[-1], ended=True)
+        (result,) = watch.results(times[-1], ended=ended)
         if result.verdict != FALSE:
             return Run((), flaw="the monitor does not see a violation in it")
     return Run(tuple(timed.lines), tuple(timed.lost), tuple(timed.gone), causes=timed.causes)

@@ -228,7 +228,7 @@ def _run(property_: ir.Property, observer: Observer, graph: Graph, bad: int) -> 
     within = length_of(property_)
     if within is not None:
         return late(observer.network, steps, property_, within, ended=not is_bad)
-    run = play(observer.network, steps, property_)
+    run = play(observer.network, steps, property_, ended=not is_bad)
     return run if is_bad else replace(run, loop=0)
 
 
