@@ -190,8 +190,9 @@ def test_commands_of_the_console(client: Client) -> None:
         assert why in str(refused.value)
     targets = client.request("completions", text="send S", column=7)["targets"]
     assert [each["label"] for each in targets] == ["Start"]
-    targets = client.request("completions", text="bl", column=3)["targets"]
-    assert [each["label"] for each in targets] == ["blinks"]
+    for given in ({"text": "bl", "column": 3}, {"text": "1 +\nbl", "line": 2, "column": 3}):
+        targets = client.request("completions", **given)["targets"]
+        assert [each["label"] for each in targets] == ["blinks"]
     client.value('send Start {"times": 1}', "repl")
     client.stop()
     client.go("next")
@@ -211,6 +212,27 @@ def test_commands_of_the_console(client: Client) -> None:
     client.stop()
     shown = client.request("swarmPicture")
     assert (shown["member"], shown["active"]["bulb[1]"]) == ("bulb[1]", ["Lit.On"])
+
+
+def test_columns_count_utf_16_units(client: Client, tmp_path: Path) -> None:
+    model = tmp_path / "robots.swarm"
+    model.write_text(
+        "package robots\n"
+        "swarm event Say : std_msgs/String\n"
+        "endless statemachine Robot {\n"
+        "  initial Idle; /* \U0001f916 */ state Idle { on Say -> Idle }\n"
+        "}\n",
+        encoding="utf-8",
+    )
+    client.launch(program=str(model))
+    frame = client.stop()["frame"]
+    text = model.read_text(encoding="utf-8").split("\n")[3]
+    # The robot is one character, and two units.
+    assert (frame["line"], frame["column"]) == (4, text.index("Idle {") + 1 + 1)
+    assert (frame["endLine"], frame["endColumn"]) == (4, frame["column"] + len("Idle"))
+    typed = 'send Say {"data": "\U0001f916"} S'
+    [found] = client.request("completions", text=typed, column=len(typed) + 2)["targets"]
+    assert found == {"label": "Say", "start": len(typed), "length": 1, "type": "value"}
 
 
 def test_pause_and_restart_in_real_time(client: Client) -> None:

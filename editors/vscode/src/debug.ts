@@ -164,7 +164,7 @@ async function ask(event: string, data: object): Promise<object | undefined> {
 function parsed(text: string): object | undefined {
   try {
     const value: unknown = JSON.parse(text);
-    return typeof value === "object" && value ? value : undefined;
+    return typeof value === "object" && value && !Array.isArray(value) ? value : undefined;
   } catch {
     return undefined;
   }

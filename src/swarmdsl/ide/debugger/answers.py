@@ -7,12 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from swarmdsl.base.source import Source
 from swarmdsl.ide.debugger.inspection import Frame
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required, texts
 from swarmdsl.ide.debugger.owner import Body, Handler, Session
 from swarmdsl.ide.debugger.points import Way
 from swarmdsl.ide.debugger.sending import enabled, read_command
 from swarmdsl.ide.debugger.values import Shown, text_of, type_text
+from swarmdsl.ide.server.positions import UTF_16, bounds, offset, units
 
 # ---- breakpoints
 
@@ -85,10 +87,9 @@ def _frame(session: Session, number: int, frame: Frame) -> dict[str, Any]:
     if frame.place is not None and frame.place.source.path is not None:
         place = frame.place
         path = os.path.realpath(place.source.path or "")
-        for key, offset in (("", place.start), ("end", place.end)):
-            line, column = place.source.line_column(offset)
-            shown[f"{key}Line" if key else "line"] = line - 1 + session.first_line
-            shown[f"{key}Column" if key else "column"] = column - 1 + session.first_column
+        for key, (line, column) in zip(("", "end"), bounds(place), strict=True):
+            shown[f"{key}Line" if key else "line"] = line + session.first_line
+            shown[f"{key}Column" if key else "column"] = column + session.first_column
         shown["source"] = {"name": Path(path).name, "path": path}
     else:
         shown["presentationHint"] = "subtle"
@@ -198,9 +199,10 @@ def _picture(session: Session, arguments: Arguments) -> Body:
 
 def _completions(session: Session, arguments: Arguments) -> Body:
     inspection, controls = session.standing(), session.looking()
-    before = required(arguments, "text", str)[
-        : max(required(arguments, "column", int) - session.first_column, 0)
-    ]
+    text, column = required(arguments, "text", str), required(arguments, "column", int)
+    line = optional(arguments, "line", int)
+    at = (0 if line is None else line - session.first_line, column - session.first_column)
+    before = text[: offset(Source("console", text), at)].replace("\n", " ")
     if before.lstrip().startswith("send "):
         found = enabled(controls.subject, controls.world, controls.instances)
         names = [str(each["event"]) for each in found]
@@ -210,16 +212,16 @@ def _completions(session: Session, arguments: Arguments) -> Body:
     names = list(inspection.variables(controls.point.member))
     targets = _targets(before, words[-1], [name for name in names if "." not in name], "variable")
     if "send".startswith(before.strip()):
-        start = len(before) - len(words[-1])
+        start = units(before, UTF_16) - len(words[-1])
         targets.append({"label": "send", "text": "send ", "start": start, "type": "keyword"})
     return {"targets": targets}
 
 
 def _targets(before: str, typed: str, names: list[str], kind: str) -> list[dict[str, Any]]:
-    start = len(before) - len(typed)
+    start = units(before, UTF_16) - units(typed, UTF_16)
     kinds = {"event": "value", "variable": "variable"}
     return [
-        {"label": name, "start": start, "length": len(typed), "type": kinds[kind]}
+        {"label": name, "start": start, "length": units(typed, UTF_16), "type": kinds[kind]}
         for name in names
         if name.startswith(typed)
     ]

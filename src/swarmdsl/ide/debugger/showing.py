@@ -11,6 +11,7 @@ from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.ide.debugger.controls import Controls
 from swarmdsl.ide.debugger.inspection import Inspection
 from swarmdsl.ide.debugger.sending import enabled
+from swarmdsl.ide.server.positions import position
 
 
 def headline(found: Diagnostic) -> str:
@@ -30,10 +31,10 @@ def output_of(found: Diagnostic, first_line: int, first_column: int) -> dict[str
     body: dict[str, Any] = {"category": "stderr", "output": f"{headline(found)}\n"}
     place = found.primary.span.absolute if found.primary is not None else None
     if place is not None and place.source.path is not None:
-        line, column = place.source.line_column(place.start)
+        line, column = position(place.source, place.start)
         path = os.path.realpath(place.source.path)
         body["source"] = {"name": place.source.path.name, "path": path}
-        body["line"], body["column"] = line - 1 + first_line, column - 1 + first_column
+        body["line"], body["column"] = line + first_line, column + first_column
     return body
 
 
