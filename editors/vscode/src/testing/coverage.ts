@@ -2,8 +2,9 @@
 
 import * as vscode from "vscode";
 
+import type { Texts } from "./columns.ts";
+import { absolute } from "./process.ts";
 import type { CoverageRecord, Element } from "./records.ts";
-import { absolute } from "./tree.ts";
 
 interface Found {
   readonly states: Element[];
@@ -14,7 +15,12 @@ interface Found {
 export class SwarmCoverage extends vscode.FileCoverage {
   readonly details: readonly vscode.FileCoverageDetail[];
 
-  constructor(uri: vscode.Uri, { states, transitions }: Found) {
+  constructor(uri: vscode.Uri, { states, transitions }: Found, texts: Texts) {
+    const rangeOf = ({ line, column, end_line, end_column }: Element): vscode.Range => {
+      const start = texts.position(uri.fsPath, line, column);
+      const end = texts.position(uri.fsPath, end_line, end_column);
+      return new vscode.Range(start.line, start.character, end.line, end.character);
+    };
     const all = [...states, ...transitions];
     super(uri, new vscode.TestCoverageCount(all.filter(({ reached }) => reached).length, all.length));
     this.details = [
@@ -25,13 +31,13 @@ export class SwarmCoverage extends vscode.FileCoverage {
   }
 }
 
-/** Coverage of each file that has states or transitions; paths are relative to a folder. */
-export function coverageOf(records: readonly CoverageRecord[], folder: string): SwarmCoverage[] {
+/** Coverage of each file that has states or transitions. */
+export function coverageOf(records: readonly CoverageRecord[], texts: Texts): SwarmCoverage[] {
   const files = new Map<string, Found>();
   const add = (kind: keyof Found, elements: readonly Element[]): void => {
     for (const each of elements) {
       if (each.file !== null) {
-        const path = absolute(each.file, folder);
+        const path = absolute(each.file);
         const found = files.get(path) ?? { states: [], transitions: [] };
         found[kind].push(each);
         files.set(path, found);
@@ -42,9 +48,5 @@ export function coverageOf(records: readonly CoverageRecord[], folder: string): 
     add("states", states);
     add("transitions", transitions);
   }
-  return [...files].map(([path, found]) => new SwarmCoverage(vscode.Uri.file(path), found));
-}
-
-function rangeOf({ line, column, end_line, end_column }: Element): vscode.Range {
-  return new vscode.Range(line - 1, column - 1, end_line - 1, end_column - 1);
+  return [...files].map(([path, found]) => new SwarmCoverage(vscode.Uri.file(path), found, texts));
 }

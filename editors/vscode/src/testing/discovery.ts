@@ -5,11 +5,10 @@ import * as vscode from "vscode";
 import type { Server } from "../server.ts";
 import { runTests } from "./process.ts";
 import type { FileRecord, TestRecord } from "./records.ts";
-import { type Tree, workingFolder } from "./tree.ts";
+import type { Tree } from "./tree.ts";
+import { isHidden, isRead, mayHold } from "./watched.ts";
 
-export const TESTS = "**/*.swarmtest.toml";
-// Models, projects, scenarios and tests; folders have no such names when they come, go or move.
-const READ = /\.(swarm|toml|scxml|msg|srv|action)$|[\\/][^\\/.]+$/;
+const TESTS = "**/*.swarmtest.toml";
 const DELAY = 300; // milliseconds without a change before the list is made
 
 export class Discovery implements vscode.Disposable {
@@ -24,16 +23,17 @@ export class Discovery implements vscode.Disposable {
     this.server = server;
     this.tree = tree;
     const watcher = vscode.workspace.createFileSystemWatcher("**/*");
-    const changed = (uri: vscode.Uri): void => {
-      if (READ.test(uri.path)) {
+    const { asRelativePath } = vscode.workspace;
+    const changed = (isOf: (path: string) => boolean) => (uri: vscode.Uri): void => {
+      if (isOf(asRelativePath(uri, false)) || tree.isBelow(uri)) {
         this.later();
       }
     };
     this.disposables.push(
       watcher,
-      watcher.onDidCreate(changed),
-      watcher.onDidChange(changed),
-      watcher.onDidDelete(changed),
+      watcher.onDidCreate(changed(mayHold)),
+      watcher.onDidChange(changed(isRead)),
+      watcher.onDidDelete(changed(mayHold)),
       vscode.workspace.onDidChangeWorkspaceFolders(() => this.later()),
       // Another swarmc may read tests that this one does not.
       server.onChange(({ kind }) => (kind === "running" || kind === "missing" ? this.later() : undefined)),
@@ -68,7 +68,8 @@ export class Discovery implements vscode.Disposable {
   }
 
   private async find(token: vscode.CancellationToken): Promise<void> {
-    const files = await vscode.workspace.findFiles(TESTS);
+    const found = await vscode.workspace.findFiles(TESTS);
+    const files = found.filter((file) => !isHidden(vscode.workspace.asRelativePath(file, false)));
     if (token.isCancellationRequested) {
       return;
     }
@@ -76,9 +77,9 @@ export class Discovery implements vscode.Disposable {
       this.tree.show([]);
       return;
     }
-    const found = await this.server.found();
-    if (!("launch" in found)) {
-      this.tree.explain(files, `The tests cannot be read. ${found.missing}`);
+    const swarmc = await this.server.found();
+    if (!("launch" in swarmc)) {
+      this.tree.explain(files, `The tests cannot be read. ${swarmc.missing}`);
       return;
     }
     const folders = new Set(
@@ -86,9 +87,8 @@ export class Discovery implements vscode.Disposable {
     );
     const records: (FileRecord | TestRecord)[] = [];
     const { told, errors } = await runTests(
-      found.launch,
+      swarmc.launch,
       ["--list", "--format", "json", ...folders],
-      workingFolder(files[0]),
       {
         record: (record) => {
           if (record.type === "file" || record.type === "test") {
@@ -104,7 +104,7 @@ export class Discovery implements vscode.Disposable {
     if (told) {
       this.tree.show(records);
     } else {
-      const which = `the swarmc of ${found.launch.origin}`;
+      const which = `The swarmc of ${swarmc.launch.origin}`;
       this.tree.explain(files, `${which} cannot list tests: it may be too old.\n${errors}`);
     }
   }

@@ -7,9 +7,9 @@ import { SwarmCoverage } from "./coverage.ts";
 import { Discovery } from "./discovery.ts";
 import { type Kind, Runs } from "./runs.ts";
 import { Tree } from "./tree.ts";
+import { isRead } from "./watched.ts";
 
 const DELAY = 200; // milliseconds: a save may change several files
-const SAVED = /\.(swarm|toml|scxml|msg|srv|action)$/;
 
 /** Show the tests of the workspace in the Test view. */
 export function exploreTests(server: Server): vscode.Disposable {
@@ -22,7 +22,7 @@ export function exploreTests(server: Server): vscode.Disposable {
       label,
       of,
       (request, token) =>
-        request.continuous ? runOnSave(runs, request, kind, token) : runs.run(request, kind, token),
+        request.continuous ? runOnSave(runs, tree, request, kind, token) : runs.run(request, kind, token),
       true,
       undefined,
       kind !== "debug",
@@ -40,19 +40,36 @@ export function exploreTests(server: Server): vscode.Disposable {
 /** Run a request after each save of a model or a test, until it is cancelled. */
 function runOnSave(
   runs: Runs,
+  tree: Tree,
   request: vscode.TestRunRequest,
   kind: Kind,
   token: vscode.CancellationToken,
 ): void {
   let timer: NodeJS.Timeout | undefined;
   let running: vscode.CancellationTokenSource | undefined;
+  let ended = Promise.resolve();
+  // Files and tests come and go.
+  const present = (items: readonly vscode.TestItem[]): vscode.TestItem[] =>
+    items.flatMap((each) => tree.current(each) ?? []);
   const start = (): void => {
     running?.cancel();
-    running = new vscode.CancellationTokenSource();
-    void runs.run(request, kind, running.token);
+    const stopping = new vscode.CancellationTokenSource();
+    running = stopping;
+    const run = (): Promise<void> => {
+      // The editor shows each request once.
+      const again = new vscode.TestRunRequest(
+        request.include && present(request.include),
+        request.exclude && present(request.exclude),
+        request.profile,
+        true,
+      );
+      return runs.run(again, kind, stopping.token);
+    };
+    // The one before still says of its tests that they are skipped.
+    ended = ended.then(run, run);
   };
   const saving = vscode.workspace.onDidSaveTextDocument(({ uri }) => {
-    if (SAVED.test(uri.path)) {
+    if (isRead(uri.path)) {
       clearTimeout(timer);
       timer = setTimeout(start, DELAY);
     }

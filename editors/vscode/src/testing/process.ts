@@ -1,12 +1,15 @@
 // Runs `swarmc test` and reads its records while they come.
 
 import { type ChildProcess, execFile, spawn } from "node:child_process";
+import { isAbsolute, join } from "node:path";
 
 import type { Launch } from "../launch.ts";
 import { Lines, recordOf, type TestingRecord } from "./records.ts";
 
 // Windows allows 32,767 characters.
 const LONGEST = 24_000;
+// Python would import modules from the folder of a model. Paths that swarmc tells are relative to it.
+const FOLDER = __dirname;
 
 export interface Ended {
   /** Exit code; undefined if the program did not start, or was ended. */
@@ -28,11 +31,10 @@ interface Cancelled {
   readonly isCancellationRequested: boolean;
 }
 
-/** Run `swarmc test` with arguments in a folder until it ends or is cancelled. */
+/** Run `swarmc test` with arguments until it ends or is cancelled; paths in them are absolute. */
 export function runTests(
   launch: Launch,
   args: readonly string[],
-  cwd: string,
   listener: Listener,
   token: Cancelled,
 ): Promise<Ended> {
@@ -42,7 +44,7 @@ export function runTests(
       return;
     }
     const child = spawn(launch.command, [...launch.args, "test", ...args], {
-      cwd,
+      cwd: FOLDER,
       env: { ...process.env, PYTHONUTF8: "1", PYTHONUNBUFFERED: "1" },
       stdio: ["ignore", "pipe", "pipe"],
       windowsHide: true,
@@ -73,6 +75,11 @@ export function runTests(
       resolve({ code: code ?? undefined, told, errors: errors.trim() });
     });
   });
+}
+
+/** Absolute path of a file that swarmc names. */
+export function absolute(file: string): string {
+  return isAbsolute(file) ? file : join(FOLDER, file);
 }
 
 /** End a process and those that it started: on Windows, swarmc starts a Python. */

@@ -8,6 +8,7 @@ import * as vscode from "vscode";
 
 import { showPage } from "../play.ts";
 import type { Server } from "../server.ts";
+import { Texts } from "./columns.ts";
 import { coverageOf } from "./coverage.ts";
 import { chosen, type Ended, runTests } from "./process.ts";
 import {
@@ -19,7 +20,7 @@ import {
   type ResultRecord,
   type TestingRecord,
 } from "./records.ts";
-import { locationOf, type Tree, workingFolder } from "./tree.ts";
+import { locationOf, type Tree } from "./tree.ts";
 
 // Characters of what swarmc tells that a message has.
 const LONGEST_TEXT = 2000;
@@ -43,8 +44,11 @@ export class Runs {
     kind: Kind,
     token: vscode.CancellationToken,
   ): Promise<void> {
-    const run = this.controller.createTestRun(request);
     const { files, tests, all } = wanted(request, this.tree);
+    if (!all.length) {
+      return; // without arguments, swarmc would run what it finds
+    }
+    const run = this.controller.createTestRun(request);
     all.forEach((item) => run.enqueued(item));
     const found = await this.server.found();
     if (!("launch" in found)) {
@@ -54,7 +58,7 @@ export class Runs {
       run.end();
       return;
     }
-    const folder = workingFolder(all[0]?.uri);
+    const texts = new Texts();
     const pages = kind === "debug" ? await mkdtemp(join(tmpdir(), "swarm-")) : undefined;
     const page = pages && join(pages, "run.html");
     const pending = new Set(all);
@@ -66,7 +70,6 @@ export class Runs {
     const ended = await runTests(
       found.launch,
       args,
-      folder,
       {
         record: (record) => {
           if (record.type === "coverage") {
@@ -74,7 +77,7 @@ export class Runs {
           } else if (record.type === "end") {
             end = record;
           } else {
-            this.show(run, record, folder, pending);
+            this.show(run, record, texts, pending);
           }
         },
         text: (text) => run.appendOutput(text.replace(/\r?\n/g, "\r\n")),
@@ -86,7 +89,7 @@ export class Runs {
     } else {
       tellPending(run, pending, end, ended);
     }
-    coverageOf(coverage, folder).forEach((each) => run.addCoverage(each));
+    coverageOf(coverage, texts).forEach((each) => run.addCoverage(each));
     run.end();
     if (pages && page) {
       const html = await readFile(page, "utf8").catch(() => undefined);
@@ -105,20 +108,20 @@ export class Runs {
   private show(
     run: vscode.TestRun,
     record: TestingRecord,
-    folder: string,
+    texts: Texts,
     pending: Set<vscode.TestItem>,
   ): void {
     if (record.type === "file" && !record.read) {
       const item = this.tree.file(vscode.Uri.file(record.file));
       if (pending.delete(item)) {
-        tellUnread(run, item, record.problems, folder);
+        tellUnread(run, item, record.problems, texts);
       }
     } else if (record.type === "started") {
-      run.started(this.tree.item(record));
+      run.started(this.tree.item(record, texts));
     } else if (record.type === "result") {
-      const item = this.tree.item(record);
+      const item = this.tree.item(record, texts);
       pending.delete(item);
-      showResult(run, item, record, folder);
+      showResult(run, item, record, texts);
     }
   }
 }
@@ -127,7 +130,7 @@ function showResult(
   run: vscode.TestRun,
   item: vscode.TestItem,
   record: ResultRecord,
-  folder: string,
+  texts: Texts,
 ): void {
   const duration = record.seconds === undefined ? undefined : record.seconds * 1000;
   if (record.outcome === "passed") {
@@ -135,12 +138,12 @@ function showResult(
     return;
   }
   if (record.outcome === "unread") {
-    tellUnread(run, item, record.problems, folder);
+    tellUnread(run, item, record.problems, texts);
     return;
   }
   // Warnings about guards and effects come first.
   const place = record.problems.find(({ severity, file }) => severity === "error" && file !== null);
-  const message = placed(failure(record), item, place && locationOf(place, folder));
+  const message = placed(failure(record), item, place && locationOf(place, texts));
   run.failed(item, message, duration);
 }
 
@@ -148,9 +151,9 @@ function tellUnread(
   run: vscode.TestRun,
   item: vscode.TestItem,
   problems: readonly Problem[],
-  folder: string,
+  texts: Texts,
 ): void {
-  const messages = problems.map((each) => placed(described(each), item, locationOf(each, folder)));
+  const messages = problems.map((each) => placed(described(each), item, locationOf(each, texts)));
   // A model with errors reports them once.
   run.errored(item, messages.length ? messages : placed("The model has errors.", item));
 }

@@ -1,9 +1,9 @@
 // Items of the Test view: test files of the workspace, and their tests.
 
-import { dirname, isAbsolute, join } from "node:path";
-
 import * as vscode from "vscode";
 
+import { Texts } from "./columns.ts";
+import { absolute } from "./process.ts";
 import { described, type FileRecord, type Problem, type TestRecord } from "./records.ts";
 
 /** Identity of a test; `file` is its path as `swarmc` tells it. */
@@ -26,18 +26,33 @@ export class Tree {
     return [...this.controller.items].map(([, item]) => item);
   }
 
+  /** Item that the tree has now for one that it had; undefined if there is none any more. */
+  current(item: vscode.TestItem): vscode.TestItem | undefined {
+    const file = item.uri && this.controller.items.get(item.uri.toString());
+    return item.id === file?.id ? file : file?.children.get(item.id);
+  }
+
+  /** True if a file of the tree is in a folder. */
+  isBelow({ path }: vscode.Uri): boolean {
+    return this.files.some(({ uri }) => uri?.path.startsWith(`${path}/`));
+  }
+
   /** Identity of a test; undefined of a file. */
   testOf(item: vscode.TestItem): Known | undefined {
     return this.tests.get(item);
   }
 
   /** Item of a test that swarmc names; created if it is new. */
-  item({ id, name, file, line, column }: Omit<TestRecord, "type" | "subject" | "problems">): vscode.TestItem {
+  item(
+    { id, name, file, line, column }: Omit<TestRecord, "type" | "subject" | "problems">,
+    texts: Texts,
+  ): vscode.TestItem {
     const uri = vscode.Uri.file(file);
     const parent = this.file(uri);
     const known = parent.children.get(id);
     const item = known ?? this.controller.createTestItem(id, name, uri);
-    const start = new vscode.Position(line - 1, column - 1);
+    const at = texts.position(uri.fsPath, line, column);
+    const start = new vscode.Position(at.line, at.character);
     item.range = new vscode.Range(start, start);
     item.sortText = String(line).padStart(8, "0");
     this.tests.set(item, { id, file });
@@ -61,6 +76,7 @@ export class Tree {
 
   /** Show what a list has; tests and files that it does not have leave the tree. */
   show(records: readonly (FileRecord | TestRecord)[]): void {
+    const texts = new Texts();
     const found = new Map<vscode.TestItem, vscode.TestItem[]>();
     for (const record of records) {
       const parent = this.file(vscode.Uri.file(record.file));
@@ -70,7 +86,7 @@ export class Tree {
         parent.error = problemText(record.problems.filter(() => !record.read));
         continue;
       }
-      const item = this.item(record);
+      const item = this.item(record, texts);
       item.error = problemText(record.problems);
       item.description = record.subject?.name ?? "";
       tests.push(item);
@@ -93,29 +109,15 @@ function problemText(problems: readonly Problem[]): string | undefined {
   return problems.length ? problems.map(described).join("\n\n") : undefined;
 }
 
-/** Place of a problem, in a file that swarmc names from a folder; undefined without one. */
-export function locationOf(problem: Problem, folder: string): vscode.Location | undefined {
+/** Place of a problem; undefined without one. */
+export function locationOf(problem: Problem, texts: Texts): vscode.Location | undefined {
   const { file, line, column, end_line, end_column } = problem;
   if (file === null || line === null || column === null) {
     return undefined;
   }
-  const range = new vscode.Range(
-    line - 1,
-    column - 1,
-    (end_line ?? line) - 1,
-    (end_column ?? column) - 1,
-  );
-  return new vscode.Location(vscode.Uri.file(absolute(file, folder)), range);
-}
-
-/** Absolute path of a file that swarmc names from a folder. */
-export function absolute(file: string, folder: string): string {
-  return isAbsolute(file) ? file : join(folder, file);
-}
-
-/** Folder in which swarmc runs: paths of its diagnostics are relative to it. */
-export function workingFolder(file: vscode.Uri | undefined): string {
-  const folder = file && vscode.workspace.getWorkspaceFolder(file);
-  const first = folder ?? vscode.workspace.workspaceFolders?.[0];
-  return first?.uri.fsPath ?? (file ? dirname(file.fsPath) : process.cwd());
+  const uri = vscode.Uri.file(absolute(file));
+  const start = texts.position(uri.fsPath, line, column);
+  const end = texts.position(uri.fsPath, end_line ?? line, end_column ?? column);
+  const range = new vscode.Range(start.line, start.character, end.line, end.character);
+  return new vscode.Location(uri, range);
 }
