@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -104,6 +105,20 @@ def test_bundle_runs_tests(tmp_path: Path) -> None:
     assert kinds == ["file", "started", "result", "coverage", "end"]
     assert ran.returncode == 0
     assert (tmp_path / "run.html").is_file()
+
+    wrong = tmp_path / "wrong.swarmtest.toml"
+    steps = '[{ all = "blinker", in = "Off" }]'
+    wrong.write_text(f'test = [{{ name = "\U0001f916", steps = {steps} }}]', "utf-8")
+    failed = subprocess.run(
+        [*BARE, "test", str(wrong), "--play", "failed.html"],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,
+        env={**os.environ, "FORCE_COLOR": "1"},  # as in a terminal
+    )
+    assert "expected all `blinker` in `Off`" in failed.stdout
+    assert (failed.returncode, "internal error" in failed.stderr) == (1, False)
+    assert (tmp_path / "failed.html").is_file()
 
 
 def test_bundle_debugs() -> None:
