@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from swarmdsl.codegen import Diagnostics, Label, Span
 from swarmdsl.codegen.shared import behavior_nodes, member_wiring
 from swarmdsl.ir import Member, System
 
 from .package import called_functions, sent_events
+from .served import OFFBOARD, is_served
 
 Publisher = tuple[str, str, Span | None]
 """Topic, node that publishes there, and the place that says so."""
@@ -17,7 +18,8 @@ Publisher = tuple[str, str, Span | None]
 def check_command_topics(member: Member, system: System, report: Diagnostics) -> None:
     """Report topics on which an actuator hears more than one node.
 
-    Functions that a behaviour calls count as that behaviour, which calls them in turn.
+    Functions that a behaviour calls count as that behaviour, which calls them in turn, unless
+    their node publishes between the calls, too.
     """
     components = system.components_by_name
     wired = member_wiring(member, system)
@@ -44,9 +46,17 @@ def check_command_topics(member: Member, system: System, report: Diagnostics) ->
             nodes=" and ".join(f"`{node}`" for node in nodes),
             related=related,
             notes=(f"`{heard[topic]}` of `{member.name}` does what it has heard last",),
-            help=f"let one node decide: put a component between `{last}` and the actuator, with an"
-            " input for each, such as `twist_mux`",
+            help=_way_out(last, nodes),
         )
+
+
+def _way_out(last: str, nodes: Container[str]) -> str:
+    if OFFBOARD in nodes:
+        return "let the functions of offboard control do all, or machines that send commands"
+    return (
+        f"let one node decide: put a component between `{last}` and the actuator, with an"
+        " input for each, such as `twist_mux`"
+    )
 
 
 def _component(member: Member, part: str) -> str:
@@ -61,9 +71,11 @@ def _publishers(member: Member, system: System) -> Iterator[Publisher]:
             if not event.swarm:
                 yield remaps.get(event.topic, event.topic), node.name, event.origin
         for name in called_functions(node.machine):
-            for port in system.function(name).ports:
+            function = system.function(name)
+            server = OFFBOARD if is_served(function) else node.name
+            for port in function.ports:
                 if port.direction != "in":
-                    yield remaps.get(port.topic, port.topic), node.name, port.origin
+                    yield remaps.get(port.topic, port.topic), server, port.origin
     wired = member_wiring(member, system)
     for ref, out in wired.ports.items():
         if ref.part is not None and out.direction != "in":

@@ -13,6 +13,7 @@ from .imports import WIDTH, Imports
 from .launch import Launch
 from .monitor_source import STEP, Entry, MonitorSource, input_text
 from .monitor_subjects import Subject, check_senders, find_subject, report_unwatched
+from .names import MODULES
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ def watched_swarms(
     for launch in launched.values():
         subject = find_subject(launch, machines, system, report)
         if subject.properties or subject.of_machines or subject.inputs:
-            taken = (*modules.values(), *(each.module for each in found))
+            taken = (*MODULES, *modules.values(), *(each.module for each in found))
             module = fresh(f"{launch.name}_monitor", taken)
             found.append(_watched(subject, module, _local_names(system)))
             check_senders(subject.facts, system, report)

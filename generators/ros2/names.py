@@ -9,7 +9,7 @@ from swarmdsl.codegen.ros import PackageNames
 from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 
 TARGET = "ros2"
-_MODULES = (
+MODULES = (
     *("alarms", "callbacks", "container", "diagnostics", "engine", "functions", "host"),
     *("identity", "members"),
     *(
@@ -53,7 +53,7 @@ _INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
 _FIELD = re.compile(r"[a-z](_?[a-z0-9])*")
 _TOPIC = re.compile(r"(~/|/)?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
-NAMES = PackageNames(TARGET, 2, _MODULES, _IMPORTED, _MADE_OF)
+NAMES = PackageNames(TARGET, 2, MODULES, _IMPORTED, _MADE_OF)
 
 
 def check_machine(machine: StateMachine, report: Diagnostics) -> None:

@@ -27,7 +27,7 @@ class Options(PackageOptions):
     monitors: bool = option(
         False, "a node for each swarm that watches properties and tells measures"
     )
-    systemd: bool = option(False, "a unit for systemd that starts the robot of a computer")
+    systemd: bool = option(False, "units for systemd: the robot of a computer, and monitors")
     compose: bool = option(
         False, "`compose.yaml` and a container file, with a service for each robot"
     )

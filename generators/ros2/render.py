@@ -177,6 +177,11 @@ def _started(
     if options.systemd:
         text = _fill("package/deploy/robot.service", header=head, **values)
         yield OutputFile(f"{root}/deploy/{root}@.service", text)
+        launched = {launch.name: launch for launch in package.launches}
+        for monitor in package.monitors:
+            of_swarm = {"launch": launched[monitor.launch], "monitor": monitor}
+            text = _fill("package/deploy/monitor.service", header=head, **of_swarm, **values)
+            yield OutputFile(f"{root}/deploy/{root}_{monitor.module}.service", text)
     if options.compose:
         text = _fill("package/deploy/compose.yaml", header=head, most=_MOST_FILES, **values)
         yield OutputFile(f"{root}/deploy/compose.yaml", text)

@@ -10,9 +10,10 @@ from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
-from swarmdsl.codegen import Span, dataclass, snake_case
-from swarmdsl.ir import Function, Named, System
+from swarmdsl.codegen import Diagnostics, Label, Span, dataclass, snake_case
+from swarmdsl.ir import Function, FunctionPort, Named, System
 
+from .names import TARGET
 from .readme import Rows
 
 INTERFACES = "px4_offboard_msgs"
@@ -55,14 +56,14 @@ def is_served(function: Function) -> bool:
     return type_.package == INTERFACES and type_.name in _ACTIONS
 
 
-def served_nodes(system: System) -> tuple[ServedNode, ...]:
+def served_nodes(system: System, report: Diagnostics) -> tuple[ServedNode, ...]:
     """Return the nodes with servers of functions of a system."""
     functions = [each for each in system.functions if is_served(each)]
     if not functions:
         return ()
     calls = [each.communication for each in functions]
     servers = dict.fromkeys((snake_case(c.type.name), c.type.name, c.name) for c in calls)
-    topics = _topics(functions)
+    topics = _topics(functions, report)
     tables = (
         (
             "Servers",
@@ -90,14 +91,35 @@ def served_packages(system: System) -> list[str]:
     return [_PX4, INTERFACES, "geometry_msgs"] if used else []
 
 
-def _topics(functions: Iterable[Function]) -> tuple[tuple[str, str], ...]:
-    """Return the topics by the names of their messages, as the functions say."""
-    said: dict[str, str] = {}
-    for function in functions:
-        for port in function.ports:
-            if isinstance(port.type, Named) and port.type.package == _PX4:
-                said.setdefault(port.type.name, port.topic)
-    return tuple((name, said.get(name, topic)) for name, topic in _TOPICS.items())
+def _topics(functions: Iterable[Function], report: Diagnostics) -> tuple[tuple[str, str], ...]:
+    """Return the topics by the names of their messages, as the functions say.
+
+    Report functions that give one message different topics.
+    """
+    said: dict[str, FunctionPort] = {}
+    ports = (port for function in functions for port in function.ports)
+    for port in ports:
+        if isinstance(port.type, Named) and port.type.package == _PX4:
+            first = said.setdefault(port.type.name, port)
+            if first.topic != port.topic:
+                _report_topics(first, port, report)
+    return tuple(
+        (name, said[name].topic if name in said else topic) for name, topic in _TOPICS.items()
+    )
+
+
+def _report_topics(first: FunctionPort, other: FunctionPort, report: Diagnostics) -> None:
+    topics = f"`{first.topic}` and `{other.topic}`"
+    related = (Label(first.origin, "another topic here"),) if first.origin is not None else ()
+    report.report(
+        "unsupported-construct",
+        other.origin,
+        target=TARGET,
+        construct=f"two topics of `{other.type}`, {topics}",
+        related=related,
+        notes=(f"one node, `{OFFBOARD}`, has the servers of all these functions",),
+        help="give all functions the same topic",
+    )
 
 
 @cache

@@ -157,11 +157,16 @@ def package_view(
     launched = launches(system, modules, report)
     check_watchdogs(
         system,
-        {role.member for launch in launched for role in launch.roles},
+        {
+            role.member
+            for launch in launched
+            for role in launch.roles
+            if any(node.watchdog is not None for node in role.nodes)
+        },
         NAMES.target,
         report,
-        "a watchdog is started with the robots of a swarm",
-        "give the member a role in a swarm, or remove the contract",
+        "a watchdog is started beside the behaviour of a robot in a swarm",
+        "give the member a behaviour and a role in a swarm, or remove the contract",
     )
     needs = {*package.dependencies(system, machines), *served_packages(system)}
     depends = [("depend", needed) for needed in sorted(needs)]
@@ -180,7 +185,7 @@ def package_view(
         machines=views,
         callbacks=tuple(callbacks.items()),
         launches=tuple(launched),
-        served=served_nodes(system),
+        served=served_nodes(system, report),
         monitors=watched_swarms(system, launched, modules, report) if options.monitors else (),
         networks=tuple(networks(system, launched, options, report)),
         interfaces=interfaces,

@@ -73,7 +73,7 @@ class Options(PackageOptions):
         False, "a node for each swarm that watches properties and tells measures", only="ros=2"
     )
     systemd: bool = option(
-        False, "a unit for systemd that starts the robot of a computer", only="ros=2"
+        False, "units for systemd: the robot of a computer, and monitors", only="ros=2"
     )
     compose: bool = option(
         False, "`compose.yaml` and a container file, with a service for each robot", only="ros=2"

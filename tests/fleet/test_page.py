@@ -348,3 +348,9 @@ def test_a_person_sees_robots_and_steers_them(seen: Seen, page: Any, tmp_path: P
             pass
         page.locator("tr.lost[data-robot='robot[0]']").wait_for()
         page.get_by_role("alert").get_by_text("robot[0] is lost").wait_for()
+        # The lane says that the state is the last one known.
+        lane = page.get_by_role("button", name="robot[0] lost, was in On")
+        lane.wait_for(state="attached")
+        with seen.watch.noting() as standing:
+            standing.beat("robot[0]")
+        page.get_by_role("button", name="robot[0] On", exact=True).wait_for(state="attached")

@@ -639,7 +639,9 @@ def test_a_contract_without_a_watchdog_is_told(tmp_path: Path) -> None:
         "member Base { behavior Fly; contract Dies : when dead call land }\n"
         "member Uav extends Base {}\n"
         "member Spare { behavior Fly; contract Falls : when dead call land }\n"
-        "swarm Team { uav : Uav }\n"
+        "controller Pilot { behavior Fly }\n"
+        "member Flown { pilot : Pilot; contract Sinks : when dead call land }\n"
+        "swarm Team { uav : Uav; flown : Flown }\n"
     )
     system = pipeline.check([model]).system
     assert system is not None
@@ -651,9 +653,10 @@ def test_a_contract_without_a_watchdog_is_told(tmp_path: Path) -> None:
         told[(target, *options.values())] = [
             each.message.partition("contract ")[2] for each in report if each.name == "no-place"
         ]
-    spare = "`Falls`: nothing calls `land`"
-    assert told[("ros2",)] == told["smach", "2"] == [spare]
-    assert told["smach", "1"] == ["`Dies`: nothing calls `land`", spare]
+    # A watchdog watches the behaviour of a robot, not that of a part.
+    unwatched = ["`Falls`: nothing calls `land`", "`Sinks`: nothing calls `land`"]
+    assert told[("ros2",)] == told["smach", "2"] == unwatched
+    assert told["smach", "1"] == ["`Dies`: nothing calls `land`", *unwatched]
 
 
 def test_libraries_have_the_same_tables(compiled: Callable[[str], System]) -> None:

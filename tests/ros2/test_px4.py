@@ -193,12 +193,18 @@ def test_two_vehicles_of_a_swarm(ros: Ros) -> None:
 
 
 def test_wrong_parameters(ros: Ros) -> None:
-    for name, value in (("rate", 1.0), ("frame", "map"), ("tolerance", 0.0)):
+    for name, value, told in (
+        ("rate", 1.0, "rate"),
+        ("frame", "map", "frame"),
+        ("tolerance", 0.0, "tolerance"),
+        ("vehicle", "'/px4 1'", "vehicle"),
+        ("member", "copter[255]", "set `system`"),
+    ):
         node = ros.start(
             *("-m", "flight_behavior.px4_offboard", "--ros-args", "-p", f"{name}:={value}"),
             stderr=subprocess.PIPE,
         )
         _, log = node.communicate(timeout=PATIENCE)
         assert node.returncode == 1
-        assert f"parameter `{name}`" in log
+        assert told in log.rpartition("[FATAL]")[2]
         assert "Traceback" not in log

@@ -273,6 +273,50 @@ swarm Rovers { rover : Rover[2] }
     assert reported(model.replace("; stick : Stick", "")) == []
 
 
+VEHICLE = """
+package lab
+import px4.events.*
+import px4.functions.*
+import px4.members.*
+statemachine Work {
+  initial A
+  state A { do land; on succeeded, aborted -> B }
+  final B
+}
+member Copter extends Px4Vehicle { behavior Work }
+swarm Copters { copter : Copter[2] }
+"""
+
+
+def test_offboard_control_beside_commands_of_a_machine(reported: Reported) -> None:
+    assert reported(VEHICLE) == []
+    entry = "entry / send VehicleCommand(command = 21)"
+    ((name, message, _),) = reported(VEHICLE.replace("do land", f"{entry}; do land"))
+    assert name == "several-publishers"
+    topic = "`fmu/in/vehicle_command`"
+    assert message == f"several nodes publish commands on {topic}: `work` and `px4_offboard`"
+
+
+def test_functions_of_px4_agree_on_topics(reported: Reported) -> None:
+    climb = """
+function climb : abstraction {
+  action "climb" : px4_offboard_msgs/TakeOff
+  in "vehicle_status" : px4_msgs/VehicleStatus
+}
+"""
+    calls = "do climb(altitude = 2.0); on succeeded, aborted -> C }\n  state C { do land"
+    model = VEHICLE.replace("import px4.events.*", "import px4.offboard.*\nimport px4.events.*")
+    model = model.replace("do land", calls)
+    found = reported(model.replace("statemachine", climb + "statemachine", 1))
+    ((name, message, _),) = found
+    assert name == "unsupported-construct"
+    assert "two topics of `px4_msgs/VehicleStatus`" in message
+    assert "`vehicle_status`" in message
+    assert "`fmu/out/vehicle_status_v1`" in message
+    same = climb.replace("vehicle_status", "fmu/out/vehicle_status_v1")
+    assert reported(model.replace("statemachine", same + "statemachine", 1)) == []
+
+
 def test_files_that_start_robots(generate: Callable[..., Any]) -> None:
     model = (
         HEAD
@@ -300,6 +344,14 @@ swarm Others { rover : Rover }
     assert "glob('deploy/*')" in files["lab_behavior/setup.py"].text
     assert not any("/deploy/" in path for path in generate(model))
     verify_unit(unit)
+
+
+def test_a_monitor_takes_no_module_of_the_package(generate: Callable[..., Any]) -> None:
+    model = HEAD + MACHINE + "member Rover { behavior Work }\nswarm Swarm { rover : Rover }\n"
+    files = generate(model + "property Ends of Swarm : never some rover in B\n", monitors="true")
+    module = "lab_behavior/lab_behavior/swarm_monitor"
+    assert "class Monitor:" in files[f"{module}.py"].text
+    assert "SWARM = Swarm(" in files[f"{module}_2.py"].text
 
 
 def verify_unit(unit: str) -> None:
@@ -334,8 +386,16 @@ def test_started_robots_have_the_profiles_of_their_network(
     started = yaml.safe_load(files["lab_behavior/deploy/compose.yaml"].text)["services"]
     robot = started["rovers.rover_0" if second else "rover_0"]
     monitor = started["rovers_monitor"]
-    words = "ros2 run lab_behavior rovers_monitor --ros-args -r __ns:=/rovers -r __node:=monitor"
-    assert monitor["command"] == words
+    # The program itself gets the signal that ends it, which `ros2 run` does not pass on.
+    program = "/ws/install/lab_behavior/lib/lab_behavior/rovers_monitor"
+    arguments = '--ros-args -r __ns:=/rovers -r __node:=monitor -p members:="rover[0]"'
+    assert monitor["command"] == f"{program} {arguments}"
+    watching = files["lab_behavior/deploy/lab_behavior_rovers_monitor.service"].text
+    assert 'Environment="MEMBERS=rover[0]"' in watching
+    assert 'network="$prefix/share/lab_behavior/config/rovers/network"' in watching
+    assert 'exec "$prefix/lib/lab_behavior/rovers_monitor" --ros-args -r __ns:=/rovers' in watching
+    assert not any("others_monitor.service" in path for path in files)
+    verify_unit(watching)
     for each in (robot, monitor):
         told = each["environment"]
         folder = "/ws/install/lab_behavior/share/lab_behavior/config/rovers/network"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.execution.verify.diagnostics import report_verdict
 from swarmdsl.execution.verify.model import Model
 
 from .conftest import verdicts_of
@@ -49,6 +51,7 @@ member Seeing {
   behavior Fly
   param least : float64 = 4.0
   eye : Camera
+  contract Low   : on Low [event.data < 5] within 2 s reach Ground
   contract Blind : on Halt within 2 s reach Shut
   contract Least : on Low [event.data < least] within 2 s reach Ground, Air
 }
@@ -73,5 +76,29 @@ def test_a_member_of_no_swarm_has_them_in_its_machine(modelled: Callable[..., Mo
 
     alone = {each.name: each for each in system.judged if each.subject == "Fly"}
     # A machine alone has no part with state `Shut`, and no param `least`.
-    assert list(alone) == ["Spare_Stops", "Spare_Empty"]
+    assert list(alone) == ["Spare_Stops", "Spare_Empty", "Seeing_Low"]
     assert {each.each for each in alone.values()} == {None}
+
+
+def test_the_place_of_a_broken_contract_is_of_the_robot_that_breaks_it(
+    modelled: Callable[..., Model],
+) -> None:
+    ticking = """
+endless statemachine Tick {
+  initial On
+  state On { after 1 s -> Off }
+  state Off { after 1 s -> On }
+}
+member Clock { behavior Tick }
+swarm Field { uav : Uav; clock : Clock }
+"""
+    model = MODEL.replace("swarm Field { uav : Uav[2]; big : Big }", ticking)
+    verdict = verdicts_of(modelled(model))["uav_Stops"]
+    assert verdict.run is not None
+    # The clock has the last line.
+    assert [line.actor.name for line in verdict.run.lines][-1] == "clock[0]"
+    report = Diagnostics()
+    report_verdict(verdict, "2 robots", report)
+    ((label,),) = [each.related for each in report]
+    assert label.message == "the last transition of `uav[0]` in the run"
+    assert label.span.text == "on Halt -> Pause"

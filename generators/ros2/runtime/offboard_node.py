@@ -20,6 +20,7 @@ from px4_msgs.msg import (
 import rclpy
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.clock import Clock, ClockType
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -45,6 +46,7 @@ PARAMETERS = (
 _SECOND = 10**9
 _FRAMES = ('enu', 'ned')
 _SLOWEST, _FASTEST = 2.0, 200.0
+_LAST_SYSTEM = 255
 _FEEDBACK = 0.5
 _NAN = float('nan')
 # PX4 publishes its state in this way, also for those who come late.
@@ -89,7 +91,11 @@ class OffboardNode(Node):
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._handle = self._future = self._interface = None
         self._fed_back = 0.0
-        self._connect(topics, found['vehicle'].replace('{system}', str(self._system)))
+        space = found['vehicle'].replace('{system}', str(self._system))
+        try:
+            self._connect(topics, space)
+        except InvalidTopicNameException as error:
+            raise StartError(f'parameter `vehicle` is no namespace: {error}') from None
         self._servers = [
             ActionServer(
                 self,
@@ -113,8 +119,12 @@ class OffboardNode(Node):
         if not _SLOWEST < found['rate'] <= _FASTEST:
             bounds = f'more than {_SLOWEST} and at most {_FASTEST}'
             raise StartError(f'parameter `rate` is {found["rate"]}, and must be {bounds}')
-        if not found['tolerance'] > 0:
-            raise StartError(f'parameter `tolerance` is {found["tolerance"]}, and must be above 0')
+        for name in ('tolerance', *(each for each in found if each.startswith('timeouts.'))):
+            if not found[name] > 0:
+                raise StartError(f'parameter `{name}` must be above 0')
+        if self._system > _LAST_SYSTEM:
+            number = f'{found["member"]} has system {self._system} of MAVLink'
+            raise StartError(f'{number}, and the last one is {_LAST_SYSTEM}: set `system`')
 
     def _connect(self, topics, space):
         def named(interface):

@@ -32,9 +32,8 @@ def promised(
         ]
         alone = machines.get(member.behavior or "") if not places else None
         for contract in contracts:
-            if alone is not None and _is_about(contract, alone):
-                places = [(alone.name, None)]
-            for subject, role in places:
+            is_about = alone is not None and _is_about(contract, alone)
+            for subject, role in [(alone.name, None)] if alone is not None and is_about else places:
                 name = f"{role or member.name}_{contract.name}"
                 name = fresh(f"{subject}_{name}" if name in taken else name, taken)
                 taken.add(name)

@@ -55,7 +55,7 @@ def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
         verdict.property.origin,
         name=verdict.property.name,
         who=f" for `{verdict.robot}`" if verdict.robot is not None else "",
-        related=tuple(_last_taken(verdict.run)),
+        related=tuple(_last_taken(verdict.run, robot=verdict.robot)),
         notes=(_head(verdict.run, size), *_lines(verdict.run)),
         help=hint(verdict.run),
     )
@@ -140,13 +140,14 @@ def place_of(line: Line) -> Span | None:
     return next(found, None)
 
 
-def _last_taken(run: Run, told: Span | None = None) -> Iterator[Label]:
-    for line in reversed(run.lines):
-        place = place_of(line)
-        if place is not None:
-            if place != told:
-                yield Label(place, "the last transition of the run")
-            return
+def _last_taken(run: Run, told: Span | None = None, robot: str | None = None) -> Iterator[Label]:
+    """Yield the place of the last transition of a run, of the given robot if it has taken one."""
+    taken = [(line, place) for line in reversed(run.lines) if (place := place_of(line)) is not None]
+    own = [each for each in taken if each[0].actor.robot.name == robot]
+    for _, place in (own or taken)[:1]:
+        if place != told:
+            whose = f"of `{robot}` in" if robot is not None and own else "of"
+            yield Label(place, f"the last transition {whose} the run")
 
 
 def rows(verdicts: Sequence[Verdict], faults: int = 0) -> Iterator[tuple[str, str, str]]:

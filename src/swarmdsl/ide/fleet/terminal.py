@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 import select
 import sys
 from collections.abc import Iterator, Mapping
@@ -24,6 +26,10 @@ _NAP = 0.25
 _STYLES = {"there": "green", "lost": "bold red", "ended": "dim", "expected": "dim"}
 _COLUMNS = ("robot", "status", "states", "last event", "battery")
 _QUIT = ("q", "\x04")
+_MOST = 1024
+"""Number of bytes of a terminal that are read at once."""
+_SEQUENCE = re.compile(r"\x1b+(\[[0-?]*[ -/]*[@-~]|O?.?)")
+"""What a key without a character sends."""
 _HAS_KEYS = find_spec("termios") is not None  # not so on Windows
 
 
@@ -48,11 +54,11 @@ def show(watch: Watch, out: TextIO) -> None:
     with _keys(), Live(console=console, screen=True, auto_refresh=False) as live:
         while True:
             live.update(_drawing(watch, said), refresh=True)
-            key = _key()
-            if key in _QUIT:
-                return
-            if key.isdecimal() and 0 < int(key) <= len(watch.events):
-                said = send(watch, watch.events[int(key) - 1].name)
+            for key in pressed(sys.stdin.fileno(), _NAP):
+                if key in _QUIT:
+                    return
+                if key.isdecimal() and 0 < int(key) <= len(watch.events):
+                    said = send(watch, watch.events[int(key) - 1].name)
             interrupts.raise_lost()
 
 
@@ -141,7 +147,14 @@ def _keys() -> Iterator[None]:
         termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
 
 
-def _key() -> str:
-    """Return the key that was pressed, or an empty text after a while."""
-    ready, _, _ = select.select([sys.stdin], [], [], _NAP)
-    return sys.stdin.read(1) if ready else ""
+def pressed(terminal: int, patience: float) -> str:
+    """Return the keys that were pressed, or an empty text after a while.
+
+    Keys without a character, such as arrows and `Delete`, are none: what they send has digits.
+    """
+    ready, _, _ = select.select([terminal], [], [], patience)
+    if not ready:
+        return ""
+    # Not from `sys.stdin`, which would keep what it does not return.
+    read = os.read(terminal, _MOST).decode(errors="replace")
+    return _SEQUENCE.sub("", read) if read else _QUIT[0]

@@ -6,6 +6,8 @@ import { upTo } from "./shapes.js";
 const HEAD = 22; // height of the axis
 const LETTER = 6.3;
 const STEPS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 21600];
+const SILENT = 8; // least width of what is not known of a lost robot
+const PALE = "#88888899";
 const VERDICTS = { true: "#44bb99", open: "#eedd88", false: "#ee8866" };
 
 /** Draw the bars of a row. */
@@ -50,6 +52,13 @@ function drawLane(pen, lanes, row) {
     last = end;
     bar(pen, lanes, machine, stays.states[at], start, end - start, row);
   }
+  if (!lanes.isSilent(number, lanes.to)) return;
+  // Its states may be others by now.
+  const end = Math.min(lanes.width, lanes.x(lanes.end));
+  const start = Math.max(0, Math.min(lanes.x(stays.heard), end - SILENT));
+  pen.fillStyle = PALE;
+  pen.fillRect(start, row.top, end - start, row.height);
+  hatch(pen, lanes.ink, start, row.top, end - start, row.height, "lost");
 }
 
 function bar(pen, lanes, machine, states, x, width, row) {

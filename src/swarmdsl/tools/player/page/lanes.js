@@ -3,6 +3,7 @@ import { clock, duration, el, printable } from "./dom.js";
 import { historyOf } from "./history.js";
 import { drawArrows } from "./lane_arrows.js";
 import { drawAxis, drawRow } from "./lane_bars.js";
+import { robotOf } from "./recording.js";
 import { upTo } from "./shapes.js";
 import { staysOf } from "./stays.js";
 
@@ -21,6 +22,8 @@ export class Lanes {
     this.recording = recording;
     this.stays = staysOf(recording);
     this.seen = recording.count;
+    this.fleet = recording.fleet?.now;
+    this.lost = lostOf(this.fleet);
     this.folded = new Set();
     this.sought = "";
     this.arrows = true;
@@ -41,6 +44,7 @@ export class Lanes {
   /** Show a moment: the cursor, and the states in the heads of the rows. */
   show(moment) {
     if (this.seen !== this.recording.count) this.grow();
+    if (this.fleet !== this.recording.fleet?.now) this.#seeFleet();
     const { time } = this.player;
     const x = this.x(time);
     const isSeen = x > -1 && x < this.width + 1;
@@ -54,7 +58,8 @@ export class Lanes {
     for (const row of this.rows) {
       if (row.members.length !== 1) continue;
       const { states, alive, line } = moment.members[row.members[0]];
-      const text = line < 0 ? "" : alive ? states.map((each) => each.split(".").at(-1)).join(", ") : "lost";
+      const last = states.map((each) => each.split(".").at(-1)).join(", ");
+      const text = line < 0 ? "" : !alive ? "lost" : this.isSilent(row.members[0], time) ? `lost, was in ${last}` : last;
       if (row.text !== text) row.state.textContent = printable((row.text = text));
     }
   }
@@ -72,6 +77,19 @@ export class Lanes {
     if (last) [this.from, this.to] = [this.from && this.end - length, this.end];
     if (rows() === before) this.draw();
     else this.layOut();
+  }
+
+  /** Return true if a robot of a fleet is lost, and was not heard after its last line, at or before a time. */
+  isSilent(number, time) {
+    return this.lost.has(robotOf(this.recording.members[number].name)) && this.stays[number].heard <= time;
+  }
+
+  /** Take in who is lost in a fleet now. */
+  #seeFleet() {
+    const before = [...this.lost].join();
+    this.fleet = this.recording.fleet?.now;
+    this.lost = lostOf(this.fleet);
+    if ([...this.lost].join() !== before) this.draw();
   }
 
   x(time) {
@@ -297,6 +315,11 @@ export class Lanes {
     this.hint.style.left = `${Math.max(0, Math.min(event.clientX + 14, innerWidth - 320))}px`;
     this.hint.style.top = `${event.clientY + 16}px`;
   }
+}
+
+/** Return the names of the robots of a fleet that are lost. */
+function lostOf(fleet) {
+  return new Set((fleet?.robots ?? []).filter((each) => each.status === "lost").map((each) => each.robot));
 }
 
 let lanes = null;

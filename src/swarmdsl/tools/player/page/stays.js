@@ -1,13 +1,14 @@
 // Stays in states: what the lanes draw, found once for all zooms.
 
-/** For each member its stays: lines at which its states change, and their times; or those found before with more lines. */
+/** For each member its stays: lines at which its states change, their times, and when it was heard last; or those found before with more lines. */
 export function staysOf(recording, found = [], from = 0) {
-  while (found.length < recording.members.length) found.push({ times: [], states: [], lines: [], rows: 1 });
+  while (found.length < recording.members.length) found.push({ times: [], states: [], lines: [], rows: 1, heard: 0 });
   for (let at = from; at < recording.count; at++) {
     const step = recording.step(at);
     const member = recording.memberAt(at);
     if (!step.configuration || member < 0) continue;
     const stays = found[member];
+    stays.heard = recording.time(at);
     const states = step.event === recording.lost ? null : step.configuration;
     const before = stays.states.at(-1);
     if (stays.times.length && (before === states || before?.join() === states?.join())) continue;
