@@ -299,10 +299,23 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     expect(run.locator("body")).to_contain_text("SW1101")
 
     window.leave()
+    window.open("sar.swarm")
+    window.command("Swarm: Run Tests")
+    run = window.view()
+    expect(run.locator("#about")).to_contain_text("SearchAndRescue")
+    terminal = page.locator(".terminal-wrapper .xterm-rows", has_text="1 failed")
+    expect(terminal).not_to_have_count(0)
+
+    window.leave()
     window.command("Testing: Focus on Test Explorer View")
     wrong.write_text(f"{WRONG}steps = [", encoding="utf-8")
     expect(rows.filter(has_text="is not valid TOML")).to_have_count(1)
     expect(test).to_have_count(1)  # it does not vanish
+    wrong.rename(window.folder / "again.swarmtest.toml")
+    expect(rows.filter(has_text="again.swarmtest.toml")).not_to_have_count(0)
+    expect(row).to_have_count(0)
+    (window.folder / "again.swarmtest.toml").unlink()
+    expect(rows).to_have_count(1)
     window.command("View: Show Explorer")
 
 
@@ -345,12 +358,18 @@ def test_invalid_server_path_is_reported(window: Window) -> None:
         told = window.page.locator(".notification-toast", has_text="/bin/false is not a swarmc")
         expect(told.get_by_role("button", name="Select Interpreter")).to_be_visible()
         expect(window.status("swarmdsl.swarm.swarmdsl").locator(".codicon-warning")).to_be_visible()
+        window.command("Testing: Focus on Test Explorer View")
+        rows = window.page.locator(".test-explorer .monaco-list-row")
+        why = rows.filter(has_text="The tests cannot be read. /bin/false is not a swarmc")
+        window.again(rows.first.locator(".monaco-tl-twistie").click, why)
         told.get_by_role("button", name="Open Settings").click()
         expect(window.page.locator(".settings-editor")).to_contain_text(
             "If empty, the extension searches"
         )
         window.press("Escape")
     window.server(__version__)
+    expect(why).to_have_count(0)
+    window.command("View: Show Explorer")
 
 
 def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> None:
