@@ -46,6 +46,10 @@ _OF_MONITORS = (
 
 def emit(system: System, options: NodeOptions, report: Diagnostics) -> list[OutputFile]:
     """Return the files of the package with the behaviour, and of interface packages."""
+    if options.composed and options.network == "domains":
+        fault = "robots in one process share a domain: `composed` goes without `network=domains`"
+        report.report("bad-option", None, target=TARGET, fault=fault)
+        return []
     variant = Variant(is_composed=options.composed)
     package = package_view(system, options, report, variant)
     if package is None:

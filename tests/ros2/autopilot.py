@@ -36,6 +36,9 @@ class Autopilot:
     commands: list[int] = field(default_factory=list)
     gaps: list[float] = field(default_factory=list)
     yaw: float = math.nan
+    ground: float = 0.0
+    jumps: int = 0
+    jump: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
     _setpoint: Sequence[float] | None = None
     _first: float | None = None
     _last: float | None = None
@@ -43,7 +46,19 @@ class Autopilot:
     @property
     def landed(self) -> bool:
         """True on the ground."""
-        return self.place[2] >= -0.02
+        return self.place[2] >= self.ground - 0.02
+
+    def correct(self, north: float, east: float, down: float, turn: float) -> None:
+        """Correct the estimate: the vehicle stays, and its numbers change."""
+        self.jumps = (self.jumps + 1) % 256
+        self.jump = (north, east, down, turn)
+        moved = zip(self.place, self.jump, strict=False)
+        self.place = [old + way for old, way in moved]
+        if self._setpoint is not None:  # PX4 does so until it hears the next one
+            moved = zip(self._setpoint, self.jump, strict=False)
+            self._setpoint = [old + way for old, way in moved]
+        self.ground += down
+        self.heading += turn
 
     def hear_setpoint(self, position: Sequence[float], yaw: float) -> None:
         """Take a setpoint, with the message that says what of it counts."""
@@ -105,13 +120,13 @@ class Autopilot:
         elif self.mode == RETURN and math.hypot(north, east) > 0.01:
             self._toward([0.0, 0.0, down], seconds)
         elif self.mode in (LAND, RETURN):
-            self.place[2] = min(down + _SINKING * seconds, 0.0)
+            self.place[2] = min(down + _SINKING * seconds, self.ground)
 
     def _toward(self, goal: Sequence[float], seconds: float) -> None:
         way = math.dist(self.place, goal)
         share = 1.0 if way <= _SPEED * seconds else _SPEED * seconds / way
         moved = [a + (b - a) * share for a, b in zip(self.place, goal, strict=True)]
-        self.place = [*moved[:2], min(moved[2], 0.0)]
+        self.place = [*moved[:2], min(moved[2], self.ground)]
 
     def status(self) -> dict[str, Any]:
         """Return the fields of a VehicleStatus."""
@@ -133,4 +148,10 @@ class Autopilot:
             "z": self.place[2],
             "vx": self.speed,
             "heading": self.heading,
+            "delta_xy": list(self.jump[:2]),
+            "delta_z": self.jump[2],
+            "delta_heading": self.jump[3],
+            "xy_reset_counter": self.jumps,
+            "z_reset_counter": self.jumps,
+            "heading_reset_counter": self.jumps,
         }

@@ -98,6 +98,21 @@ def test_launch_starts_one_process(launch: Launch) -> None:
     assert container["respawn"] is True
 
 
+def test_launch_of_no_robots(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """There is nothing to start a process for."""
+    model = tmp_path / "guarded.swarm"
+    model.write_text(MODEL.replace("Uav[5]", "Uav[0..5]"), encoding="utf-8")
+    package = write_package(model, tmp_path / "made", composed="true")
+    path = package / "launch" / "field.launch.py"
+
+    def started(**given: str) -> list[str]:
+        nodes = launching.launch(path, {package.name: package}, monkeypatch.setitem, **given)
+        return [each["executable"] for each in nodes]
+
+    assert started(uav_count="0") == []
+    assert started(uav_count="1") == ["container", "watchdog"]
+
+
 @pytest.mark.usefixtures("domain")
 def test_robots_in_one_process(ros: Any, package: Path, launch: Launch, tmp_path: Path) -> None:
     """One has a value of its own, one has ended, two have failed; two go on until a kill."""

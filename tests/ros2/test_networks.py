@@ -152,6 +152,7 @@ def test_profiles_of_dds_look_for_the_robots(generate: Callable[..., Files]) -> 
         ({"network": "domains", "domain": "200"}, "a domain is from 0 to 100"),
         ({"network": "domains", "domain": "99"}, "4 robots of swarm Crew need the domains to 103"),
         ({"network": "lora"}, "option `network` takes"),
+        ({"network": "domains", "composed": "true"}, "robots in one process share a domain"),
     ],
 )
 def test_options_that_do_not_fit_are_told(

@@ -343,7 +343,10 @@ def test_one_robot_is_launched_on_its_own_computer(
         ({"member": "head_0", "head_count": "9" * 5000}, "9 of head, but exactly 1"),
         ({"member": "left_" + "9" * 5000}, "its number is too great"),
         ({"member": "left_0", "left_count": "two"}, "must be a number of robots, not `two`"),
-        ({"member": "left_0", "respawn_delay": "soon"}, "a number of seconds, not `soon`"),
+        *(
+            ({"member": "left_0", "respawn_delay": each}, f"from 0 to 86400, not `{each}`")
+            for each in ("soon", "nan", "inf", "-1")
+        ),
         ({"member": "left_0", "respawn": "yes"}, "respawn must be true or false, not `yes`"),
         ({"member": "left_0", "log_dir": str(package / "setup.py")}, "log_dir cannot be made"),
     ):

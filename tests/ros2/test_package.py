@@ -161,7 +161,7 @@ def test_callbacks_are_the_users(ros: Any, variant: Variant) -> None:
         "\n"
         "\n"
         "def read_result(data, result):\n"
-        "    raise RuntimeError(f'no use for {result.count}')\n"
+        "    raise SystemExit(f'no use for {result.count}')\n"
     )
     ros.prefer(package)
     fakes = ros.fakes()
@@ -176,7 +176,7 @@ def test_callbacks_are_the_users(ros: Any, variant: Variant) -> None:
     assert fakes.wait("goal", WORK[0], 2)["data"]["name"] == "box again"
     # What goes wrong in a callback is told, and the machine goes on.
     node.wait_in("Rest")
-    assert "RuntimeError: no use for 5" in node.log
+    assert "SystemExit: no use for 5" in node.log
     assert node.terminate() == 0
 
 

@@ -209,6 +209,45 @@ def test_cancelled_goals_hold_the_vehicle(up: Air) -> None:
     assert here[2] < -1
 
 
+@pytest.mark.parametrize("jumps", [1, 3], ids=["one", "several"])
+def test_a_vehicle_stays_where_the_estimate_jumps(up: Air, jumps: int) -> None:
+    """PX4 tells the last jump alone; its counters begin again after 255."""
+    up.pilot.jumps = 254
+    for _ in range(2):
+        up.step()
+    yaw = up.pilot.yaw
+    for _ in range(jumps):
+        up.pilot.correct(4.0, -3.0, 1.5, 0.25)
+    there = list(up.pilot.place)
+    up.for_time(2)
+    assert up.pilot.place == pytest.approx(there, abs=0.01)
+    assert up.pilot.yaw == pytest.approx(yaw + 0.25 * jumps)
+    # The height of a goal is that above the ground, of which the estimate has jumped as well.
+    assert up.fly("take_off", altitude=2.0) == _DONE
+    assert up.pilot.place == pytest.approx([*there[:2], up.pilot.ground - 2], abs=0.3)
+
+
+def test_a_goal_stays_where_it_is_in_the_frame(up: Air) -> None:
+    """Its heading does not, if the goal has none; what is reached is held."""
+    up.flight.begin("go_to", place=(20.0, 0.0, -5.0))
+    up.for_time(0.5)
+    up.pilot.correct(2.0, 1.0, -0.5, 0.25)
+    up.until(lambda: len(up.ends) > 1)
+    assert up.ends[-1] == _DONE
+    assert up.pilot.place == pytest.approx([20, 0, -5], abs=0.3)
+    assert up.pilot.yaw == pytest.approx(0.75)
+    up.flight.begin("go_to", place=(10.0, 0.0, -5.0), yaw=1.0)
+    up.for_time(0.5)
+    up.pilot.correct(0.0, 0.0, 0.0, 0.25)
+    up.until(lambda: len(up.ends) > 2)
+    assert up.pilot.yaw == pytest.approx(1.0)
+    up.pilot.correct(2.0, 1.0, -0.5, 0.25)
+    there = list(up.pilot.place)
+    up.for_time(2)
+    assert up.pilot.place == pytest.approx(there, abs=0.3)
+    assert up.pilot.yaw == pytest.approx(1.25)
+
+
 def test_a_start_that_is_cancelled_stops_the_motors(air: Air) -> None:
     air.flight.begin("take_off", altitude=3.0)
     air.until(lambda: air.pilot.armed)

@@ -80,6 +80,43 @@ def test_a_node_ends_although_it_never_begins(ros: Any, what: str) -> None:
     assert process.wait(60) == 1
 
 
+HEARD = """
+import rclpy
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.publisher import Publisher
+from lab_behavior.lab import main
+
+def is_heard(self, timeout):
+    print(timeout.nanoseconds, flush=True)
+    {answer}
+
+Publisher.wait_for_all_acked = is_heard
+main()
+"""
+
+
+@pytest.mark.parametrize(
+    ("answer", "least"),
+    [("return False", 2), ("raise rclpy_implementation.RCLError('not known')", 1)],
+    ids=["far", "unknown"],
+)
+def test_a_node_ends_although_nobody_hears_it(ros: Any, answer: str, least: int) -> None:
+    """It asks the middleware without waiting there, where Python stands still."""
+    fakes = ros.fakes()
+    fakes.publisher("/go", "lab_msgs/msg/Order")
+    words = ["-c", HEARD.format(answer=answer), "--ros-args", "-r", "__ns:=/lab"]
+    process = ros.start(*words, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    fakes.listeners("/go")
+    process.send_signal(signal.SIGTERM)
+
+    said, wrong = process.communicate(timeout=60)
+    assert process.returncode == 0, wrong
+    asked = said.split()
+    assert set(asked) == {"0"}
+    assert len(asked) >= least
+    assert "Traceback" not in wrong
+
+
 ORDER = """
 import threading
 import rclpy

@@ -55,6 +55,19 @@ WATCHED = {
     "cancels": "cmd/work",
 }
 PATIENCE = 60.0
+HANGS = """
+import ctypes
+from rclpy.node import Node
+from guarded_behavior.fly import main
+
+def destroy_node(self):
+    print('hangs', flush=True)
+    ctypes.PyDLL(None).sleep(10**6)
+
+Node.destroy_node = destroy_node
+main()
+"""
+"""A node that has ended its machine, and hangs in the middleware."""
 
 
 def test_a_node_that_is_killed(ros: Any, tmp_path: Path) -> None:
@@ -81,10 +94,12 @@ def test_a_node_that_is_killed(ros: Any, tmp_path: Path) -> None:
         fakes.wait("request", LAND[0])
         fakes.wait("stopped", WORK[0])
 
-        node = start(ros, "fly", {"lease.file": lease, "member": "uav[0]"})
+        node = start(ros, HANGS, {"lease.file": lease, "member": "uav[0]"}, stdout=subprocess.PIPE)
         fakes.wait("begun", WORK[0], 2)
         node.send_signal(signal.SIGTERM)
-        assert node.wait(PATIENCE) == 0
+        assert node.stdout is not None
+        assert node.stdout.readline() == "hangs\n"
+        node.kill()  # as launch does after a while
 
         node = start(ros, "fly", {"lease.file": lease, "member": "uav[0]"})
         fakes.wait("begun", WORK[0], 3)
@@ -165,8 +180,9 @@ def start(
     """Start a node of the package with parameters."""
     given = [each for name, value in parameters.items() for each in ("-p", f"{name}:={value!s}")]
     namespace = ("-r", "__ns:=/uav_0")
+    program = ("-c", module) if module == HANGS else ("-m", f"guarded_behavior.{module}")
     made: subprocess.Popen[str] = ros.start(
-        "-m", f"guarded_behavior.{module}", "--ros-args", *namespace, *words, *given, **options
+        *program, "--ros-args", *namespace, *words, *given, **options
     )
     return made
 

@@ -11,6 +11,7 @@ import queue
 import signal
 import sys
 import threading
+import traceback
 from typing import Any, NamedTuple
 
 import rclpy
@@ -18,6 +19,7 @@ from rclpy.logging import get_logger
 from rclpy.signals import SignalHandlerOptions
 
 from .node import end_in, leave, Spinner, StateMachineNode
+from .robots import delay, RobotError
 
 _LATE = 20.0
 """Time that ROS may take to shut down all nodes after they have stopped, in seconds."""
@@ -56,10 +58,10 @@ def read(arguments):
                     start.arguments.append(word)
                 nodes.append(start)
             elif word == '--respawn':
-                respawn = float(next(words))
+                respawn = delay(next(words))
             else:
                 own.append(word)
-    except (StopIteration, ValueError):
+    except (StopIteration, RobotError):
         raise UsageError(_USAGE) from None
     if not nodes:
         raise UsageError(_USAGE)
@@ -115,6 +117,15 @@ class _Robot(threading.Thread):
 
     def run(self):
         """Run the node until it ends, or until `end` is called."""
+        try:
+            self._run()
+        except Exception:
+            traceback.print_exc()
+            self.code = 1
+        finally:
+            self._on_end()
+
+    def _run(self):
         while not self._is_to_end.is_set():
             self._spinner = Spinner(self._make, self._module, self._ros, self._has_ended)
             self._spinner.start()
@@ -128,7 +139,6 @@ class _Robot(threading.Thread):
             get_logger('container').error(f'{self._name} has failed, and starts again')
             self._is_to_end.wait(self._pause)
             self._ending = queue.SimpleQueue()
-        self._on_end()
 
     def _make(self, name, on_end):
         module = import_module(f'.{self._module}', __package__)

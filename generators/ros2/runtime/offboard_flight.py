@@ -67,6 +67,8 @@ _BEFORE = 1.2
 """Seconds of setpoints that PX4 wants before it takes the mode."""
 _AGAIN = 0.5
 """Seconds until a command without an answer is sent again: topics of PX4 are best effort."""
+_COUNTERS = 256
+"""Values of a counter of PX4, which begins again after them."""
 _STILL = 0.5
 """Speed below which a vehicle has arrived, in metres per second."""
 
@@ -115,6 +117,24 @@ def turned(yaw):
     return atan2(cos(yaw), sin(yaw))
 
 
+def jump(before, after):
+    """Return how far, and by which angle, the estimate has jumped between two positions."""
+    seen = after.x - before.x, after.y - before.y, after.z - before.z
+    north, east = _jumped(before, after, 'xy', after.delta_xy, seen[:2])
+    (down,) = _jumped(before, after, 'z', [after.delta_z], seen[2:])
+    turn = [after.heading - before.heading]
+    (turn,) = _jumped(before, after, 'heading', [after.delta_heading], turn)
+    return (north, east, down), turn
+
+
+def _jumped(before, after, what, told, seen):
+    """Return what is told of a jump, or what is seen of several: the last one alone is told."""
+    name = f'{what}_reset_counter'
+    count = (getattr(after, name) - getattr(before, name)) % _COUNTERS
+    found = told if count == 1 else seen
+    return [float(each) if count and isfinite(each) else 0.0 for each in found]
+
+
 def heading(x, y, z, w):
     """Return the angle of a quaternion around the vertical axis; None if all of it is 0."""
     if not any((x, y, z, w)):
@@ -140,6 +160,7 @@ class Flight:
         self._ground = 0.0
         self._target = None
         self._sent_since = None
+        self._named = frozenset()
         self._follows = False
         self._goal = None
         self._work = None
@@ -156,10 +177,23 @@ class Flight:
             self._target = None
 
     def hear_position(self, now, position):
-        """Take a `VehicleLocalPosition`."""
+        """Take a `VehicleLocalPosition`; what is held moves with a jump of the estimate."""
+        if self._position is not None:
+            self._move(*jump(self._position, position))
         self._position, self._position_at = position, now
         if self.is_landed and position.z_valid:
             self._ground = position.z
+
+    def _move(self, way, turn):
+        """Move the ground, and what a goal has not named in the frame: it is held in the world."""
+        self._ground += way[2]
+        if self._target is not None:
+            place, yaw = self._target
+            if 'place' not in self._named:
+                place = tuple(a + b for a, b in zip(place, way, strict=True))
+            if 'yaw' not in self._named:
+                yaw = atan2(sin(yaw + turn), cos(yaw + turn))
+            self._target = Setpoint(place, yaw)
 
     def hear_landed(self, landing):
         """Take a `VehicleLandDetected`."""
@@ -223,6 +257,7 @@ class Flight:
 
     def _end(self, end):
         self._work = None
+        self._named = frozenset()
         self._follows = False
         self._ended(end)
 
@@ -252,6 +287,7 @@ class Flight:
             raise FlightError(BAD_GOAL, 'the pose has a number that is not finite')
         yield from self._flying()
         yield from self._take_control()
+        self._named = frozenset(['place'] if yaw is None else ['place', 'yaw'])
         self._target = Setpoint(place, self._here().yaw if yaw is None else yaw)
         yield from self._arrive()
 

@@ -3,6 +3,7 @@
 from itertools import count
 import json
 from pathlib import Path
+import time
 from typing import Any, NamedTuple
 
 from rclpy.duration import Duration
@@ -15,8 +16,10 @@ from .engine import Observer, Run
 from .parameters import StartError
 from .values import MILLISECOND, to_json
 
-_PATIENCE = Duration(seconds=4)
-"""Time for those who follow the node to hear its end: the middleware asks again after 3 s."""
+_PATIENCE = 1.0
+"""Time for those who follow the node to hear its end, in seconds; they may be out of reach."""
+_PAUSE = 0.02
+_NOW = Duration()
 HISTORY = 1000
 """Number of lines that a node keeps for those who subscribe later."""
 _LAST = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -238,12 +241,21 @@ class Output:
 
     def release(self):
         """Let followers hear the last line; destroy the publishers, and close the file."""
-        if self._node.context.ok():
-            self._transitions.wait_for_all_acked(_PATIENCE)
+        end = time.monotonic() + _PATIENCE
+        while not self._is_heard() and time.monotonic() < end:
+            time.sleep(_PAUSE)
         self._node.destroy_publisher(self._state)
         self._node.destroy_publisher(self._transitions)
         if self._file is not None:
             self._file.close()
+
+    def _is_heard(self):
+        """Return True if all followers have all lines, as far as the middleware can tell."""
+        try:
+            # Not with a time: rclpy keeps the lock of Python meanwhile, and all robots would wait.
+            return not self._node.context.ok() or self._transitions.wait_for_all_acked(_NOW)
+        except RuntimeError:
+            return True  # it cannot tell
 
 
 def _numbered(path):

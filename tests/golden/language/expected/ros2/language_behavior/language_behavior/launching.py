@@ -19,7 +19,7 @@ from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import LifecycleNode, Node, PushRosNamespace
 
-from .robots import chosen, limits, RobotError
+from .robots import chosen, delay, limits, RobotError
 
 _SPACE = 'the namespace of the swarm'
 
@@ -140,18 +140,14 @@ class _Launch:
         self._config = Path(_folder(swarm.package), 'config', swarm.name)
         self._traces = self._made('trace_dir')
         self._logs = self._made('log_dir')
-        try:
-            self._delay = float(self._text('respawn_delay'))
-        except ValueError:
-            said = self._text('respawn_delay')
-            raise RobotError(f'respawn_delay must be a number of seconds, not `{said}`') from None
+        self._delay = delay(self._text('respawn_delay'))
 
     def groups(self):
         """Return a group of nodes for each robot, and one for the monitor."""
         is_whole = not self._text('members').strip()
         has_monitor = self._swarm.monitor and is_whole and self._is_on('monitor')
         shared = [self._monitor()] if has_monitor else []
-        if self._is_composed:
+        if self._is_composed and self._robots:
             shared.append(self._container())
         return [*shared, *(self._robot(role, number) for role, number in self._robots)]
 

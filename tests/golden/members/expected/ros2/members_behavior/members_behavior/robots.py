@@ -9,6 +9,8 @@ _MOST = 1000
 """Number of robots that a role without a limit of its own may have."""
 _DIGITS = 18
 """Length of the longest number that is read."""
+_LONGEST = 86400.0
+"""Longest pause, in seconds."""
 
 
 class Role(NamedTuple):
@@ -86,6 +88,18 @@ def _count(name, role, text):
     if len(text) > _DIGITS or not role.lower <= int(text) <= role.most:
         raise RobotError(f'there cannot be {text} of {name}, but {limits(role)}')
     return int(text)
+
+
+def delay(text):
+    """Return the seconds in a text."""
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = -1.0
+    if 0 <= seconds <= _LONGEST:
+        return seconds
+    bounds = f'a number of seconds from 0 to {_LONGEST:.0f}'
+    raise RobotError(f'respawn_delay must be {bounds}, not `{text}`')
 
 
 def limits(role):

@@ -76,7 +76,7 @@ def by_user(callback, data, message):
     """Call a callback of the user with a message, and return the message."""
     try:
         returned = callback(data, message)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         reason = ''.join(traceback.format_exception(error))
         raise ExecutionError(f'callback `{callback.__name__}` failed: {reason}') from error
     return message if returned is None else returned

@@ -117,7 +117,8 @@ class Spinner(threading.Thread):
         except StartError as error:
             rclpy.logging.get_logger(self._name).fatal(str(error))
             self._is_broken = True
-        except Exception:
+        except BaseException:
+            # A callback of a user can also leave the thread.
             traceback.print_exc()
             self._is_broken = True
         finally:
