@@ -399,6 +399,21 @@ arguments = { width = 20 }
     assert code == 0, said.out + said.err
 
 
+def test_a_model_of_a_project_that_fails_fails_a_test(
+    simulate: Simulate, project: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    simulate("--until", "0s", "--world", "abstract")  # writes the model
+    for name in ("broken", "paint"):
+        text = '[[test]]\nname = "it paints"\nsteps = [{ pass = "1s" }]\n'
+        text += f'[test.scenario.functions.walk]\nmodel = "{name}"\n'
+        text += "arguments = { seconds = 4 }\n" * (name == "paint")
+        Path(f"{name}.swarmtest.toml").write_text(text, encoding="utf-8")
+    assert run(["test", "."]) == 1
+    said = capsys.readouterr()
+    assert "error[SW1015]: the model of `walk` fails at 100 ms: RuntimeError: no paint" in said.out
+    assert "1 passed, 1 failed" in said.err
+
+
 def test_the_summary_tells_how_far_robots_went(simulate: Simulate) -> None:
     scenario = '[functions.walk]\nmodel = "random_walk"\narguments = { time = "20 s" }\n'
     code, _, err = simulate("--trace", "none", scenario=scenario)

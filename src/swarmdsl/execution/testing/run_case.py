@@ -15,6 +15,7 @@ from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_
 from swarmdsl.execution.simulate.properties import plan, watch
 from swarmdsl.execution.simulate.run_lines import Recorder as Recording
 from swarmdsl.execution.simulate.run_lines import RunLines
+from swarmdsl.execution.simulate.space import ModelError
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.verdicts import violation_fields
 from swarmdsl.execution.simulate.world import World
@@ -162,6 +163,10 @@ class _CaseRun:
             return self._violation(violated.place, violated.violation)
         except LoopError as error:
             return self._loop(error, place)
+        except ModelError as error:
+            time = format_duration(self._world.clock.now)
+            fields = {"function": error.function, "time": time, "reason": error.reason}
+            return self._failure("failed-model", place, fields, "the test ends here")
         return None
 
     def _check_properties(self) -> None:
