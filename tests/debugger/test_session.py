@@ -161,8 +161,15 @@ def test_variables_are_set(client: Client) -> None:
     assert set_to("blinks", "most * 2") == "6"
     assert set_to("longest", "90 s") == "1 min 30 s"
     assert client.scopes(1)["Variables"]["blinks"] == "6"
-    for name, value in (("blinks", "1.5"), ("blinks", "Off"), ("nothing", "1")):
-        with pytest.raises(RefusedError):
+    for name, value in (
+        ("blinks", "1.5"),
+        ("blinks", "Off"),
+        ("nothing", "1"),
+        ("blinks", "3000000000"),
+        ("longest", "5"),
+        ("longest", "true"),
+    ):
+        with pytest.raises(RefusedError, match=f"`{value if value == 'Off' else name}`"):
             set_to(name, value)
     # What was set at a point is set again on the way back to a later one.
     client.value('send Start {"times": 1} to bulb[1]', "repl")
@@ -235,6 +242,19 @@ def test_columns_count_utf_16_units(client: Client, tmp_path: Path) -> None:
     assert found == {"label": "Say", "start": len(typed), "length": 1, "type": "value"}
 
 
+def test_a_robot_that_comes_back_keeps_its_name(client: Client, tmp_path: Path) -> None:
+    scenario = tmp_path / "lost.toml"
+    text = '[[faults]]\nat = "1 s"\nlost = "bulb[0]"\nlasts = "1 s"\n'
+    scenario.write_text(text, encoding="utf-8")
+    run_until_quiet(client, scenario=str(scenario))
+    client.request("swarmSend", event="Start", member="bulb[0]", data={"times": 1})
+    client.stop()
+    assert client.request("swarmPicture")["active"] == {
+        "bulb[0]": ["Lit.On"],
+        "bulb[1]": ["Waiting"],
+    }
+
+
 def test_pause_and_restart_in_real_time(client: Client) -> None:
     client.launch(program=str(MODEL), realTime=True, stopOnEntry=True)
     assert client.stop()["text"] == "bulb[0], at 0 ms"
@@ -270,6 +290,8 @@ def test_a_test_that_fails_stops_where_it_fails(client: Client) -> None:
     assert stopped["reason"] == "exception"
     assert "expected in `Dark` within 2 s" in stopped["text"]
     assert stopped["frame"]["name"] == "Lit.Off"
+    client.request("continue", threadId=1)
+    assert client.await_event("exited")["exitCode"] == 1
 
 
 @pytest.mark.parametrize(
@@ -277,6 +299,8 @@ def test_a_test_that_fails_stops_where_it_fails(client: Client) -> None:
     [
         ({}, "`program` is missing"),
         ({"program": "nowhere.swarm"}, "nowhere.swarm"),
+        ({"program": "\0"}, "characters that no path has"),
+        ({"program": str(MODEL), "cwd": "\ud800"}, "characters that no path has"),
         ({"program": str(MODEL), "swarm": "Lmaps"}, "did you mean `Lamps`"),
         ({"program": str(MODEL), "scenario": "none.toml"}, "none.toml"),
         ({"program": str(MODEL), "world": "round"}, "`world` must be"),
@@ -300,7 +324,8 @@ def test_wrong_launches_are_refused(client: Client, arguments: dict[str, object]
 
 
 def test_wrong_requests_are_refused(client: Client) -> None:
-    for message in (1, [], {}, {"type": "request"}, {"type": "request", "seq": "x", "command": 3}):
+    odd = {"type": "request", "seq": "x", "command": 3}
+    for message in (None, 1, [], {}, {"type": "request"}, odd):
         client.write(message)
     for command, arguments in (
         ("nonsense", {}),
@@ -325,6 +350,8 @@ def test_wrong_requests_are_refused(client: Client) -> None:
         ("evaluate", {"expression": "1 / 0"}),
         ("setVariable", {"variablesReference": 1}),
         ("setBreakpoints", {"source": "here"}),
+        ("setBreakpoints", {"source": {"path": "\0"}}),
+        ("breakpointLocations", {"source": {"path": "\ud800"}, "line": 1}),
         ("completions", {"text": 3}),
         ("swarmSend", {"event": {}}),
         ("swarmGo", {"request": "launch"}),

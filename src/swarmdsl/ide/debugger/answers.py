@@ -9,7 +9,14 @@ from typing import Any
 
 from swarmdsl.base.source import Source
 from swarmdsl.ide.debugger.inspection import Frame
-from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required, texts
+from swarmdsl.ide.debugger.messages import (
+    Arguments,
+    RequestError,
+    as_path,
+    optional,
+    required,
+    texts,
+)
 from swarmdsl.ide.debugger.owner import Body, Handler, Session
 from swarmdsl.ide.debugger.points import Way
 from swarmdsl.ide.debugger.sending import enabled, read_command
@@ -21,7 +28,7 @@ from swarmdsl.ide.server.positions import UTF_16, bounds, offset, units
 
 def _set_breakpoints(session: Session, arguments: Arguments) -> Body:
     controls = session.looking()
-    path = required(required(arguments, "source", dict), "path", str)
+    path = _path(arguments)
     asked = optional(arguments, "breakpoints", list) or []
     shift = 1 - session.first_line
     moved = [
@@ -38,11 +45,16 @@ def _set_breakpoints(session: Session, arguments: Arguments) -> Body:
     }
 
 
+def _path(arguments: Arguments) -> str:
+    """Return the real path of the file that a request is about."""
+    return os.path.realpath(as_path(required(required(arguments, "source", dict), "path", str)))
+
+
 def _locations(session: Session, arguments: Arguments) -> Body:
     places = session.places
     if places is None:
         raise RequestError("nothing is launched")
-    path = os.path.realpath(required(required(arguments, "source", dict), "path", str))
+    path = _path(arguments)
     shift = 1 - session.first_line
     first = required(arguments, "line", int) + shift
     last = optional(arguments, "endLine", int)

@@ -128,6 +128,8 @@ class Controls:
         """Numbers of the ends of macrosteps, and of points with breakpoints, so far."""
         self.watching: _Watching | None = None
         self._world: World | None = None
+        self.has_failed = False
+        """True if the run could not go on, or is a test that fails."""
         self._faults: list[str] = []
         self._known_failures: Counter[tuple[str, str]] = Counter()
         self.breakpoints.begin()
@@ -204,6 +206,7 @@ class Controls:
 
     def fail(self, why: str) -> None:
         """Let the run stop where it cannot go on."""
+        self.has_failed = True
         self._faults.append(why)
         self.arrive("failed", self.point.member)
 

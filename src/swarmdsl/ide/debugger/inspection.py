@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from typing import Any
 
+from swarmdsl.analysis.types.fitting import fits
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
@@ -232,10 +233,14 @@ class Inspection:
         variable = known.get(name)
         if variable is None or self._system is None:
             raise RequestError(f"`{name}` is no variable of the machine: only these can be set")
-        value = controls.evaluate(text, member).value
+        found = controls.evaluate(text, member)
+        value = found.value
+        if not fits(found.type, variable.type):
+            wanted, given = type_text(variable.type), type_text(found.type)
+            raise RequestError(f"`{name}` takes a value of type `{wanted}`, not of `{given}`")
         try:
             if variable.type != DURATION or not isinstance(value, int):
-                value = fitted(variable.type, value, self._system)
+                value = fitted(variable.type, value, self._system, (name,))
         except MisfitError as error:
             report = Diagnostics()
             report.report(error.code, None, help=error.help, **error.fields)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import threading
 from collections.abc import Mapping
@@ -29,7 +30,10 @@ class Connection:
         self._number = 0
 
     def read(self) -> Any:
-        """Return the next message, any JSON; None at the end, and where the framing is wrong."""
+        """Return the next message, any JSON; None at the end, and where the framing is wrong.
+
+        What is no message at all is an empty one.
+        """
         length = 0
         while (line := self._incoming.readline()).strip():
             found = _LENGTH.fullmatch(line)
@@ -37,9 +41,10 @@ class Connection:
         if not line or not length:
             return None
         try:
-            return json.loads(self._incoming.read(length))
+            message = json.loads(self._incoming.read(length))
         except (ValueError, RecursionError):
             return {}
+        return {} if message is None else message
 
     def write(self, message: Mapping[str, Any]) -> None:
         """Write a message, with the next number."""
@@ -78,6 +83,19 @@ def texts(arguments: Arguments, name: str) -> list[str]:
     if not isinstance(given, list) or not all(isinstance(each, str) for each in given):
         raise RequestError(f"`{name}` must be a list of strings")
     return given
+
+
+def as_path(text: str) -> str:
+    """Return a text that can be a path; raise RequestError for another one."""
+    try:
+        os.fsencode(text)
+    except UnicodeError:
+        is_path = False
+    else:
+        is_path = "\0" not in text
+    if not is_path:
+        raise RequestError(f"{text!a} has characters that no path has")
+    return text
 
 
 _KINDS: Mapping[type[Any], str] = {

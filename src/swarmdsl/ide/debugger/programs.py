@@ -24,7 +24,7 @@ from swarmdsl.execution.testing.case import Case, InvalidTest
 from swarmdsl.execution.testing.models import Models
 from swarmdsl.execution.testing.reading import read_tests
 from swarmdsl.execution.testing.run_case import Failure, run_case
-from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, texts
+from swarmdsl.ide.debugger.messages import Arguments, RequestError, as_path, optional, texts
 from swarmdsl.project.read_source import read_source
 
 
@@ -178,20 +178,22 @@ def load(arguments: Arguments, folder: Path, report: Diagnostics) -> Program | N
 
     Raises RequestError for wrong arguments.
     """
-    test = optional(arguments, "test", str)
+    test = as_path(optional(arguments, "test", str) or "")
     if test:
         return _test(folder / test, arguments, report)
     names = texts(arguments, "program")
     if not names:
         raise RequestError("`program` is missing: the model to run, a file or a folder")
-    scenario, events = (optional(arguments, name, str) for name in ("scenario", "events"))
+    scenario, events = (
+        as_path(optional(arguments, name, str) or "") for name in ("scenario", "events")
+    )
     world = optional(arguments, "world", str)
     if world not in (None, "", "abstract", "flat", "physics"):
         raise RequestError("`world` must be `abstract`, `flat` or `physics`")
     if optional(arguments, "machine", str) and optional(arguments, "swarm", str):
         raise RequestError("`machine` and `swarm` conflict")
     request = Request(
-        tuple(folder / name for name in names),
+        tuple(folder / as_path(name) for name in names),
         machine=optional(arguments, "machine", str) or None,
         swarm=optional(arguments, "swarm", str) or None,
         events=str(folder / events) if events else None,

@@ -25,6 +25,7 @@ from swarmdsl.ide.debugger.messages import (
     Arguments,
     Connection,
     RequestError,
+    as_path,
     optional,
 )
 from swarmdsl.ide.debugger.points import Way
@@ -132,7 +133,7 @@ class Session:
         """Load the program of a launch; raise RequestError if there is none."""
         self._launch = arguments
         report = Diagnostics()
-        folder = Path(optional(arguments, "cwd", str) or Path())
+        folder = Path(as_path(optional(arguments, "cwd", str) or ""))
         speed = arguments.get("speed")
         if speed is not None and not (isinstance(speed, (int, float)) and 0 < speed <= 1000):
             raise RequestError("`speed` must be a number above 0, at most 1000")
@@ -221,7 +222,7 @@ class Session:
         self._is_over = True
         self.tell(f"{ending}, at {controls.world.clock.now / SECOND:.3f} s", "console")
         self._flush()
-        self.event("exited", {"exitCode": 0})
+        self.event("exited", {"exitCode": int(controls.has_failed)})
         self.event("terminated")
 
     def _name(self) -> str:

@@ -49,7 +49,9 @@ def picture(
         return {"active": {}}
     instances = controls.instances
     active: dict[str, list[str] | None] = {}
-    for member, instance in enumerate(instances.values()):
+    # A robot that has come back is the last one among the instances.
+    for actor, member in controls.members.items():
+        instance = instances[actor]
         states = instance.configuration.innermost if instance.running else None
         active[inspection.name(member)] = [instance.final] if instance.final else states
     shown: dict[str, Any] = {"time": controls.world.clock.now / SECOND, "active": active}
