@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
+from swarmdsl.tools.diagram import layout
 from swarmdsl.tools.diagram.layout import Box, Picture, lay_out, layering, routing
 from swarmdsl.tools.diagram.layout.cycles import feedback_edges
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
@@ -107,6 +108,22 @@ def check(picture: Picture) -> None:
 def test_pictures_of_models(drawn: tuple[Diagram, ...], direction: Direction | None) -> None:
     for diagram in drawn:
         check(lay_out(diagram, "right" if diagram.kind == "internal" else direction))
+
+
+def test_a_line_from_a_state_to_its_region(monkeypatch: pytest.MonkeyPatch) -> None:
+    inside = Node("p.r.s", "state", "S")
+    regions = (
+        Node("p.r", "region", "R", nodes=(inside,)),
+        Node("p.q", "region", "Q", nodes=(Node("p.q.s", "state", "S" * 60),)),
+    )
+    frame = Node(
+        "", "frame", "M", "statemachine", nodes=(Node("p", "parallel", "P", nodes=regions),)
+    )
+    edge = Edge("e", "transition", "p.r.s", "p.r", ("Event",))
+    for across in ("down", "right"):
+        directions = {"": "down", "p": "right", "p.r": across, "p.q": across}
+        monkeypatch.setattr(layout, "choose_directions", lambda *_, found=directions: [found])
+        check(lay_out(Diagram("statechart", "M", frame, (edge,))))
 
 
 def test_lines_end_at_the_ports_of_parts() -> None:

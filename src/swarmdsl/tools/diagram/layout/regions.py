@@ -43,6 +43,7 @@ def stretch_regions(
     """Stretch the regions of a state to its full size; `length` is their size along."""
     axis = 1 if state.direction == "down" else 0
     for id_, region in regions.items():
+        ended = region.height if axis else region.width
         if axis:
             region.height = length
         else:
@@ -52,7 +53,8 @@ def stretch_regions(
                 each for each in passages.routes[number].legs if each[0] == id_
             )
             for at, end in ((0, source), (-1, target)):
-                if end is None and points[at][axis] > 0:
+                # An edge to the region itself may end at a side, in the direction of its inside.
+                if end is None and points[at][axis] == ended:
                     x, y = points[at]
                     points[at] = (x, length) if axis else (length, y)
     last_id = list(regions)[-1]
