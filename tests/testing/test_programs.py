@@ -80,6 +80,9 @@ def test_a_list_has_ids_places_and_subjects(swarmc: Callable[..., Ran], folder: 
     }
     assert len(kinds(swarmc("test", "--list", "-k", "WAIT", "--format", "json").out, "test")) == 1
     assert "`-k no` leaves out all" in swarmc("test", "--list", "-k", "no").err
+    for options in ((), ("--list",)):
+        said = swarmc("test", "a.swarmtest.toml::lamps wait", "-k", "no", *options)
+        assert "no test in `a.swarmtest.toml`" in said.out + said.err
 
 
 def test_a_list_has_tests_with_mistakes(swarmc: Callable[..., Ran], folder: Path) -> None:

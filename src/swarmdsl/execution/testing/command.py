@@ -170,7 +170,8 @@ class _Session:
             self._show(verdicts[0])
         if request.pattern is not None and self._left_out and not self._outcomes:
             help_ = f"`-k {request.pattern}` leaves out all {self._left_out}"
-            report.report("no-tests", path=" ".join(map(str, request.paths)) or ".", help=help_)
+            where = " ".join(map(str, (*request.paths, *request.named))) or "."
+            report.report("no-tests", path=where, help=help_)
         reached = self._coverage.percentage
         if request.fail_under is not None and reached < request.fail_under:
             report.report(

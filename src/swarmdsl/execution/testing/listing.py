@@ -43,7 +43,7 @@ def list_tests(
             names.write(f"{printable(id_of(path, name))}  line {line}{subject}\n")
         report.include(file.problems)
     if not found and not report.has_errors and fine:
-        where = " ".join(map(str, selection.whole)) or "."
+        where = " ".join(map(str, (*selection.whole, *selection.named))) or "."
         report.report("no-tests", path=where, help=f"`-k {pattern}` leaves out all")
     names.flush()
     render(report, format_, stderr if format_ == "text" else stdout)
