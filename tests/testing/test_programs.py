@@ -167,6 +167,15 @@ def test_an_id_of_no_test_is_reported(
         assert said in ran.out + ran.err
 
 
+def test_a_list_has_no_results(swarmc: Callable[..., Ran], folder: Path) -> None:
+    write(folder, TESTS)
+    for flag in ("--play", "--junit", "--results"):
+        ran = swarmc("test", "--list", flag, "out")
+        assert ran.code == 2
+        assert f"`--list` and `{flag}` conflict" in ran.err
+    assert not (folder / "out").exists()
+
+
 @pytest.mark.skipif(os.name == "nt", reason="names of files cannot have colons on Windows")
 def test_a_file_may_have_the_separator_in_its_name(folder: Path) -> None:
     write(folder, TESTS, "x::y")

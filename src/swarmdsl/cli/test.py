@@ -89,6 +89,9 @@ def test(
 
     selection = read_selection(arguments)
     if lists:
+        for name, out in {"--play": play, "--junit": junit, "--results": results}.items():
+            if out is not None:
+                raise click.UsageError(f"`--list` and `{name}` conflict")
         return _list(selection, pattern, format_)
     is_file = results is not None and results != command.STDOUT
     outputs = {"--play": play, "--junit": junit, "--results": results if is_file else None}
