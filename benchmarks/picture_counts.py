@@ -54,11 +54,6 @@ class Counts:
     label_distance: float
     length: int
 
-    @property
-    def aspect(self) -> float:
-        """Width divided by height."""
-        return self.width / self.height
-
 
 def drawing_of(picture: Picture) -> Drawing:
     """Return what is counted of a picture of swarmdsl."""

@@ -18,7 +18,7 @@ interface PageMessage {
   readonly debug?: DebugCommand;
 }
 
-/** What the user wants of a debug session: a request of the protocol, or an event to send. */
+/** Wish of the user for a debug session: a request of the protocol, or an event to send. */
 export interface DebugCommand {
   readonly request?: string;
   readonly event?: string;

@@ -16,7 +16,7 @@ export interface Ended {
   readonly code: number | undefined;
   /** True if it wrote any record: a swarmc that is too old does not. */
   readonly told: boolean;
-  /** What it wrote for people, and why it did not start. */
+  /** Text that it wrote for people, and why it did not start. */
   readonly errors: string;
 }
 

@@ -162,9 +162,7 @@ def _check_robots(fact: Fact, owner: Sentence, context: Context) -> None:
             related=(Label(role.span, "it can have several"),),
             help=f"leave `{role.name}` out here: `each {role.name} :` says it"
             if owner.each is not None and owner.each.role.target is role
-            else write(
-                *(f"{word} {role.name}" for word in ("all", "some", "no")), f"{role.name}[0]"
-            ),
+            else write(*(f"{word} {role.name}" for word in _QUANTIFIERS), f"{role.name}[0]"),
         )
 
 

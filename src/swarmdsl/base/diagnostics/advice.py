@@ -34,7 +34,7 @@ class Advice(str):
         return Advice(f"{text}{self}", self.act, *self.arguments)
 
     def expanded(self, match: re.Match[str]) -> Advice:
-        r"""Return the help of a template with the groups of a match, as `\\1`."""
+        r"""Return the help of a template with the groups of a match, as `\1`."""
         texts = (match.expand(each) for each in self.arguments if isinstance(each, str))
         return Advice(match.expand(self), self.act, *texts)
 

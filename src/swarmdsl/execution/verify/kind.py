@@ -31,7 +31,7 @@ class Kind:
     """Number of robots that can be lost, as far as such a robot can tell."""
     can_be_lost: bool = False
     absences: Sequence[int] = ()
-    """How long it is lost each time; empty if for ever."""
+    """Lengths of its absences; empty if it does not come back."""
     others: int = 0
     """Number of other robots of the swarm."""
     robots: dict[str | None, Sequence[Actor]] = field(default_factory=dict)

@@ -24,9 +24,10 @@ class Input(NamedTuple):
 
 
 Task = tuple[str, int, str | int]
-"""What is over some time: kind of input, machine, state or timer.
+"""Task that is over some time: kind of input, machine, state or timer.
 
-It is a running activity or delay, inner events that wait, or the absence of a robot."""
+It is a running activity or delay, inner events that wait, or the absence of a robot.
+"""
 
 
 class Delay:

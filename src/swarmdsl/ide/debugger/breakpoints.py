@@ -135,7 +135,7 @@ class Breakpoints:
         self._places = places
         self._expressions = expressions
         self.asked: dict[str, list[Any]] = {}
-        """What the client has asked for, by file."""
+        """Breakpoints as the client has asked for them, by file."""
         self._of: dict[str, list[Breakpoint]] = {}
 
     def replace(self, path: str, asked: list[Any]) -> list[dict[str, Any]]:

@@ -47,7 +47,7 @@ class Session:
         self._connection = connection
         self._messages: SimpleQueue[Any] = SimpleQueue()
         self._deferred: list[Callable[[], None]] = []
-        """What follows the answer to the present request."""
+        """Acts that follow the answer to the present request."""
         self.first_line = self.first_column = 1
         self.program: Program | None = None
         self._launch: Arguments = {}

@@ -46,8 +46,7 @@ def choose_directions(diagram: Diagram, routes: EdgeRoutes) -> Iterator[Directio
     sizes = Sizes(diagram, routes)
     containers = [node for node in diagram.frame.walk() if node.nodes]
     found: list[tuple[float, int, Directions]] = []
-    for direction in ("down", "right"):
-        start: Direction = "down" if direction == "down" else "right"
+    for start in _OTHER:
         directions = uniform(diagram, start)
         least = _search(diagram, routes, sizes, directions, _moves(diagram, containers))
         found.append((least, len(found), directions))
