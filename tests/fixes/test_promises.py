@@ -1,4 +1,4 @@
-"""What `swarmc check` promises to fix is what `--fix` fixes; what it does not fix has a reason."""
+"""`--fix` fixes all that `swarmc check` promises to fix; what it does not fix has a reason."""
 
 import re
 

@@ -100,7 +100,7 @@ class Setpoint(NamedTuple):
 
 
 class End(NamedTuple):
-    """How a goal ended: the outcome of the action, and the fields of its result."""
+    """End of a goal: the outcome of the action, and the fields of its result."""
 
     outcome: str
     code: int = 0

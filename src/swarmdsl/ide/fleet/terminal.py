@@ -29,7 +29,7 @@ _QUIT = ("q", "\x04")
 _MOST = 1024
 """Number of bytes of a terminal that are read at once."""
 _SEQUENCE = re.compile(r"\x1b+(\[[0-?]*[ -/]*[@-~]|O?.?)")
-"""What a key without a character sends."""
+"""Bytes that a key without a character sends."""
 _HAS_KEYS = find_spec("termios") is not None  # not so on Windows
 
 
