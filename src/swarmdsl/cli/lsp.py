@@ -13,19 +13,10 @@ _LOOPBACK = "127.0.0.1"
 
 
 @click.command(epilog="Example: swarmc lsp --tcp 5007")
-@click.option("--stdio", is_flag=True, help="Use standard input and output (the default).")
-@click.option(
-    "--tcp",
-    "port",
-    type=options.Integer(1, 65535),
-    metavar="PORT",
-    help="Accept one editor on this port of the loopback interface.",
-)
+@options.connection
 @options.debug
-def lsp(stdio: bool, port: int | None) -> int:
+def lsp(port: int | None) -> int:
     """Run the language server."""
-    if stdio and port is not None:
-        raise click.UsageError("`--stdio` and `--tcp` conflict")
     from swarmdsl.ide.server.start import serve, serve_on_standard_streams
 
     if port is None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping
-from functools import reduce
+from functools import reduce, wraps
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -167,3 +167,23 @@ debug = click.option(
     callback=_show_debug,
     help="Show tracebacks.",
 )
+
+
+def connection(function: Callable[[int | None], int]) -> Callable[[bool, int | None], int]:
+    """Add the options for the streams of a server, which gets the port if one is given."""
+
+    @click.option("--stdio", is_flag=True, help="Use standard input and output (the default).")
+    @click.option(
+        "--tcp",
+        "port",
+        type=Integer(1, 65535),
+        metavar="PORT",
+        help="Accept one editor on this port of the loopback interface.",
+    )
+    @wraps(function)
+    def serve(stdio: bool, port: int | None) -> int:
+        if stdio and port is not None:
+            raise click.UsageError("`--stdio` and `--tcp` conflict")
+        return function(port)
+
+    return serve
