@@ -13,7 +13,7 @@ from swarmdsl import __version__
 
 pytest.importorskip("playwright", reason="no playwright: `make vscode`")
 
-from playwright.sync_api import expect
+from playwright.sync_api import Locator, expect
 
 from ...server.flows import FUNCTIONS, GIVEN, MODEL
 from .typing import fill
@@ -62,6 +62,7 @@ steps = [{ send = "MissionStart" }, { all = "rover", in = "Mission.Rescue.Bid" }
 name  = "time passes"
 steps = [{ pass = "1 s" }]
 """
+LAMPS = Path(__file__).resolve().parents[2] / "debugger" / "lamps.swarm"
 PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
 
 
@@ -80,6 +81,16 @@ def photograph(window: Window, config: pytest.Config, folder: Path, name: str) -
             window.page.wait_for_timeout(1000)  # fading elements
         window.page.screenshot(path=folder / f"{name}-{scheme}.png")
     window.page.emulate_media(color_scheme="light")
+
+
+def unfolded(window: Window, view: str, name: str) -> Locator:
+    """Unfold a row of a view of the debugger, if it is folded; return all its rows."""
+    rows = window.page.locator(f".debug-{view} .monaco-list-row")
+    row = rows.filter(has_text=name).first
+    expect(row).to_be_visible()
+    if row.get_attribute("aria-expanded") == "false":
+        row.locator(".monaco-tl-twistie").click()
+    return rows
 
 
 def test_bundled_server_runs_with_any_python(window: Window) -> None:
@@ -316,6 +327,46 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     expect(row).to_have_count(0)
     (window.folder / "again.swarmtest.toml").unlink()
     expect(rows).to_have_count(1)
+    window.command("View: Show Explorer")
+
+
+def test_a_simulation_is_debugged(window: Window) -> None:
+    window.command("View: Show Explorer")
+    shutil.copy(LAMPS, window.folder)
+    expect(window.page.locator(".explorer-folders-view").get_by_text("lamps.swarm")).to_be_visible()
+    window.open("sar.swarm")
+    window.place("lamps.swarm", "on Start")
+    window.press("F9")
+    expect(window.page.locator(".codicon-debug-breakpoint")).not_to_have_count(0)
+    window.command("Swarm: Debug Simulation")
+    window.choose("swarm")
+    window.choose("No scenario")
+    page = window.view()
+    bar = page.locator("#debug")
+    expect(page.locator("#which")).to_have_value("Lamp.statechart")
+    expect(page.locator("#picture .lit")).to_contain_text("Waiting")
+
+    bar.get_by_role("button", name="Start").click()
+    window.answer("Data of Start", '{"times": 2}')
+    yellow = window.page.locator(".debug-top-stack-frame-line")
+    expect(yellow).not_to_have_count(0)
+    expect(bar.locator(".where")).to_have_text("bulb[0], at 0.000 s")
+    window.command("View: Show Run and Debug")
+    frames = unfolded(window, "call-stack", "bulb[0]")
+    expect(frames.filter(has_text="on Start [event.times > 0")).not_to_have_count(0)
+    rows = unfolded(window, "variables", "Variables")
+    expect(rows.filter(has_text="blinks")).to_contain_text("0")
+
+    window.command("Debug: Step Into")
+    expect(rows.filter(has_text="blinks")).to_contain_text("2")
+    bar.get_by_role("button", name="Continue").click()
+    expect(bar.locator(".where")).to_have_text("bulb[1], at 0.000 s")
+    bar.get_by_role("button", name="Back").click()
+    expect(page.locator("#picture .lit", has_text="On")).not_to_have_count(0)
+    bar.get_by_role("button", name="End").click()
+    expect(bar).to_be_hidden()
+    expect(page.locator("#picture .lit")).to_have_count(0)
+    window.command("Remove All Breakpoints")
     window.command("View: Show Explorer")
 
 
