@@ -37,6 +37,9 @@ class Covering:
         most = max((len(unit.eyes) for unit in units), default=0)
         self._eyes = [(self._ranges(number), self._tangents(number)) for number in range(most)]
         """Range and view of the sensors with each number."""
+        self._rows: Whole = np.arange(stage.rows)
+        self._squares: dict[int, tuple[Whole, Whole]] = {}
+        """Cells around one, as columns and lines from it, by how far they reach."""
         self._noted_x = np.full(stage.rows, math.inf)
         """Place of each robot when it was noted last: x; likewise for y."""
         self._noted_y, self._noted_z = np.full((2, stage.rows), math.inf)
@@ -73,7 +76,7 @@ class Covering:
             return
         if not self._side:
             self._begin()
-        rows = np.arange(stage.rows)[part]
+        rows = self._rows[part]
         dx, dy = stage.x[rows] - self._noted_x[rows], stage.y[rows] - self._noted_y[rows]
         dz = stage.z[rows] - self._noted_z[rows]
         enough = np.maximum(self._reaches(rows), self._side) / _NOTES_OF_REACH
@@ -88,7 +91,7 @@ class Covering:
     def _by_reach(self, rows: Whole) -> list[tuple[float, Whole]]:
         """Return the rows with each reach, rounded to a quarter of a cell."""
         reaches = np.rint(self._reaches(rows) / self._side * 4) * self._side / 4
-        return [(float(reach), rows[reaches == reach]) for reach in np.unique(reaches)]
+        return [(reach, rows[reaches == reach]) for reach in sorted(set(reaches.tolist()))]
 
     def _reaches(self, rows: Whole) -> Floats:
         """Return the distance up to which robots cover the ground now."""
@@ -110,8 +113,7 @@ class Covering:
     def _mark(self, reach: float, rows: Whole) -> None:
         stage, side = self._stage, self._side
         most = max(int(reach / side + 0.5), 0)
-        offsets = np.arange(-most, most + 1)
-        across, along = (each.ravel() for each in np.meshgrid(offsets, offsets))
+        across, along = self._around(most)
         low_x, low_y = stage.bounds[:2] if stage.bounds else (0.0, 0.0)
         column = ((stage.x[rows] - low_x) / side).astype(np.int64)[:, None] + across
         line = ((stage.y[rows] - low_y) / side).astype(np.int64)[:, None] + along
@@ -127,6 +129,15 @@ class Covering:
         new = self._first[places] == _NOBODY
         # The robot with the least number, where several come to a cell at once.
         self._first[places[new][::-1]] = who[new][::-1]
+
+    def _around(self, most: int) -> tuple[Whole, Whole]:
+        """Return the columns and lines of a square of cells, from that in its middle."""
+        found = self._squares.get(most)
+        if found is None:
+            offsets = np.arange(-most, most + 1)
+            across, along = np.meshgrid(offsets, offsets)
+            found = self._squares[most] = across.ravel(), along.ravel()
+        return found
 
     def share(self, run: int, role: str | None = None) -> float:
         """Return the share of the environment that a role has covered in a run, or all."""

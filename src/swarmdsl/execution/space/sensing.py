@@ -106,7 +106,10 @@ class _Group:
         self._eyes = eyes
         first = eyes.eyes[places[0]]
         self._number, eye = first[1], first[2]
-        self._robots = np.array([eyes.eyes[place][0] for place in places])
+        robots = [eyes.eyes[place][0] for place in places]
+        self._has: Flags = np.isin(np.arange(stage.rows) % stage.robots, robots)
+        """True for robots with such a sensor."""
+        self._rows = np.flatnonzero(self._has)
         self._range = eye.range
         self._miss, self._wrong = eye.miss, eye.wrong
         self._width = min(eye.view, 2 * math.pi)
@@ -121,8 +124,7 @@ class _Group:
 
     def look(self, part: Part) -> list[Sighting]:
         stage = self._stage
-        rows = np.arange(stage.rows)[part]
-        rows = rows[np.isin(rows % stage.robots, self._robots)]
+        rows = self._rows if isinstance(part, slice) else part[self._has[part]]
         ticks = stage.ticks[stage.run[rows]]
         is_due = (ticks % self._period == 0) & stage.alive[rows]
         rows, ticks = rows[is_due], ticks[is_due]
