@@ -183,101 +183,25 @@ NOT_LOWERED = {
 }
 """Fields of the syntax tree that are not read by lowering, with the reason."""
 
-NEVER_ALONE = set(
-    [
-        "Action.goal",
-        "Address.id",
-        "Area.box",
-        "Area.name",
-        "Array.element",
-        "Assignment.path",
-        "Box.high",
-        "Box.low",
-        "Cancel.event",
-        "Chance.bound",
-        "Chance.probability",
-        "Communication.type",
-        "Component.base",
-        "Component.behavior",
-        "Component.name",
-        "Component.operations",
-        "Connector.source",
-        "Connector.target",
-        "Constant.type",
-        "Constraint.property",
-        "Construction.type",
-        "Contract.events",
-        "Contract.function",
-        "Count.comparison",
-        "Count.role",
-        "Count.state",
-        "CountRange.role",
-        "Disc.centre",
-        "EnvelopeField.field",
-        "Environment.areas",
-        "Environment.name",
-        "Event.type",
-        "Field.type",
-        "FieldAccess.base",
-        "Fitness.goal",
-        "Fitness.name",
-        "Fitness.subject",
-        "Fitness.value",
-        "FitnessInput.type",
-        "Function.communication",
-        "Function.name",
-        "FunctionPort.type",
-        "ItemRef.name",
-        "Measure.aggregate",
-        "Measure.claim",
-        "Measure.each",
-        "Measure.over",
-        "Member.base",
-        "Member.ports",
-        "Obstacle.shape",
-        "Optimization.swarm",
-        "OutcomeTrigger.state",
-        "Param.type",
-        "ParamRange.param",
-        "ParamRange.role",
-        "Part.operations",
-        "Port.type",
-        "PortRef.part",
-        "PortRef.port",
-        "Property.each",
-        "Property.subject",
-        "Query.array",
-        "Query.item",
-        "Query.key",
-        "ResultMapping.field",
-        "ResultMapping.path",
-        "ResultMapping.variable",
-        "Robots.number",
-        "Role.multiplicity",
-        "Role.start",
-        "Sight.kind",
-        "SpaceMeasure.of",
-        "SpaceMeasure.quantity",
-        "State.activity",
-        "State.id",
-        "State.initial",
-        "StateMachine.states",
-        "StateMachine.variables",
-        "Swarm.environment",
-        "Swarm.fitness",
-        "System.components",
-        "System.environments",
-        "System.events",
-        "System.fitness",
-        "System.functions",
-        "Targets.area",
-        "Targets.kind",
-        "Targets.places",
-        "Unary.operand",
-        "Unary.operator",
-        "Variable.name",
-        "Variable.type",
-        "Zone.box",
-    ]
+_ALONE_INVALID = (
+    "Action.goal Address.id Area.box Area.name Array.element Assignment.path Box.high Box.low "
+    "Cancel.event Chance.bound Chance.probability Communication.type Component.base "
+    "Component.behavior Component.name Component.operations Connector.source Connector.target "
+    "Constant.type Constraint.property Construction.type Contract.events Contract.function "
+    "Count.comparison Count.role Count.state CountRange.role Disc.centre EnvelopeField.field "
+    "Environment.areas Environment.name Event.type Field.type FieldAccess.base Fitness.goal "
+    "Fitness.name Fitness.subject Fitness.value FitnessInput.type Function.communication "
+    "Function.name FunctionPort.type ItemRef.name Measure.aggregate Measure.claim "
+    "Measure.each Measure.over Member.base Member.ports Obstacle.shape Optimization.swarm "
+    "OutcomeTrigger.state Param.type ParamRange.param ParamRange.role Part.operations "
+    "Port.type PortRef.part PortRef.port Property.each Property.subject Query.array "
+    "Query.item Query.key ResultMapping.field ResultMapping.path ResultMapping.variable "
+    "Robots.number Role.multiplicity Role.start Sight.kind SpaceMeasure.of "
+    "SpaceMeasure.quantity State.activity State.id State.initial StateMachine.states "
+    "StateMachine.variables Swarm.environment Swarm.fitness System.components "
+    "System.environments System.events System.fitness System.functions Targets.area "
+    "Targets.kind Targets.places Unary.operand Unary.operator Variable.name Variable.type "
+    "Zone.box"
 )
+NEVER_ALONE = set(_ALONE_INVALID.split())
 """Fields whose change makes a model invalid unless something else changes too."""
