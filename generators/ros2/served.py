@@ -19,7 +19,7 @@ from .readme import Rows
 INTERFACES = "px4_offboard_msgs"
 """Package of these actions, which is written with each package that has the node."""
 OFFBOARD = "px4_offboard"
-MODULES = ("offboard_flight", "offboard_node")
+MODULES = ("offboard_flight", "offboard_frames", "offboard_node", "offboard_vehicle")
 _PX4 = "px4_msgs"
 _ACTIONS = ("TakeOff", "GoTo", "Hold", "Land", "ReturnToLaunch")
 _TOPICS = {

@@ -84,7 +84,7 @@ def test_offboard_control_passes(
 ) -> None:
     package = variant("tests/ros2/px4")
     modules = [*package.rglob("*offboard*.py"), *package.rglob("*.launch.py")]
-    assert len(modules) == 5
+    assert len(modules) == 7
     assert lint(modules) == []
 
 

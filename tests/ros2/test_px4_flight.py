@@ -9,11 +9,13 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from swarmdsl.codegen.bundled.ros2.runtime.offboard_flight import Flight
+from swarmdsl.codegen.bundled.ros2.runtime.offboard_frames import heading, to_ned, turned
+from swarmdsl.codegen.bundled.ros2.runtime.offboard_vehicle import Settings
 
 from .autopilot import ARM, DO_LAND, LAND, OFFBOARD, POSITION, SET_MODE, Autopilot
 from .conftest import load_module, write_package
 
-_RUNTIME = Path(__file__).parents[2] / "generators" / "ros2" / "runtime"
 _STEP = 0.05
 
 
@@ -21,11 +23,10 @@ class Air:
     """A flight and its autopilot, which hear each other at each step."""
 
     def __init__(self) -> None:
-        module = load_module("offboard_flight", _RUNTIME)
         self.ends: list[tuple[str, int, str]] = []
         self.pilot = Autopilot(self._answer)
-        settings = module.Settings(travel=20.0, landing=20.0)
-        self.flight = module.Flight(settings, self._send, self._end)
+        settings = Settings(travel=20.0, landing=20.0)
+        self.flight = Flight(settings, self._send, self._end)
         self.is_silent = False
         self.is_stuck = False
         self.setpoint: Any = None
@@ -35,7 +36,7 @@ class Air:
         self.pilot.hear_command(SimpleNamespace(command=command, target_system=1, **given))
 
     def _answer(self, command: int, result: int) -> None:
-        self.flight.hear_answer(SimpleNamespace(command=command, result=result))
+        self.flight.vehicle.hear_answer(SimpleNamespace(command=command, result=result))
 
     def _end(self, end: Any) -> None:
         self.ends.append(tuple(end))
@@ -45,7 +46,7 @@ class Air:
         pilot.step(_STEP)
         if not self.is_silent:
             self.flight.hear_status(pilot.now, SimpleNamespace(**pilot.status()))
-            self.flight.hear_landed(SimpleNamespace(landed=pilot.landed))
+            self.flight.vehicle.hear_landed(SimpleNamespace(landed=pilot.landed))
             place = SimpleNamespace(vy=0.0, vz=0.0, **pilot.position())
             self.flight.hear_position(pilot.now, place)
         if not self.is_stuck:
@@ -274,13 +275,12 @@ def test_goals_that_end_by_time_and_by_others(up: Air) -> None:
 
 
 def test_frames() -> None:
-    module = load_module("offboard_flight", _RUNTIME)
-    assert module.to_ned(1.0, 2.0, 3.0) == (2.0, 1.0, -3.0)
-    assert module.to_ned(*module.to_ned(1.0, 2.0, 3.0)) == (1.0, 2.0, 3.0)
-    assert module.turned(0.0) == pytest.approx(math.pi / 2)  # to the east
-    assert module.turned(math.pi / 2) == pytest.approx(0.0)  # to the north
-    assert module.heading(0, 0, math.sin(0.5), math.cos(0.5)) == pytest.approx(1.0)
-    assert module.heading(0, 0, 0, 0) is None
+    assert to_ned(1.0, 2.0, 3.0) == (2.0, 1.0, -3.0)
+    assert to_ned(*to_ned(1.0, 2.0, 3.0)) == (1.0, 2.0, 3.0)
+    assert turned(0.0) == pytest.approx(math.pi / 2)  # to the east
+    assert turned(math.pi / 2) == pytest.approx(0.0)  # to the north
+    assert heading(0, 0, math.sin(0.5), math.cos(0.5)) == pytest.approx(1.0)
+    assert heading(0, 0, 0, 0) is None
 
 
 def test_launch_files_start_the_node(

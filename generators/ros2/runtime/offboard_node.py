@@ -28,7 +28,9 @@ from rclpy.task import Future
 
 from . import parameters
 from .identity import identity
-from .offboard_flight import Flight, heading, Settings, to_ned, turned
+from .offboard_flight import Flight
+from .offboard_frames import heading, to_ned, turned
+from .offboard_vehicle import Settings
 from .parameters import Parameter, StartError
 
 PARAMETERS = (
@@ -139,8 +141,8 @@ class OffboardNode(Node):
         for interface, hear in (
             (VehicleStatus, lambda message: flight.hear_status(self._now(), message)),
             (VehicleLocalPosition, lambda message: flight.hear_position(self._now(), message)),
-            (VehicleLandDetected, flight.hear_landed),
-            (VehicleCommandAck, flight.hear_answer),
+            (VehicleLandDetected, flight.vehicle.hear_landed),
+            (VehicleCommandAck, flight.vehicle.hear_answer),
         ):
             self.create_subscription(interface, named(interface), hear, _STATE)
 
