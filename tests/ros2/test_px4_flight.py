@@ -45,8 +45,9 @@ class Air:
         pilot = self.pilot
         pilot.step(_STEP)
         if not self.is_silent:
-            self.flight.hear_status(pilot.now, SimpleNamespace(**pilot.status()))
-            self.flight.vehicle.hear_landed(SimpleNamespace(landed=pilot.landed))
+            vehicle = self.flight.vehicle
+            vehicle.hear_status(pilot.now, SimpleNamespace(**pilot.status()))
+            vehicle.hear_landed(SimpleNamespace(landed=pilot.landed))
             place = SimpleNamespace(vy=0.0, vz=0.0, **pilot.position())
             self.flight.hear_position(pilot.now, place)
         if not self.is_stuck:
@@ -208,6 +209,32 @@ def test_cancelled_goals_hold_the_vehicle(up: Air) -> None:
     up.for_time(2)
     assert up.pilot.place == pytest.approx(here, abs=0.5)
     assert here[2] < -1
+
+
+@pytest.mark.parametrize("taken", [False, True])
+def test_a_goal_that_is_cancelled_before_the_mode_is_taken(up: Air, taken: bool) -> None:
+    """Its setpoints go on for the time in which PX4 may take the mode, and end otherwise."""
+    up.pilot.mode = POSITION
+    up.step()
+    assert up.setpoint is None
+    up.flight.begin("go_to", place=(50.0, 0.0, -3.0))
+    up.for_time(1)
+    up.flight.cancel()
+    cancelled = up.pilot.now
+    up.until(lambda: len(up.ends) > 1)
+    assert up.ends[-1] == ("canceled", 0, "")
+    here = list(up.pilot.place)
+    if taken:
+        up.for_time(4)
+        up.pilot.mode = OFFBOARD
+        up.for_time(10)
+        assert up.pilot.mode == OFFBOARD
+        assert up.pilot.place == pytest.approx(here, abs=0.1)
+        up.pilot.mode = POSITION
+    up.until(lambda: up.setpoint is None)
+    assert up.pilot.now - cancelled == pytest.approx(14 if taken else 5, abs=0.2)
+    assert up.pilot.mode == POSITION
+    assert up.fly("go_to", place=(2.0, 0.0, -3.0)) == _DONE
 
 
 @pytest.mark.parametrize("jumps", [1, 3], ids=["one", "several"])

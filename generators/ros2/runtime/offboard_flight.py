@@ -84,14 +84,7 @@ class Flight:
         self._goal = None
         self._work = None
         self._is_cancelled = False
-
-    def hear_status(self, now, status):
-        """Take a `VehicleStatus`."""
-        was_offboard = self.vehicle.mode == OFFBOARD
-        self.vehicle.hear_status(now, status)
-        if self._work is None and was_offboard and self.vehicle.mode != OFFBOARD:
-            # Somebody else flies: setpoints end, so that nothing leads back to the old ones.
-            self._target = None
+        self._kept_until = 0.0
 
     def hear_position(self, now, position):
         """Take a `VehicleLocalPosition`; what is held moves with a jump of the estimate."""
@@ -138,6 +131,7 @@ class Flight:
                 self._end(End(outcome, failure.code, str(failure)))
         if self._follows and self.vehicle.is_placed:
             self._target = self.vehicle.here
+        self._expire()
         if self._target is None:
             self._sent_since = None
         elif self._sent_since is None:
@@ -154,8 +148,20 @@ class Flight:
             return here, max(self.vehicle.ground - here[2], 0.0)
         return here, dist(here, self._target.position) if self._target is not None else 0.0
 
+    def _expire(self):
+        """
+        End setpoints without a goal outside offboard mode, so that nothing leads back to them.
+
+        After a goal that was cancelled before the mode was taken, PX4 may take it for a while.
+        """
+        if self.vehicle.mode == OFFBOARD:
+            self._kept_until = self.vehicle.now
+        elif self._work is None and self.vehicle.now >= self._kept_until:
+            self._target = None
+
     def _end(self, end):
         self._work = None
+        self._kept_until = self.vehicle.now + self._settings.answer  # x
         self._named = frozenset()
         self._follows = False
         self._ended(end)

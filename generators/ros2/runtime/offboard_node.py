@@ -137,12 +137,12 @@ class OffboardNode(Node):
             self.create_publisher(each, named(each), _ORDERS)
             for each in (OffboardControlMode, TrajectorySetpoint, VehicleCommand)
         )
-        flight = self._flight
+        flight, vehicle = self._flight, self._flight.vehicle
         for interface, hear in (
-            (VehicleStatus, lambda message: flight.hear_status(self._now(), message)),
+            (VehicleStatus, lambda message: vehicle.hear_status(self._now(), message)),
             (VehicleLocalPosition, lambda message: flight.hear_position(self._now(), message)),
-            (VehicleLandDetected, flight.vehicle.hear_landed),
-            (VehicleCommandAck, flight.vehicle.hear_answer),
+            (VehicleLandDetected, vehicle.hear_landed),
+            (VehicleCommandAck, vehicle.hear_answer),
         ):
             self.create_subscription(interface, named(interface), hear, _STATE)
 
