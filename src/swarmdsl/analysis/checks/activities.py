@@ -104,9 +104,8 @@ def check_arguments(
             field = next((known for known in fields if known.name == argument.name), None)
             if field is None:
                 exist = False
-                report_unknown_field(
-                    owner, argument.name, argument.name.span, fields, typing.report
-                )
+                names = [str(known.name) for known in fields]
+                report_unknown_field(owner, argument.name, argument.name.span, names, typing.report)
             else:
                 expected = of_field(field.type.type)
         typing.expect(argument.value.tree, expected)
@@ -150,7 +149,8 @@ def _check_result(
         return
     found = next((field for field in fields or () if field.name == result.field), None)
     if found is None and fields is not None:
-        report_unknown_field(owner, result.field, result.field.span, fields, context.report)
+        names = [str(field.name) for field in fields]
+        report_unknown_field(owner, result.field, result.field.span, names, context.report)
     if tree is None or found is None:
         return
     expected = context.typing.infer(tree)

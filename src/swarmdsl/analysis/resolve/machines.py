@@ -12,9 +12,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import TypeVar
 
-from swarmdsl.analysis.resolve.report_unresolved import (
+from swarmdsl.analysis.resolve.report_unresolved import report_missing_inside
+from swarmdsl.analysis.resolve.report_unresolved_states import (
     report_ambiguous_state,
-    report_missing_inside,
     report_missing_state,
     report_region_in_path,
     report_state_not_around,

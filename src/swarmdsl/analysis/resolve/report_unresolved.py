@@ -6,44 +6,31 @@ a correct model does not pay for them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.analysis.resolve.scopes import Ambiguous, FileScope, Missing, Unresolved, WrongKind
-from swarmdsl.analysis.resolve.states import Level
 from swarmdsl.base.diagnostics.advice import Advice, add_import, meant, write
-from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.ast import (
     Constant,
-    Container,
     Declaration,
-    Event,
     EventTrigger,
-    Expression,
-    FieldUse,
     Function,
-    History,
-    Initial,
-    Member,
-    NameUse,
     Node,
     Operation,
-    Parallel,
     Part,
     Port,
-    Property,
     Ref,
-    State,
     StateMachine,
     Swarm,
-    TopLevel,
     TypeRef,
     Vertex,
 )
-from swarmdsl.syntax.types import PRIMITIVES, Type
+from swarmdsl.syntax.types import PRIMITIVES
 
 D = TypeVar("D", bound=Declaration)
 Kinds = tuple[type[Node], ...]
@@ -67,7 +54,7 @@ def resolve_or_report(
     if not isinstance(found, Unresolved):
         return found
     several = kinds if isinstance(kinds, tuple) else (kinds,)
-    _report_declaration(found, name, at, several, scope, report, built_in=built_in)
+    report_declaration(found, name, at, several, scope, report, built_in=built_in)
     return None
 
 
@@ -134,7 +121,7 @@ def report_reference(
             if type(found.node) is StateMachine
             else None
         )
-    _report_declaration(
+    report_declaration(
         found, name, ref.span, (kind,), scope, report, built_in=built_in, instead=instead
     )
 
@@ -150,10 +137,10 @@ def report_activity(
     before, _, name = ref.name.rpartition(".")
     part = closest(before, parts)
     similar = [f"{part}.{name}"] if part else []
-    _report_declaration(found, ref.name, ref.span, (Function,), scope, report, built_in=similar)
+    report_declaration(found, ref.name, ref.span, (Function,), scope, report, built_in=similar)
 
 
-def _report_declaration(
+def report_declaration(
     found: Unresolved,
     name: str,
     at: Span,
@@ -178,7 +165,7 @@ def _report_declaration(
                 related=_declared_here(candidates.values()),
                 help=write(*(f"{package}.{name}" for package in candidates)),
             )
-        case WrongKind(node=node) if not _may_be_skipped(name, scope):
+        case WrongKind(node=node) if not may_be_skipped(name, scope):
             report.report(
                 "wrong-kind",
                 at,
@@ -188,7 +175,7 @@ def _report_declaration(
                 related=_declared_here([node]),
                 help=instead,
             )
-        case Missing() if scope.imports_resolved and not _may_be_skipped(name, scope):
+        case Missing() if scope.imports_resolved and not may_be_skipped(name, scope):
             _report_missing_declaration(name, at, kinds, built_in, scope, report, hint)
 
 
@@ -249,7 +236,7 @@ def _suggestion(
     return label_of, meant(close)
 
 
-def _may_be_skipped(name: str, scope: FileScope) -> bool:
+def may_be_skipped(name: str, scope: FileScope) -> bool:
     """Return True if text that could not be parsed may declare a name."""
     return name.rpartition(".")[2] in scope.skipped_names
 
@@ -281,176 +268,10 @@ def report_type(
         report.report("unresolved-name", ref.span, kind="type", name=ref.name, help=help_)
         return
     primitives = () if wants_interface(ref) else PRIMITIVES
-    _report_declaration(found, ref.name, ref.span, kinds, scope, report, built_in=primitives)
+    report_declaration(found, ref.name, ref.span, kinds, scope, report, built_in=primitives)
 
 
-# ---- values
-
-
-def report_value(
-    base: NameUse,
-    fields: Sequence[FieldUse],
-    within: Expression,
-    owner: TopLevel,
-    values: Iterable[str],
-    machines: Iterable[StateMachine],
-    kinds: tuple[type[D], ...],
-    scope: FileScope,
-    report: Diagnostics,
-) -> None:
-    """Report a name that means no value; for a package, the name that is missing in it.
-
-    `values` are the names of the variables, params and inputs of `owner`; the expression is about
-    `machines`.
-    """
-    name, at = base.name, base.span
-    for count, field in enumerate(fields):
-        package = dotted(base.name, fields[:count])
-        if package in scope.packages:
-            name, at = f"{package}.{field.name}", field.span
-    found = scope.resolve(name, kinds)
-    assert isinstance(found, Unresolved)
-    from swarmdsl.analysis.resolve.hints import value_hint
-    from swarmdsl.analysis.resolve.out_of_place import meaning_elsewhere, robot_as_value
-
-    help_ = None
-    if isinstance(found, Missing):
-        help_ = value_hint(name, scope, report)
-        wanted = report.wants_hint("unresolved-name") and not _may_be_skipped(name, scope)
-        if help_ is None and wanted:
-            help_ = meaning_elsewhere(base, within, owner, machines, scope)
-    if help_ is not None:
-        report.report("unresolved-name", at, kind="value", name=name, help=help_)
-        return
-
-    instead = None
-    if isinstance(found, WrongKind) and isinstance(found.node, Event) and fields:
-        instead = f"write `event.{fields[0].name}` for a field of the event that has arrived"
-
-    def hint() -> str | None:
-        # A name with fields may be a package.
-        if fields:
-            return None
-        from swarmdsl.analysis.resolve.missing_variable import suggest_variable
-
-        return robot_as_value(base, owner) or suggest_variable(base, within, owner, scope)
-
-    # Only these have fields without a declaration.
-    known = [*values, *(_predefined(owner) if fields else ("true", "false"))]
-    _report_declaration(
-        found, name, at, kinds, scope, report, built_in=known, instead=instead, hint=hint
-    )
-
-
-def _predefined(owner: TopLevel) -> tuple[str, ...]:
-    """Return the names with fields that expressions of a declaration need not declare."""
-    if isinstance(owner, StateMachine):
-        return ("event", "self")
-    return ("event",) if isinstance(owner, (Member, Property)) else ()
-
-
-def report_type_as_value(name: str, at: Span, type_: Type, report: Diagnostics) -> None:
-    """Report an alias of a type that is no enum, used as a value."""
-    report.report("wrong-kind", at, name=name, actual=f"the type `{type_}`", expected="a value")
-
-
-def dotted(name: str, fields: Iterable[FieldUse]) -> str:
-    """Return a name and fields as they are written: `sar.Mode`."""
-    return ".".join([name, *(str(field.name) for field in fields)])
-
-
-# ---- states and ports
-
-
-def report_ambiguous_state(
-    name: str, at: Span, found: Sequence[Vertex], report: Diagnostics
-) -> None:
-    """Report a name that states in several regions have."""
-    report.report(
-        "ambiguous-name",
-        at,
-        name=name,
-        related=_declared_here(found),
-        help="give the states in the regions different names",
-    )
-
-
-def report_missing_state(
-    name: str,
-    at: Span,
-    outer: Vertex | None,
-    levels: Sequence[Level],
-    scope: FileScope,
-    report: Diagnostics,
-) -> None:
-    """Report a missing name of a state. `outer` is the state that a path leads into."""
-    if name in scope.skipped_names:
-        return
-    kind = "state" if outer is None else f"state in `{outer.name}`"
-    if not report.wants_hint("unresolved-name"):
-        report.report("unresolved-name", at, kind=kind, name=name)
-        return
-    from swarmdsl.analysis.resolve.hints import path_to_state
-
-    states = [state for level in levels for found in level.values() for state in found]
-    paths = (path_to_state(name, state) for state in states)
-    path = next((path for path in paths if path), None)
-    if path:
-        report.report(
-            "unresolved-name",
-            at,
-            kind="state",
-            name=name,
-            related=(Label(path[-1].name.span, "declared here, inside another state"),),
-            help=write(".".join(state.name for state in path)),
-        )
-        return
-    report_missing(kind, name, at, [str(state.name) for state in states], report)
-
-
-def report_region_in_path(
-    index: int, at: Span, path: Sequence[str], outer: Vertex, report: Diagnostics
-) -> None:
-    """Report a region of `outer` as a name of a path to a state."""
-    without = ".".join((*path[:index], *path[index + 1 :]))
-    report.report(
-        "unresolved-name",
-        at,
-        kind=f"state in `{outer.name}`",
-        name=path[index],
-        help=write(without, before="paths leave out regions: "),
-    )
-
-
-def report_state_outside(
-    arrow: Initial | History,
-    target: Ref[Vertex],
-    container: Container,
-    outside: Vertex,
-    report: Diagnostics,
-) -> None:
-    """Report an initial state or a history whose target is not inside its container."""
-    what = "`initial` names" if isinstance(arrow, Initial) else f"history `{arrow.name}` leads to"
-    report.report(
-        "unresolved-name",
-        target.span,
-        kind=f"state in `{container.name}`",
-        name=target.name,
-        related=(Label(outside.name.span, "this state is not inside"),),
-        help=f"{what} a state inside `{container.name}`",
-    )
-
-
-def report_state_not_around(ref: Ref[Vertex], around: Sequence[Node], report: Diagnostics) -> None:
-    """Report a state that is not always active where its time is asked for."""
-    names = [str(each.name) for each in around if isinstance(each, (State, Parallel))]
-    written = listed([f"elapsed({name})" for name in names], "or")
-    report.report(
-        "state-not-around",
-        ref.span,
-        name=ref.name,
-        help=Advice(f"write {written}", "state around", *names) if names else None,
-    )
+# ---- ports
 
 
 def report_part_as_port(ref: Ref[Port], kind: str, report: Diagnostics) -> None:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from swarmdsl.analysis.resolve.report_unresolved import (
+from swarmdsl.analysis.resolve.report_unresolved import resolve_or_report
+from swarmdsl.analysis.resolve.report_unresolved_values import (
     dotted,
     report_type_as_value,
     report_value,
-    resolve_or_report,
 )
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import regions, variables_of, vertices

@@ -2,11 +2,12 @@
 
 from swarmdsl.analysis.types.arrays import COUNT, QUERIES
 from swarmdsl.analysis.types.built_ins import BUILT_INS
-from swarmdsl.analysis.types.expressions import Typing, report_unknown_field
+from swarmdsl.analysis.types.expressions import Typing
 from swarmdsl.analysis.types.fitting import fits, is_float, is_number, range_of
 from swarmdsl.analysis.types.forms import assignable, constant, item_of, stored_name
 from swarmdsl.analysis.types.unit_checks import check_types
 from swarmdsl.analysis.types.unit_rules import of_field
+from swarmdsl.analysis.types.unknown_fields import report_unknown_field
 
 __all__ = [
     "BUILT_INS",

@@ -6,8 +6,7 @@ so that one mistake is reported once.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from math import inf
+from collections.abc import Collection
 
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.report_unresolved import report_missing
@@ -18,8 +17,8 @@ from swarmdsl.analysis.types.arrays import (
     type_of_query,
     type_of_unnamed_query,
 )
-from swarmdsl.analysis.types.constant_folding import Folded, Folding
-from swarmdsl.analysis.types.fitting import fits, is_number, is_text, range_of
+from swarmdsl.analysis.types.constant_folding import Folding
+from swarmdsl.analysis.types.fitting import check_size, fits, range_of
 from swarmdsl.analysis.types.operators import Application
 from swarmdsl.analysis.types.positions import Position, position_of
 from swarmdsl.analysis.types.unit_checks import check_value
@@ -29,11 +28,11 @@ from swarmdsl.analysis.types.unit_rules import (
     literal_type,
     of_field,
 )
+from swarmdsl.analysis.types.unknown_fields import report_unknown_field
 from swarmdsl.base.diagnostics.advice import Advice, only, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
-from swarmdsl.base.suggest import did_you_mean
 from swarmdsl.ir.operations import SECOND
 from swarmdsl.syntax.ast import (
     Call,
@@ -59,25 +58,17 @@ from swarmdsl.syntax.types import (
     BOOL,
     DURATION,
     ENVELOPE_FIELDS,
-    FLOAT,
     INT,
     MEMBER,
     SELF_FIELDS,
-    STRING,
     Array,
     Named,
-    Primitive,
     Type,
     unit_of,
     with_unit,
     written,
 )
 from swarmdsl.syntax.units import UNITS
-
-_FLOAT32 = Primitive("float32")
-_LONGEST = 2**31 * 10**9
-"""Limit of a duration in ROS 1 and ROS 2, in nanoseconds (exclusive)."""
-_LARGEST_FLOAT32 = (2 - 2**-23) * 2.0**127
 
 
 @dataclass(frozen=True)
@@ -133,7 +124,7 @@ class Typing:
             case RoleUse():
                 return None  # the swarm that runs the machine has it
             case Value(value=value, unit=unit):
-                return _value_type(value, unit)
+                return literal_type(value, unit)
             case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
                 return self._enum_value(enum, name)
             case FieldUse(base=NameUse(name="self"), name=name):
@@ -229,39 +220,16 @@ class Typing:
             check_value(tree, found, expected, self.report)
             value = self.folding.value(tree)
             if value is not None and len(self.report) == before and not is_converted:
-                self._check_size(tree, value, expected)
+                check_size(tree, value, expected, self.report)
         else:
-            help_ = _bool_hint(tree, found) if expected == BOOL else None
-            if found == DURATION and is_number(expected):
-                seconds = f"seconds({tree.span.text})"
-                help_ = Advice(f"`{seconds}` is a number in `s`", "propose", seconds)
-            if expected == DURATION and isinstance(tree, Value) and tree.unit == "m":
-                help_ = f"`m` is metres: write `{tree.value} min`"
-            elif expected == DURATION and has_dimension(unit_of(found)):
-                product = f"1 s * ({tree.span.text} / 1 s)"
-                help_ = Advice(f"a duration in seconds: `{product}`", "propose", product)
-            elif expected == DURATION and isinstance(tree, Value) and is_number(found):
-                help_ = Advice(
-                    f"give it a unit: `{tree.span.text} s`", "add unit", f"{tree.span.text} s"
-                )
-            if range_of(expected) and found == FLOAT:
-                if not isinstance(tree, Value):
-                    help_ = self._whole_number(tree)
-                elif tree.unit:
-                    help_ = "its number in the unit of ROS has a fraction: declare it `float64`"
-            enum = self.interfaces.get(expected) if isinstance(expected, Named) else None
-            if isinstance(enum, EnumType) and enum.values and is_number(found):
-                help_ = Advice(
-                    f"name one of its values: `{enum.name}.{enum.values[0].name}`",
-                    "propose",
-                    f"{enum.name}.{enum.values[0].name}",
-                )
+            from swarmdsl.analysis.types.hints import mismatch_hint
+
             self.report.report(
                 "type-mismatch",
                 tree.span,
                 expected=f"`{written(expected)}`",
                 found=f"`{written(found)}`",
-                help=help_,
+                help=mismatch_hint(tree, found, expected, self.interfaces, self.infer),
             )
         return len(self.report) == before
 
@@ -270,18 +238,6 @@ class Typing:
         value = self.folding.value(tree)
         whole = range_of(expected) is not None and isinstance(value, int) and value % SECOND == 0
         return with_unit(INT, UNITS["s"]) if whole else NUMBER_OF_SECONDS
-
-    def _whole_number(self, tree: ExpressionTree) -> str:
-        """Hint for a number with a fraction in place of an integer."""
-        if isinstance(tree, OperatorUse) and tree.operator == "/":
-            left, right = tree.operands
-            if all(range_of(self.infer(each)) is not None for each in (left, right)):
-                return f"`/` keeps the fraction: write `div({left.span.text}, {right.span.text})`"
-        return Advice(
-            f"write `round({tree.span.text})`, or `int(...)` to cut the fraction off",
-            "propose",
-            f"round({tree.span.text})",
-        )
 
     def _checked_result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """Return the type of an operation; report one that never has a result."""
@@ -294,29 +250,6 @@ class Typing:
             operator = tree.function if isinstance(tree, Call) else tree.operator
             self.report.report("no-result", tree.span, operator=operator, fault=fault)
         return type_
-
-    def _check_size(self, tree: ExpressionTree, value: Folded, expected: Type | None) -> None:
-        """Report a constant that is too large for its type."""
-        found, help_ = f"`{value}`", None
-        match value:
-            case bool():
-                return
-            case int() if (possible := range_of(expected)) is not None and value not in possible:
-                help_ = f"it is a number from {possible[0]} to {possible[-1]}"
-            case int() | float() if expected == DURATION:
-                if -_LONGEST <= value < _LONGEST:
-                    return
-                found = f"`{value / 1e9:.12g} s`"
-                help_ = f"ROS counts its seconds in an `int32`: they are {2**31 - 1} at most"
-            case int() | float() if abs(value) > _LARGEST_FLOAT32 and expected == _FLOAT32:
-                help_ = "larger numbers need a `float64`"
-            case str() if isinstance(expected, Primitive) and len(value) > (expected.bound or inf):
-                found = f"a string of {len(value)} characters"
-            case _:
-                return
-        self.report.report(
-            "type-mismatch", tree.span, expected=f"`{expected}`", found=found, help=help_
-        )
 
     def field(
         self, owner: Type | None, name: str, at: Span, base: ExpressionTree | None = None
@@ -341,25 +274,22 @@ class Typing:
         return self._field(owner, name, name.span)
 
     def _field(
-        self, owner: Named, name: str, at: Span, facts: Iterable[str] = ()
+        self, owner: Named, name: str, at: Span, facts: Collection[str] = ()
     ) -> Field | Parameter | None:
         fields = self.interfaces.fields(owner)
         if fields is None:
             return None
         found = next((known for known in fields if known.name == name), None)
         if found is None:
-            report_unknown_field(f"`{owner}`", name, at, fields, self.report, facts)
+            names = [str(each.name) for each in fields]
+            report_unknown_field(f"`{owner}`", name, at, names, self.report, facts)
         return found
 
     def _own(self, name: Word) -> Type | None:
         """Return the type of a field of `self`."""
         if name in SELF_FIELDS:
             return SELF_FIELDS[name]
-        help_ = None
-        if self.report.wants_hint("unknown-field"):
-            has = f"it has {listed(list(SELF_FIELDS), 'and')}"
-            help_ = did_you_mean(name, SELF_FIELDS) or has
-        self.report.report("unknown-field", name.span, owner="`self`", name=name, help=help_)
+        report_unknown_field("`self`", name, name.span, SELF_FIELDS, self.report)
         return None
 
     def is_envelope(self, name: str) -> bool:
@@ -416,56 +346,3 @@ class Typing:
             )
             return None
         return enum.type
-
-
-def _bool_hint(tree: ExpressionTree, found: Type | None) -> str | None:
-    """Hint for a number or a string in place of a Boolean."""
-    text = tree.span.text
-    if isinstance(tree, Value):
-        word = "true" if tree.value else "false"
-        return write(word) if is_number(found) else None
-    if "\n" in text:
-        return None
-    if is_number(found):
-        return Advice(f"compare it: `{text} != 0`", "propose", f"{text} != 0")
-    return (
-        Advice(f'compare it: `{text} != ""`', "propose", f'{text} != ""')
-        if is_text(found)
-        else None
-    )
-
-
-def report_unknown_field(
-    owner: str,
-    name: str,
-    at: Span,
-    fields: Sequence[Field | Parameter],
-    report: Diagnostics,
-    facts: Iterable[str] = (),
-) -> None:
-    """Report a field that is missing in a message, with the existing fields.
-
-    `facts` are the fields that the event has whatever its message.
-    """
-    if not report.wants_hint("unknown-field"):
-        report.report("unknown-field", at, owner=owner, name=name)
-        return
-    names = [str(known.name) for known in fields]
-    has = f"it has {listed(names, 'and')}" if names else "it has no fields"
-    if facts:
-        has += f"; the event itself has {listed(list(facts), 'and')}"
-    help_ = did_you_mean(name, [*names, *facts]) or only(has, [*names, *facts])
-    report.report("unknown-field", at, owner=owner, name=name, help=help_)
-
-
-def _value_type(value: bool | int | float | str, unit: str) -> Type:
-    if unit and isinstance(value, (int, float)):
-        return literal_type(value, unit)
-    match value:
-        case bool():
-            return BOOL
-        case int():
-            return INT
-        case float():
-            return FLOAT
-    return STRING

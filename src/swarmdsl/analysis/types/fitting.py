@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from swarmdsl.syntax.types import FLOATS, INTEGERS, Array, Primitive, Type
+from math import inf
+
+from swarmdsl.analysis.types.constant_folding import Folded
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.syntax.ast import ExpressionTree
+from swarmdsl.syntax.types import DURATION, FLOATS, INTEGERS, Array, Primitive, Type
 
 _NUMBERS = {*INTEGERS, *FLOATS, "byte", "char"}
 _RANGES = {
@@ -10,6 +15,10 @@ _RANGES = {
     for name in INTEGERS
     for bits in (int(name.lstrip("uint")),)
 }
+_FLOAT32 = Primitive("float32")
+_LONGEST = 2**31 * 10**9
+"""Limit of a duration in ROS 1 and ROS 2, in nanoseconds (exclusive)."""
+_LARGEST_FLOAT32 = (2 - 2**-23) * 2.0**127
 
 
 def fits(found: Type | None, expected: Type | None) -> bool:
@@ -51,3 +60,27 @@ def is_float(type_: Type | None) -> bool:
 def range_of(type_: Type | None) -> range | None:
     """Return the range of an integer type; None for other types."""
     return _RANGES.get(type_.name) if isinstance(type_, Primitive) else None
+
+
+def check_size(
+    tree: ExpressionTree, value: Folded, expected: Type | None, report: Diagnostics
+) -> None:
+    """Report a constant that is too large for its type."""
+    found, help_ = f"`{value}`", None
+    match value:
+        case bool():
+            return
+        case int() if (possible := range_of(expected)) is not None and value not in possible:
+            help_ = f"it is a number from {possible[0]} to {possible[-1]}"
+        case int() | float() if expected == DURATION:
+            if -_LONGEST <= value < _LONGEST:
+                return
+            found = f"`{value / 1e9:.12g} s`"
+            help_ = f"ROS counts its seconds in an `int32`: they are {2**31 - 1} at most"
+        case int() | float() if abs(value) > _LARGEST_FLOAT32 and expected == _FLOAT32:
+            help_ = "larger numbers need a `float64`"
+        case str() if isinstance(expected, Primitive) and len(value) > (expected.bound or inf):
+            found = f"a string of {len(value)} characters"
+        case _:
+            return
+    report.report("type-mismatch", tree.span, expected=f"`{expected}`", found=found, help=help_)

@@ -9,7 +9,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swarmdsl.syntax.ast import NEIGHBORS
-from swarmdsl.syntax.types import DURATION, FLOAT, INT, Primitive, Type, unit_of, with_unit
+from swarmdsl.syntax.types import (
+    BOOL,
+    DURATION,
+    FLOAT,
+    INT,
+    STRING,
+    Primitive,
+    Type,
+    unit_of,
+    with_unit,
+)
 from swarmdsl.syntax.units import (
     ANY,
     DURATIONS,
@@ -35,10 +45,13 @@ _KEEPING_ONE = frozenset(("abs", "int", "round", "floor", "ceil", "float"))
 _ANGULAR = frozenset(("sin", "cos"))
 _WHOLE = {name: with_unit(INT, unit) for name, unit in UNITS.items() if unit.is_whole}
 _REAL = {name: with_unit(FLOAT, unit) for name, unit in UNITS.items()}
+_WITHOUT_UNIT: dict[type, Type] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
 
 
-def literal_type(value: int | float, unit: str) -> Type:
-    """Return the type of a number as written with a unit: a time is a duration."""
+def literal_type(value: bool | int | float | str, unit: str) -> Type:
+    """Return the type of a value as written with a unit, or none: a time is a duration."""
+    if not unit:
+        return _WITHOUT_UNIT[type(value)]
     if unit in DURATIONS:
         return DURATION
     return _WHOLE[unit] if isinstance(value, int) and unit in _WHOLE else _REAL[unit]
