@@ -11,9 +11,16 @@ from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 TARGET = "ros2"
 MODULES = (
     *("alarms", "callbacks", "container", "diagnostics", "engine", "functions", "host"),
-    *("identity", "launching", "lease", "members", "model", "models", "node", "offboard_flight"),
-    *("offboard_frames", "offboard_node", "offboard_vehicle", "parameters", "property_monitors"),
-    *("px4_offboard", "robot_lines", "robots", "swarm_measures", "swarm_monitor"),
+    *("identity", "launched_nodes", "launching", "lease", "members", "model", "models", "node"),
+    *("offboard_flight", "offboard_frames", "offboard_node", "offboard_vehicle", "parameters"),
+    *(
+        "property_monitors",
+        "px4_offboard",
+        "robot_lines",
+        "robots",
+        "swarm_measures",
+        "swarm_monitor",
+    ),
     *("swarm_verdicts", "swarm_watch", "topics", "tracing", "values", "watchdog"),
 )
 # A package with such a name would hide a module that the nodes import.

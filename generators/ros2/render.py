@@ -36,7 +36,7 @@ _MODULES = (
     "tracing",
     "values",
 )
-_OF_LAUNCHES = ("launching", "robots")
+_OF_LAUNCHES = ("launched_nodes", "launching", "robots")
 _OF_WATCHDOGS = ("lease", "watchdog")
 _OF_COMPOSED = ("container",)
 _OF_MONITORS = (

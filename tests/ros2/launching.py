@@ -29,7 +29,7 @@ _MODULES = {
     "ament_index_python.packages": (),
 }
 
-_OWN = ("robots", "launching")
+_OWN = ("robots", "launched_nodes", "launching")
 """Modules of a package that its launch files import, each after those that it imports."""
 
 

@@ -93,9 +93,19 @@ def test_launch_starts_one_process(launch: Launch) -> None:
     assert (container["executable"], container["namespace"]) == ("container", "/field")
     assert watchdog["namespace"] == "/field/uav_3"
     arguments = container["arguments"]
-    assert arguments[:5] == ["--respawn", "0.5", "--node", "fly", "uav_3"]
-    assert arguments.count("--node") == 1
+    assert arguments[:2] == ["--respawn", "0.5"]
+    ((module, namespace, words),) = json.loads(Path(arguments[2]).read_text(encoding="utf-8"))
+    assert (module, namespace) == ("fly", "uav_3")
+    assert words[words.index("-p") + 1] == 'member:="uav[3]"'
     assert container["respawn"] is True
+
+
+def test_the_command_of_a_process_with_many_robots(launch: Launch) -> None:
+    """It is as short as that of one; Linux has a limit of 2 MB, with all of the environment."""
+    container = next(each for each in launch() if each["executable"] == "container")
+    assert sum(len(_text(each)) for each in container["arguments"]) < 200
+    nodes = json.loads(Path(container["arguments"][0]).read_text(encoding="utf-8"))
+    assert [each[1] for each in nodes] == [f"uav_{number}" for number in range(5)]
 
 
 def test_launch_of_no_robots(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -201,11 +211,19 @@ def test_a_robot_that_starts_again(ros: Any, package: Path, launch: Launch, tmp_
         assert "node.shutdown" in (traces / f"uav[{number}].jsonl").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("words", [[], ["--node", "fly"], ["--node", "fly", "uav_0"]])
-def test_arguments_that_are_missing(ros: Any, package: Path, words: list[str]) -> None:
+@pytest.mark.parametrize(
+    ("nodes", "said"), [(None, "usage: container "), ('[["fly"]]', "is no file with nodes: ")]
+)
+def test_arguments_that_are_wrong(
+    ros: Any, package: Path, tmp_path: Path, nodes: str | None, said: str
+) -> None:
     ros.prefer(package)
+    words = []
+    if nodes is not None:
+        words = [str(tmp_path / "nodes.json")]
+        Path(words[0]).write_text(nodes, encoding="utf-8")
     container = ros.start("-m", f"{package.name}.container", *words, stderr=subprocess.PIPE)
-    assert container.stderr.read().startswith("usage: container ")
+    assert said in container.stderr.read()
     assert container.wait(PATIENCE) == 1
 
 

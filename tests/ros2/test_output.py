@@ -358,23 +358,27 @@ def test_one_robot_is_launched_on_its_own_computer(
         launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, members="left2")
 
 
-def test_a_role_without_a_limit_has_one_in_launch_files(
+def test_launch_files_have_a_limit_of_robots(
     generate: Generate, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write(generate(MODEL.replace("Eye[2..4]", "Eye[*]")), tmp_path)
+    """Also if the model has another one, or none."""
     package = tmp_path / "lab_behavior"
 
-    def launch(**arguments: str) -> list[dict[str, Any]]:
+    def launch(number: str, **arguments: str) -> list[dict[str, Any]]:
+        write(generate(MODEL.replace("Eye[2..4]", f"Eye[{number}]")), tmp_path)
         path = package / "launch" / "eyes.launch.py"
         return launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, **arguments)
 
-    assert len(launch(left_count="1000", members="left_999")) == 1
-    for given, said in (
-        ({"left_count": "100000000"}, "there cannot be 100000000 of left, but 0 to 1000"),
-        ({"members": "left_1000"}, "no left_1000: there is left_0 to left_999, and left_count can"),
+    assert len(launch("*", left_count="1000", members="left_999")) == 1
+    refused = "there cannot be 100000000 of left, but 1 to 1000"
+    for number, given, said in (
+        ("1..*", {"left_count": "100000000"}, refused),
+        ("1..100000000", {"left_count": "100000000"}, refused),
+        ("1..1001", {"members": "left_1000"}, "is left_0 to left_999, and left_count can"),
+        ("2000", {"members": "left_1"}, "a launch has 1000 of left at most, and there are 2000"),
     ):
         with pytest.raises(Exception, match=re.escape(said)) as error:
-            launch(**given)
+            launch(number, **given)
         assert type(error.value).__name__ == "RobotError"
 
 

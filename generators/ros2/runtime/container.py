@@ -1,12 +1,14 @@
 """
 Process with the nodes of many robots, each of which begins, fails and ends by itself.
 
-A node is named with `--node MODULE NAMESPACE`, which is in the namespace of the process. What
-follows up to `--` are its own arguments of ROS; the others are those of the process.
+A launch file writes a file with the nodes: the module of each, its namespace in that of the
+process, and its own arguments of ROS.
 """
 
 from functools import partial
 from importlib import import_module
+import json
+from pathlib import Path
 import queue
 import signal
 import sys
@@ -23,7 +25,7 @@ from .robots import delay, RobotError
 
 _LATE = 20.0
 """Time that ROS may take to shut down all nodes after they have stopped, in seconds."""
-_USAGE = 'usage: container [--respawn SECONDS] --node MODULE NAMESPACE [ARGUMENT ...] -- ...'
+_USAGE = 'usage: container [--respawn SECONDS] FILE [ARGUMENT OF ROS ...]'
 
 
 class Start(NamedTuple):
@@ -48,24 +50,21 @@ class UsageError(Exception):
 
 def read(arguments):
     """Return the command in the arguments; raise UsageError if they are something else."""
-    nodes, respawn, own = [], None, []
-    words = iter(arguments)
+    words = list(arguments)
+    respawn = None
     try:
-        for word in words:
-            if word == '--node':
-                start = Start(next(words), next(words).strip('/'), [])
-                while (word := next(words)) != '--':
-                    start.arguments.append(word)
-                nodes.append(start)
-            elif word == '--respawn':
-                respawn = delay(next(words))
-            else:
-                own.append(word)
-    except (StopIteration, RobotError):
+        if words[0] == '--respawn':
+            respawn = delay(words[1])
+            del words[:2]
+        path = Path(words.pop(0))
+        nodes = [Start(*each) for each in json.loads(path.read_text(encoding='utf-8'))]
+    except (IndexError, RobotError):
         raise UsageError(_USAGE) from None
+    except (OSError, ValueError, TypeError) as error:
+        raise UsageError(f'{path} is no file with nodes: {error}') from None
     if not nodes:
         raise UsageError(_USAGE)
-    return Command(nodes, respawn, own)
+    return Command(nodes, respawn, words)
 
 
 class _Ros:

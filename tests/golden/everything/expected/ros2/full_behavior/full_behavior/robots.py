@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 _ROBOT = re.compile(r'(\w+)\[([0-9]+)\]|(\w+)_([0-9]+)')
 _MOST = 1000
-"""Number of robots that a role without a limit of its own may have."""
+"""Number of robots that a role may have in a launch."""
 _DIGITS = 18
 """Length of the longest number that is read."""
 _LONGEST = 86400.0
@@ -32,7 +32,7 @@ class Role(NamedTuple):
     @property
     def most(self):
         """Return the greatest number of robots."""
-        return self.upper if self.upper is not None else max(self.lower, _MOST)
+        return _MOST if self.upper is None else min(self.upper, _MOST)
 
 
 class RobotError(Exception):
@@ -49,6 +49,8 @@ def chosen(roles, text, counts):
     named = list(_named(roles, text))
     numbers = {}
     for name, role in roles.items():
+        if role.lower > _MOST:
+            raise RobotError(f'a launch has {_MOST} of {name} at most, and there are {role.lower}')
         given = counts.get(name, '').strip()
         needed = [number + 1 for each, number in named if each == name and number is not None]
         count = min(max([role.least, *needed]), role.most)
