@@ -11,9 +11,9 @@ from hypothesis import Phase, given, settings
 
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.tools.compare.architecture import model_element
 from swarmdsl.tools.compare.changes import Action, display_name
 from swarmdsl.tools.compare.comparison import compare
+from swarmdsl.tools.compare.model import model_element
 from swarmdsl.tools.compare.report import format_breaking_changes, format_changes
 from swarmdsl.tools.compare.rules import RULES
 

@@ -14,11 +14,7 @@ from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.machines import link_expression_of_machine, link_machine
-from swarmdsl.analysis.resolve.properties import (
-    link_fitness,
-    link_property,
-    link_safe_states,
-)
+from swarmdsl.analysis.resolve.properties import link_fitness, link_property, link_safe_states
 from swarmdsl.analysis.resolve.report_unresolved import (
     report_activity,
     report_missing_inside,
@@ -26,12 +22,7 @@ from swarmdsl.analysis.resolve.report_unresolved import (
     report_reference,
 )
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes, Unresolved
-from swarmdsl.analysis.resolve.space import (
-    link_environment,
-    link_model,
-    link_sights,
-    link_starts,
-)
+from swarmdsl.analysis.resolve.space import link_environment, link_model, link_sights, link_starts
 from swarmdsl.analysis.resolve.types import TypeLinker
 from swarmdsl.analysis.resolve.values import ValueLinker, Values
 from swarmdsl.base.diagnostics.collector import Diagnostics

@@ -5,12 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swarmdsl.analysis.types.fitting import is_number
-from swarmdsl.analysis.types.unit_rules import (
-    has_root,
-    must_be_alike,
-    taken_unit,
-    units_fit,
-)
+from swarmdsl.analysis.types.unit_rules import has_root, must_be_alike, taken_unit, units_fit
 from swarmdsl.base.diagnostics.advice import Advice, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.source import Span

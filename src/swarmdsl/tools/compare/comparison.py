@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from swarmdsl.base.records import replace
 from swarmdsl.ir import System
-from swarmdsl.tools.compare.architecture import model_element
 from swarmdsl.tools.compare.breaking_changes import BreakingChange, find_breaking_changes
 from swarmdsl.tools.compare.changes import Change, changes_between, display_name
 from swarmdsl.tools.compare.delivery import offers_less
+from swarmdsl.tools.compare.model import model_element
 from swarmdsl.tools.compare.strength import strength
 
 

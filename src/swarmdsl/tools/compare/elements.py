@@ -52,6 +52,11 @@ class Element:
         return dict(self.places).get(property_name) or self.origin
 
 
+def reference(name: str | None, kind: str) -> Value:
+    """Return a reference as a value; an empty value without a name."""
+    return (Ref(kind, name),) if name is not None else ()
+
+
 def properties(**values: object) -> tuple[tuple[str, Value], ...]:
     """Properties by name, with `_` for a blank; empty values are left out."""
     return tuple(
