@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -273,25 +275,83 @@ def test_pause_and_restart_in_real_time(client: Client) -> None:
     assert client.await_event("terminated")
 
 
-def test_behaviour_tests(client: Client) -> None:
+def verdict(client: Client, outcome: str, exit_code: int) -> dict[str, Any]:
+    """Let a test run to its end; return its result."""
+    client.request("continue", threadId=1)
+    result = client.await_event("swarmTested")
+    assert (result["type"], result["outcome"]) == ("result", outcome)
+    assert client.await_event("exited")["exitCode"] == exit_code
+    client.await_event("terminated")
+    return result
+
+
+def test_a_behaviour_test_is_driven_by_its_steps(client: Client) -> None:
     client.launch({MODEL: [line("state On {")]}, test=str(TESTS))
     assert client.stop()["frame"]["name"] == "Lit.On"
+    assert client.value("blinks") == "2"
     assert client.go("continue")["text"] == "bulb[0], at 1 s"
-    client.request("continue", threadId=1)
-    assert (
-        "passes" in client.await_event("output")["output"] + client.await_event("output")["output"]
-    )
-    client.await_event("terminated")
+    assert client.go("stepBack")["text"] == "bulb[0], at 0 ms"
+    assert client.go("reverseContinue")["frame"]["name"] == "Lit.On"
+    assert client.go("continue")["text"] == "bulb[0], at 1 s"
+    result = verdict(client, "passed", 0)
+    assert (result["id"], result["seeds"]) == (f"{TESTS}::blinks as often as it is told", 1)
+    assert "the test `blinks as often as it is told` passes, at 1.500 s\n" in client.output
+
+
+def test_what_the_user_sends_counts_for_the_verdict(client: Client) -> None:
+    client.launch({MODEL: [line("state On {")]}, test=f"{TESTS}::never ends")
+    client.stop()
+    client.request("swarmSend", event="Stop")
+    client.request("setBreakpoints", source={"path": str(MODEL)}, breakpoints=[])
+    verdict(client, "passed", 0)
 
 
 def test_a_test_that_fails_stops_where_it_fails(client: Client) -> None:
-    client.launch(test=str(TESTS), testName="never ends")
+    client.launch(test=f"{TESTS}::never ends")
     stopped = client.stop()
     assert stopped["reason"] == "exception"
     assert "expected in `Dark` within 2 s" in stopped["text"]
     assert stopped["frame"]["name"] == "Lit.Off"
+    result = verdict(client, "failed", 1)
+    assert (result["expected"], result["failed_seeds"]) == ("in `Dark` within 2 s", [0])
+    assert result["problems"][0]["file"] == str(TESTS)
+
+
+def test_the_first_seed_with_which_a_test_fails_is_debugged(
+    client: Client, capsys: pytest.CaptureFixture[str]
+) -> None:
+    name = f"{TESTS}::seldom fails to blink"
+    run(["test", name, "--results", "-"])
+    records = map(json.loads, capsys.readouterr().out.splitlines())
+    [judged] = (each for each in records if each["type"] == "result")
+    client.launch(test=name, stopOnEntry=True)
+    client.stop()
+    first = judged["failed_seeds"][0]
+    assert client.output.startswith(f"seed {first} of 6 seeds, the first that fails\n")
+    assert client.go("continue")["reason"] == "exception"
+    # It may fail with some.
+    result = verdict(client, "passed", 0)
+    for each in (judged, result):
+        del each["seconds"]
+    assert result == {**judged, "event": "swarmTested"}
+
+
+def test_a_test_in_real_time_can_be_paused(client: Client) -> None:
+    client.launch(test=str(TESTS), realTime=True, stopOnEntry=True)
+    client.stop()
     client.request("continue", threadId=1)
-    assert client.await_event("exited")["exitCode"] == 1
+    client.request("pause", threadId=1)
+    assert client.stop()["reason"] == "pause"
+    assert client.request("swarmPicture")["time"] < 1.5
+
+
+def test_a_test_with_mistakes_is_not_launched(client: Client) -> None:
+    client.request("initialize")
+    with pytest.raises(RefusedError, match="missing key `steps`"):
+        client.request("launch", test=f"{TESTS}::has no steps")
+    result = client.await_event("swarmTested")
+    assert (result["name"], result["outcome"]) == ("has no steps", "unread")
+    assert result["problems"][0]["code"] == "SW1008"
 
 
 @pytest.mark.parametrize(
@@ -308,8 +368,9 @@ def test_a_test_that_fails_stops_where_it_fails(client: Client) -> None:
         ({"program": str(MODEL), "seed": "one"}, "`seed` must be a whole number"),
         ({"program": str(MODEL), "speed": 0}, "`speed` must be a number"),
         ({"program": [1]}, "`program` must be a list of strings"),
-        ({"test": str(TESTS), "testName": "nothing"}, "there is no test `nothing`"),
+        ({"test": f"{TESTS}::never end"}, "did you mean `never ends`"),
         ({"test": str(MODEL)}, "lamps.swarm"),
+        ({"test": str(TESTS), "until": "1s"}, "`until` and `test` conflict"),
     ],
 )
 def test_wrong_launches_are_refused(client: Client, arguments: dict[str, object], why: str) -> None:

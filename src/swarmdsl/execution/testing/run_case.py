@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
-from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import FALSE, Violation, Watch
@@ -13,6 +12,7 @@ from swarmdsl.execution.simulate.actors import Actor, actors
 from swarmdsl.execution.simulate.durations import format_duration
 from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_of
 from swarmdsl.execution.simulate.properties import plan, watch
+from swarmdsl.execution.simulate.run import Pace
 from swarmdsl.execution.simulate.run_lines import Recorder as Recording
 from swarmdsl.execution.simulate.run_lines import RunLines
 from swarmdsl.execution.simulate.space import ModelError
@@ -31,33 +31,7 @@ from swarmdsl.execution.testing.case import (
     Step,
 )
 from swarmdsl.execution.testing.recorder import Recorder
-
-
-@dataclass(frozen=True)
-class RunResult:
-    """Result of a run; `faults` are failed guards and effects, by machine.
-
-    `remarks` by property say why it says nothing of the run; `skipped` is the number of
-    impossible actions that were left out.
-    """
-
-    failure: Failure | None
-    faults: tuple[tuple[str, str], ...]
-    remarks: Mapping[str, str]
-    skipped: int = 0
-
-
-@dataclass(frozen=True)
-class Failure:
-    """Failure of a run: the parts of its diagnostic, and the last trace lines."""
-
-    code: str
-    place: Span
-    fields: dict[str, str]
-    label: str
-    related: tuple[Label, ...]
-    last: tuple[Line, ...]
-
+from swarmdsl.execution.testing.run_result import Failure, RunResult
 
 _NOBODY = "nobody handles it"
 
@@ -82,18 +56,28 @@ class _ViolatedError(Exception):
 
 
 def run_case(
-    case: Case, seed: int, listener: Callable[[Line], None], recorder: Recording | None = None
+    case: Case,
+    seed: int,
+    listener: Callable[[Line], None],
+    recorder: Recording | None = None,
+    pace: Pace | None = None,
 ) -> RunResult:
-    """Run a test until its end or first failure; the recorder keeps the lines of the run."""
-    run = _CaseRun(case, seed, listener)
+    """Run a test until its end or first failure; the recorder keeps the lines of the run.
+
+    A pace waits before time passes.
+    """
+    run = _CaseRun(case, seed, listener, pace)
     if recorder is not None:
         run.tell(recorder)
     return run.run_case()
 
 
 class _CaseRun:
-    def __init__(self, case: Case, seed: int, listener: Callable[[Line], None]) -> None:
+    def __init__(
+        self, case: Case, seed: int, listener: Callable[[Line], None], pace: Pace | None
+    ) -> None:
         self._case = case
+        self._pace = pace
         robots = case.subject.create_robots(case.scenario.counts, case.scenario.alone)
         # Actors are not reusable: a run changes their data.
         self._cast = actors(case.subject, robots, case.scenario, Diagnostics())
@@ -317,8 +301,12 @@ class _CaseRun:
         clock = self._world.clock
         end = clock.now + length
         while (due := clock.next) is not None and due <= end:
+            if self._pace is not None:
+                self._pace.wait(due)
             self._world.step()
             yield
+        if self._pace is not None:
+            self._pace.wait(end)
         clock.advance(end - clock.now)
 
     # ---- failures

@@ -11,7 +11,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.testing.case import Case
-from swarmdsl.execution.testing.run_case import Failure, run_case
+from swarmdsl.execution.testing.run_case import run_case
+from swarmdsl.execution.testing.run_result import Failure, RunResult
 
 _SHOWN = 8
 # Tolerance for rounding: a share of 0.9 means 9 of 10.
@@ -84,13 +85,18 @@ class Verdict:
 
 def judge(case: Case, seeds: Sequence[int], listener: Callable[[int, Line], None]) -> Verdict:
     """Run a test with each seed."""
+    return judge_runs(case, seeds, lambda seed: run_case(case, seed, partial(listener, seed)))
+
+
+def judge_runs(case: Case, seeds: Sequence[int], play: Callable[[int], RunResult]) -> Verdict:
+    """Return the verdict on a test from the results of its runs."""
     began = time.perf_counter()
     failures: dict[int, Failure] = {}
     faults: dict[tuple[str, str], None] = {}
     remarks: list[Mapping[str, str]] = []
     skipped = 0
     for seed in seeds:
-        played = run_case(case, seed, partial(listener, seed))
+        played = play(seed)
         faults.update(dict.fromkeys(played.faults))
         remarks.append(played.remarks)
         skipped = max(skipped, played.skipped)

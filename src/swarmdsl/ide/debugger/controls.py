@@ -19,7 +19,7 @@ from swarmdsl.execution.simulate.run import Pace
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.ide.debugger.breakpoints import Breakpoint, Breakpoints
+from swarmdsl.ide.debugger.breakpoints import Breakpoints
 from swarmdsl.ide.debugger.expressions import Expressions, Result
 from swarmdsl.ide.debugger.points import Element, Kind, Microsteps, Point, Way
 from swarmdsl.ide.debugger.values import text_of
@@ -62,6 +62,9 @@ class Client(Protocol):
 
     def moved(self, line: Line) -> None:
         """Follow a step that the user sees."""
+
+    def judged(self, result: Mapping[str, Any]) -> None:
+        """Follow the result of a test."""
 
 
 @dataclass(frozen=True)
@@ -210,6 +213,19 @@ class Controls:
         self._faults.append(why)
         self.arrive("failed", self.point.member)
 
+    def judged(self, result: Mapping[str, Any]) -> None:
+        """Show the result of a test."""
+        self.has_failed = result["outcome"] != "passed"
+        self._client.judged(result)
+
+    def tell(self, text: str) -> None:
+        """Show a line to the user."""
+        self._client.tell(text, "console")
+
+    def poll(self) -> None:
+        """Let the user act while nothing is on the stage."""
+        self._client.poll()
+
     # ---- points
 
     def arrive(
@@ -300,11 +316,8 @@ class Controls:
                 continue
             stops |= not each.message
             if each.message and not self.is_replaying:
-                self._tell(each, member)
+                self.tell(each.told(member, self.evaluate, text_of))
         return stops
-
-    def _tell(self, breakpoint_: Breakpoint, member: int) -> None:
-        self._client.tell(breakpoint_.told(member, self.evaluate, text_of), "console")
 
 
 class _Waiting(Pace):

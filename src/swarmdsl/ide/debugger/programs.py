@@ -1,4 +1,4 @@
-"""Programs of a debug session: the run of a model, or of one behaviour test."""
+"""Programs of a debug session, and the run of a model as one."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.engine import LoopError, Machine
 from swarmdsl.execution.monitor import FALSE
-from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import duration
 from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
 from swarmdsl.execution.simulate.properties import plan, watch, watchable
@@ -20,12 +19,18 @@ from swarmdsl.execution.simulate.space import ModelError
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.execution.testing.case import Case, InvalidTest
-from swarmdsl.execution.testing.models import Models
-from swarmdsl.execution.testing.reading import read_tests
-from swarmdsl.execution.testing.run_case import Failure, run_case
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, as_path, optional, texts
-from swarmdsl.project.read_source import read_source
+
+MODEL_KEYS = (
+    "program",
+    "swarm",
+    "machine",
+    "scenario",
+    "events",
+    "world",
+    "until",
+)
+"""Launch arguments that are about a model, and not about a test."""
 
 
 class Stage(Protocol):
@@ -47,6 +52,15 @@ class Stage(Protocol):
 
     def fail(self, why: str) -> None:
         """Follow the failure of a run."""
+
+    def judged(self, result: Mapping[str, Any]) -> None:
+        """Follow the result of a test."""
+
+    def tell(self, text: str) -> None:
+        """Show a line to the user."""
+
+    def poll(self) -> None:
+        """Let the user act while nothing is on the stage."""
 
 
 class Program(Protocol):
@@ -124,63 +138,11 @@ class ModelProgram:
         return "the time is over" if ending == "stopped" else "nothing is left to happen"
 
 
-class TestProgram:
-    """Run of one test with one seed."""
-
-    __test__ = False  # for pytest, which would collect the class
-
-    def __init__(self, case: Case, seed: int) -> None:
-        self.subject = case.subject
-        robots = case.subject.create_robots(case.scenario.counts, case.scenario.alone)
-        self.machines = _machines(actors(case.subject, robots, case.scenario, Diagnostics()))
-        self._case = case
-        self._seed = seed
-
-    def play(self, stage: Stage) -> str:
-        """Run once; return why it is over."""
-        failure = run_case(self._case, self._seed, stage.see, _Opened(stage)).failure
-        if failure is None:
-            return f"the test `{self._case.name}` passes"
-        stage.fail(_described(failure))
-        return f"the test `{self._case.name}` fails"
-
-
-class _Opened:
-    """Recorder of a test that keeps nothing: it tells the stage who runs."""
-
-    def __init__(self, stage: Stage) -> None:
-        self._stage = stage
-
-    def begin(
-        self, subject: Subject, cast: Sequence[Actor], scenario: Path | None, world: World
-    ) -> None:
-        """Note who runs."""
-        self._stage.begin(cast, world)
-
-    def write(self, text: str, /) -> None:
-        """Leave out a line."""
-
-    def end(self, time: int) -> None:
-        """Leave out the end."""
-
-
-def _described(failure: Failure) -> str:
-    report = Diagnostics()
-    fields: dict[str, Any] = {**failure.fields}
-    report.report(failure.code, failure.place, label=failure.label, **fields)
-    (found,) = report
-    place = failure.place.source.name
-    return f"{place}:{failure.place.line}: {found.message}: {failure.label}"
-
-
-def load(arguments: Arguments, folder: Path, report: Diagnostics) -> Program | None:
-    """Load the program of a launch; None if the model has errors, which are reported.
+def load_model(arguments: Arguments, folder: Path, report: Diagnostics) -> ModelProgram | None:
+    """Load the model of a launch; None if the model has errors, which are reported.
 
     Raises RequestError for wrong arguments.
     """
-    test = as_path(optional(arguments, "test", str) or "")
-    if test:
-        return _test(folder / test, arguments, report)
     names = texts(arguments, "program")
     if not names:
         raise RequestError("`program` is missing: the model to run, a file or a folder")
@@ -212,13 +174,14 @@ def load(arguments: Arguments, folder: Path, report: Diagnostics) -> Program | N
     scene = prepared.scenario
     return ModelProgram(
         prepared,
-        _machines(cast),
+        distinct_machines(cast),
         seed if seed is not None else scene.seed,
         until if until is not None else scene.until,
     )
 
 
-def _machines(cast: Iterable[Actor]) -> list[Machine]:
+def distinct_machines(cast: Iterable[Actor]) -> list[Machine]:
+    """Return the machines of a cast, each once."""
     return list({id(actor.machine): actor.machine for actor in cast}.values())
 
 
@@ -228,24 +191,3 @@ def _until(arguments: Arguments) -> int | None:
     if text and length is None:
         raise RequestError("`until` must be a duration like `90s`, `500ms` or `10min`")
     return length
-
-
-def _test(path: Path, arguments: Arguments, report: Diagnostics) -> Program | None:
-    source = read_source(path, None, report, most=MOST_DATA)
-    tests = read_tests(source, Models(), report) if source is not None else None
-    if tests is None:
-        return None
-    cases: Mapping[str, Case | InvalidTest] = {each.name: each for each in tests.cases}
-    name = optional(arguments, "testName", str) or next(iter(cases))
-    case = cases.get(name)
-    if case is None:
-        raise RequestError(f"there is no test `{name}`, but {', '.join(map(_quoted, cases))}")
-    if isinstance(case, InvalidTest):
-        report.include(case.problems)
-        return None
-    seed = optional(arguments, "seed", int)
-    return TestProgram(case, seed if seed is not None else case.seeds[0])
-
-
-def _quoted(name: str) -> str:
-    return f"`{name}`"

@@ -13,10 +13,11 @@ from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
 from swarmdsl.execution.simulate.durations import SECOND
 from swarmdsl.execution.simulate.trace import Line, as_text
 from swarmdsl.ide.debugger import answers, courses
+from swarmdsl.ide.debugger.behaviour_test import load_test
 from swarmdsl.ide.debugger.breakpoints import Breakpoints, Places
 from swarmdsl.ide.debugger.controls import GO_ON, Controls, EndedError, RunAgainError
 from swarmdsl.ide.debugger.expressions import Expressions
@@ -29,7 +30,7 @@ from swarmdsl.ide.debugger.messages import (
     optional,
 )
 from swarmdsl.ide.debugger.points import Way
-from swarmdsl.ide.debugger.programs import Program, load
+from swarmdsl.ide.debugger.programs import Program, load_model
 from swarmdsl.ide.debugger.showing import headline, output_of, picture
 
 _INTERVAL = 0.1
@@ -137,11 +138,16 @@ class Session:
         speed = arguments.get("speed")
         if speed is not None and not (isinstance(speed, (int, float)) and 0 < speed <= 1000):
             raise RequestError("`speed` must be a number above 0, at most 1000")
-        program = load(arguments, folder, report)
+        program: Program | None
+        if arguments.get("test") in (None, ""):
+            program = load_model(arguments, folder, report)
+        else:
+            program = load_test(arguments, folder, report, self.judged)
         for found in report:
             self.event("output", output_of(found, self.first_line, self.first_column))
         if program is None:
-            raise RequestError(headline(next(iter(report))))
+            errors = (each for each in report if each.severity is Severity.ERROR)
+            raise RequestError(headline(next(errors)))
         self.program = program
         subject = program.subject
         expressions = Expressions(subject)
@@ -276,6 +282,10 @@ class Session:
     def moved(self, line: Line) -> None:
         """Follow a step that the user sees."""
         self.tell(as_text(line))
+
+    def judged(self, result: Mapping[str, Any]) -> None:
+        """Send the result of a test."""
+        self.event("swarmTested", result)
 
     @property
     def reason(self) -> str:
