@@ -55,16 +55,16 @@ START = {"event": "Start", "after": 1000}
 FOUND = {"event": "Found", "data": {"id": "a", "level": 1}, "member": "robot[0]", "after": 100}
 
 
-Judge = Callable[[str], str]
+Judge = Callable[..., str]
 
 
 @pytest.fixture
 def judge(capsys: pytest.CaptureFixture[str]) -> Judge:
     """Return the verdict on a trace of the last model."""
 
-    def judge(text: str) -> str:
+    def judge(text: str, *options: str) -> str:
         Path("run.jsonl").write_text(text, encoding="utf-8")
-        code = cli_run(["simulate", "model.swarm", "--replay", "run.jsonl"])
+        code = cli_run(["simulate", "model.swarm", "--replay", "run.jsonl", *options])
         return verdicts(Ran(code, "", capsys.readouterr().err))["P"][0]
 
     return judge
@@ -120,6 +120,25 @@ def test_a_robot_that_has_ended_may_be_lost_and_start_anew(
     # No machine of it was running: its loss has no line.
     assert "fault.lost" not in ran.out
     assert (verdicts(ran)["P"][0], judge(ran.out)) == ("false", "false")
+
+
+@pytest.mark.parametrize(("until", "verdict"), [("24 s", "open"), ("60 s", "false")])
+def test_a_trace_that_is_cut_while_a_robot_that_has_ended_is_lost(
+    until: str, verdict: str, simulate: Simulate, judge: Judge
+) -> None:
+    model = f"{ENDING}\nproperty P of Crew : eventually count(robot in Over) > 2\n"
+    lost = '[[faults]]\nat = "20 s"\nlost = "robot[1]"\nlasts = "5 s"\n'
+    # The other robot ends at 21 s: all have ended then, and one of them is to start again.
+    events = [
+        {**START, "member": "robot[1]"},
+        {**START, "member": "robot[0]", "after": 11_000},
+        {**START, "member": "robot[1]", "after": 26_000},
+    ]
+    ran = simulate(model, "--until", until, events=events, scenario=lost)
+    replayed = judge(ran.out, "--scenario", "scenario.toml")
+
+    assert "fault.lost" not in ran.out
+    assert (verdicts(ran)["P"][0], replayed) == (verdict, verdict)
 
 
 def both(path: Path, seed: int, said: str) -> list[list[PropertyResult]]:

@@ -30,7 +30,7 @@ from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.machine_data import first_data
 from swarmdsl.execution.simulate.members import Roster, counting_neighbors, following
 from swarmdsl.execution.simulate.robot_data import convert, with_fields
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.scenario import Fault, Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, Trace
 from swarmdsl.execution.simulate.trace_line import NAMES, is_beside_steps, numbers
@@ -49,7 +49,7 @@ class Replayed:
 
     `left_out` are the lines that differ, follow a difference, or are of no member. The last `loop`
     lines repeat for ever; with 0, nothing happens after them. `over` is True if all machines have
-    ended.
+    ended, and no robot comes back.
     """
 
     lines: int
@@ -77,11 +77,13 @@ def replay(
     cast: Sequence[Actor],
     report: Diagnostics,
     seen: Seen | None = None,
+    faults: Sequence[Fault] = (),
 ) -> Replayed:
     """Replay a trace; report the first difference of each member.
 
     Times are since the first start. Listener `seen` gets the lines as in the model, those of one
-    member after the other.
+    member after the other. A robot that has ended may be lost by one of the `faults` without a
+    line, and come back.
     """
     records = list(read_records(source, report))
     end = max((record.time for record in records), default=0)
@@ -112,7 +114,8 @@ def replay(
         replayed = _Replay(actor, subject, report, seen, roster)
         followed += replayed.replay(records)
         ended += replayed.has_ended
-    over = ended == len(cast)
+    lost = any(fault.may_keep(each.robot, end) for fault in faults for each in cast)
+    over = ended == len(cast) and not lost
     return Replayed(followed, len(by_member), end, given - followed, loop, over)
 
 

@@ -137,6 +137,13 @@ class Fault:
         """Return True if robots are lost."""
         return self.function is None and not self.apart
 
+    def may_keep(self, robot: Robot, time: int) -> bool:
+        """Return True if a robot may be lost at a time, and comes back after it."""
+        if not self.is_loss or self.lasts is None or not is_selected(robot, self.of):
+            return False
+        earliest, latest = self.at.bounds
+        return earliest <= time <= latest + self.lasts
+
 
 @dataclass(frozen=True)
 class Scenario:

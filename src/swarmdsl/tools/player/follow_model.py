@@ -68,7 +68,7 @@ def follow(
         # A replay changes the data of its machines.
         told = Diagnostics()
         cast = _cast(robots, subject, scenario, told)
-        replayed = replay(source, subject, cast, told, see)
+        replayed = replay(source, subject, cast, told, see, scenario.faults)
         report.include(each for each in told if each.name != _INVALID)
         if len(sources) == 1:
             judged = judge.lines(replayed)
