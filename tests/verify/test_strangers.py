@@ -80,6 +80,10 @@ swarm Field {
         ("sends Seen [event.x > 0] only after starts look", True),
         ("in Land only after Go", False),
         ("after in Land until Go, in Land at all times", True),
+        # What follows in the same step does so in any time, and before all else.
+        ("sends Seen leads to starts look within 1 s", True),
+        ("hears Go leads to in Search", True),
+        ("in Wait leads to in Search within 1 s", False),
     ],
 )
 def test_a_robot_is_proved_whatever_those_do_that_have_too_many_states(

@@ -137,7 +137,12 @@ class _Play:
             before = len(report)
             recording = Recording(self._watched, self._fitness)
             found = replay(
-                source, self._subject, self._cast, report, recording.see, self._world.scenario.faults
+                source,
+                self._subject,
+                self._cast,
+                report,
+                recording.see,
+                self._world.scenario.faults,
             )
             results, fitness = recording.results(found.end, found.repeated)
             if not found.members and len(report) == before:

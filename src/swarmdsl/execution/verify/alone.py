@@ -11,13 +11,13 @@ from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.sentence import table_of
 from swarmdsl.execution.verify.terms import Terms, arriving, facts_of
 
-_SAFE = ("never", "always", "only", "times")
-"""Patterns that a finite run violates."""
+_COVERED = ("never", "always", "only", "times", "leads")
+"""Patterns that a finite run violates, and what may be answered at once."""
 
 
 def is_alone(property_: ir.Property) -> bool:
     """Return True if a property is about one robot, and about what arrives from outside."""
-    if property_.kind not in _SAFE:
+    if property_.kind not in _COVERED:
         return False
     return all(isinstance(f, ir.Fact) and f.robots is None for f in facts_of(property_))
 
@@ -42,6 +42,8 @@ def without_others(
 def hearing_all(property_: ir.Property, automaton: Local) -> int | None:
     """Prove a property of one robot that hears all messages at any time.
 
+    What must happen must do so in the same step: then no time passes before it, and nothing else
+    need happen.
     Return the number of states that were looked at, or None if it may be violated so.
     """
     group = Group(automaton, ("",))

@@ -119,23 +119,21 @@ def _without_clocks(
     With `lonely`, only runs are looked at in which nobody is near another robot, or takes one for
     lost that it could hear.
     """
-    if is_about_ends(property_):
-        return _in_the_end(property_, model, me, budget, lonely=lonely)
     every = model.groups([property_], me=me)
     mine = place_of(me, every)
     seen = set(about(property_, model, every))
     if mine is not None:
         seen.add(mine)
     groups = cone(model, every, seen) or every
-    is_sure = model.complete and not model.doubts(groups)
-    if mine is not None and is_sure and is_alone(property_):
-        states = hearing_all(property_, every[mine].automaton)
+    if mine is not None and is_alone(property_):
+        if model.complete and not model.doubts(groups):
+            states = hearing_all(property_, every[mine].automaton)
+        else:
+            states = without_others(property_, model, me, budget)
         if states is not None:
             return Verdict(property_, "holds", states, robot=me, alone=True)
-    if mine is not None and not is_sure and is_alone(property_):
-        states = without_others(property_, model, me, budget)
-        if states is not None:
-            return Verdict(property_, "holds", states, robot=me, alone=True)
+    if is_about_ends(property_):
+        return _in_the_end(property_, model, me, budget, lonely=lonely)
     if property_.kind == "possible":
         place = groups.index(every[mine]) if mine is not None else None
         return prove_possible(property_, model, model.network(groups, spared=me), place, me, budget)
