@@ -10,7 +10,8 @@ from swarmdsl.codegen import Diagnostics, OutputFile, Templates
 from swarmdsl.ir import System
 
 from ..composed.options import Options
-from ..composed.view import SwarmView, views
+from ..composed.view import SwarmView
+from ..composed.viewer import views
 from .document import Document
 
 

@@ -9,18 +9,10 @@ from pathlib import Path
 from swarmdsl.codegen import Diagnostics, OutputFile, Templates
 from swarmdsl.ir import System
 
+from ..composed.conditions import Operators, claims
 from ..composed.options import Options
-from ..composed.view import (
-    Change,
-    Operators,
-    Sent,
-    SwarmView,
-    TeamView,
-    TurnView,
-    WatchView,
-    condition,
-    views,
-)
+from ..composed.view import Change, Sent, SwarmView, TeamView, TurnView, WatchView
+from ..composed.viewer import views
 
 _OPERATORS = Operators(both="&", either="|", negated="!", equal="=", true="true")
 
@@ -29,15 +21,11 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
     """Return the files."""
     made = []
     for view in views(system, options, "murphi", report):
-        claims = [
-            (text, condition(reading, _OPERATORS, "count_{}".format))
-            for text, reading in (view.watch.claims if view.watch is not None else ())
-        ]
         text = _templates().fill(
             "swarm.m.j2",
             swarm=view,
             watch=view.watch,
-            claims=claims,
+            claims=claims(view.watch, _OPERATORS),
             statements=_statements,
             receives=_receives,
         )

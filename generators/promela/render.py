@@ -9,8 +9,10 @@ from pathlib import Path
 from swarmdsl.codegen import Diagnostics, OutputFile, Templates
 from swarmdsl.ir import System
 
+from ..composed.conditions import Operators, claims
 from ..composed.options import Options
-from ..composed.view import Change, Operators, TurnView, WatchView, condition, views
+from ..composed.view import Change, TurnView, WatchView
+from ..composed.viewer import views
 
 _BYTE = 255
 _OPERATORS = Operators(both="&&", either="||", negated="!", equal="==", true="true")
@@ -20,15 +22,11 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
     """Return the files."""
     made = []
     for view in views(system, options, "promela", report):
-        claims = [
-            (text, condition(reading, _OPERATORS, "count_{}".format))
-            for text, reading in (view.watch.claims if view.watch is not None else ())
-        ]
         text = _templates().fill(
             "swarm.pml.j2",
             swarm=view,
             watch=view.watch,
-            claims=claims,
+            claims=claims(view.watch, _OPERATORS),
             statements=_statements,
             local="short" if max(len(team.states) for team in view.teams) > _BYTE else "byte",
             at_first=", ".join(f"at_{team.start}" for team in view.teams for _ in range(team.size)),

@@ -17,13 +17,7 @@ from swarmdsl.ir import (
     Trigger,
 )
 
-from ..outcome_routes import (
-    OutcomeRoute,
-    Target,
-    TransitionDomains,
-    outcome_word,
-    timer_names,
-)
+from ..outcome_routes import OutcomeRoute, Target, TransitionDomains, outcome_word, timer_names
 from .expressions import ENVELOPE, python_expression
 from .module import PREEMPTED, Module
 from .outcomes import outcome_names

@@ -2,19 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-
-from swarmdsl.codegen import Diagnostics, Picture, Span, chosen_machines, dataclass, pictures
-from swarmdsl.codegen.python import (
-    Call,
-    Source,
-    comments,
-    docstring,
-    file_name,
-    layout,
-    one_line,
-    source_place,
-)
+from swarmdsl.codegen import Diagnostics, Picture, chosen_machines, dataclass, pictures
 from swarmdsl.codegen.ros import (
     InterfacePackage,
     check_described,
@@ -24,82 +12,19 @@ from swarmdsl.codegen.ros import (
     manifest,
     third_party_packages,
 )
-from swarmdsl.codegen.shared import (
-    check_watchdogs,
-    doc_with_unit,
-    envelopes_of,
-    missing_values,
-    uses_self,
-)
-from swarmdsl.ir import (
-    DURATION,
-    Array,
-    Event,
-    Literal,
-    Message,
-    Named,
-    Param,
-    Primitive,
-    StateMachine,
-    System,
-)
+from swarmdsl.codegen.shared import check_watchdogs, envelopes_of, missing_values
+from swarmdsl.ir import System
 
 from ..gazebo.render import report_left_out
 from . import names, package
-from .expressions import USERDATA, default_value, python_expression
-from .imports import Imports, RosTypes, ros_types
+from .events import EventView, checked_events, event_views
+from .imports import Imports, ros_types
 from .launch import world_file
-from .module import TARGET, Container, Function, Module
+from .machine_view import MachineView, header, machine_view
+from .module import TARGET
 from .names import NAMES
 from .options import Options
-from .readme import Rows, uses
 from .robots import Components, Fleet, Robot, fleets, robots
-from .statements import STEP
-from .structure import build
-
-TIME = Primitive("time")
-# Python types of ROS parameters by type in the model; all others are `int`.
-_KINDS = {
-    "bool": "bool",
-    **dict.fromkeys(("float32", "float64", "duration", "time"), "float"),
-    **dict.fromkeys(("string", "wstring"), "str"),
-}
-
-
-@dataclass(frozen=True)
-class Value:
-    """The statement that initializes a key of userdata."""
-
-    statement: str
-    comments: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class MachineView:
-    """The module of a machine and its node."""
-
-    name: str
-    module: str
-    doc: str
-    place: str
-    uses: tuple[tuple[str, Rows], ...]
-    header: str
-    imports: tuple[str, ...]
-    containers: tuple[Container, ...]
-    functions: tuple[Function, ...]
-    values: tuple[Value, ...]
-    sent: tuple[str, ...]
-    start: str
-    required_callbacks: str
-    origin: Span | None
-
-
-@dataclass(frozen=True)
-class EventView:
-    """An event as a constant of the module `events`."""
-
-    statement: str
-    comments: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -177,19 +102,19 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     )
     NAMES.check_interfaces(system, interfaces, name, report)
     used = package.used_types(system, machines)
-    events = _events(system, machines, report)
+    events = checked_events(system, machines, report)
     constants = names.event_constants(events, (type_.name for type_, _ in used), report)
     if report.has_errors:
         return None
     types = ros_types(name, constants.values(), used)
     callbacks: dict[str, str] = {}
     views = [
-        _machine_view(system, machine, modules[machine.name], types, constants, callbacks, report)
+        machine_view(system, machine, modules[machine.name], types, constants, callbacks, report)
         for machine in machines
     ]
     doc = system.doc or f"Behaviour of {system.name}."
     event_imports = Imports(types)
-    event_views = _event_views(events, around, constants, event_imports)
+    shown_events = event_views(events, around, constants, event_imports)
     launched = {machine.name for machine in machines}
     made = robots(system, launched, options.components, report)
     bringup = {each.components.package for each in made if each.components is not None}
@@ -212,9 +137,9 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     return PackageView(
         name=name,
         doc=doc,
-        header=_header(system, (machine.origin for machine in machines)),
+        header=header(system, (machine.origin for machine in machines)),
         machines=tuple(views),
-        events=event_views,
+        events=shown_events,
         event_imports=tuple(event_imports.lines()),
         callbacks=tuple(callbacks.items()),
         interfaces=interfaces,
@@ -237,162 +162,3 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         fleets=started,
         simulation=options.simulation,
     )
-
-
-def _header(system: System, origins: Iterable[Span | None]) -> str:
-    """Return the header of a file that each build overwrites."""
-    files = dict.fromkeys(file_name(origin) for origin in origins if origin is not None)
-    return f"Generated by swarmc from {', '.join(files) or system.name}; do not edit."
-
-
-def _machine_view(
-    system: System,
-    machine: StateMachine,
-    name: str,
-    types: RosTypes,
-    events: dict[str, str],
-    callbacks: dict[str, str],
-    report: Diagnostics,
-) -> MachineView:
-    names.check_machine(machine, report)
-    imports = Imports(types)
-    imports.module("smach")
-    module = Module(system, machine, imports, report, events)
-    build(module)
-    for callback, parameters, origin in module.callbacks:
-        NAMES.check_callback(callback, parameters, callbacks, origin, report)
-    values = _values(module)
-    required = dict.fromkeys(f"{name}({parameters})" for name, parameters, _ in module.callbacks)
-    require = module.own("states", "require") if required else ""
-    call = Call(require, (Source("callbacks"), [*required]))
-    return MachineView(
-        name=machine.name,
-        module=name,
-        doc=docstring(machine.doc or f"State machine {machine.name}."),
-        place=source_place(machine.origin),
-        uses=uses(system, machine),
-        header=_header(system, [machine.origin]),
-        imports=tuple(imports.lines()),
-        containers=tuple(module.containers),
-        functions=tuple(module.functions),
-        values=values,
-        sent=tuple(module.event(event) for event in module.sent),
-        start=layout(_start(name, machine), 1, STEP),
-        required_callbacks=layout(call, 1, STEP) if required else "",
-        origin=machine.origin,
-    )
-
-
-def _start(module: str, machine: StateMachine) -> Call:
-    """Return the call that runs the machine of a module."""
-    required = tuple(f"~{param.name}" for param in machine.params if param.default is None)
-    arguments = (module, Source(module), *([required] if required else []))
-    return Call("node.run", arguments)
-
-
-def _values(module: Module) -> tuple[Value, ...]:
-    """Return the initial values of params, from ROS, and of variables."""
-    found = []
-    if uses_self(module.machine):
-        text = f"{STEP}{USERDATA}.self = {module.own('identity', 'identity')}()"
-        found.append(Value(text, ("The robot: its id, role, index and count.",)))
-    for param in module.machine.params:
-        value = _param_value(param, module)
-        statement = layout(value, 1, f"{STEP}{USERDATA}.{param.name} = ")
-        doc = doc_with_unit(param.doc, param.type)
-        found.append(Value(statement, comments(param.origin, doc)))
-    for variable in module.machine.variables:
-        text = (
-            python_expression(variable.initial, module.imports)
-            if variable.initial is not None
-            else default_value(variable.type, module.imports)
-        )
-        statement = f"{STEP}{USERDATA}.{variable.name} = {text}"
-        found.append(
-            Value(statement, comments(variable.origin, doc_with_unit(variable.doc, variable.type)))
-        )
-    return tuple(found)
-
-
-def _param_value(param: Param, module: Module) -> object:
-    """Return the expression of a param's value at the start of a node."""
-    is_array = isinstance(param.type, Array)
-    element = param.type.element if isinstance(param.type, Array) else param.type
-    default = param.default
-    kind = Source(_KINDS.get(element.name, "int") if isinstance(element, Primitive) else "dict")
-    arguments: tuple[object, ...] = (f"~{param.name}", [kind] if is_array else kind)
-    if default is not None and param.type == DURATION:
-        seconds = f"({python_expression(default, module.imports)}).to_sec()"
-        literal = default.milliseconds / 1000 if isinstance(default, Literal) else None
-        arguments += (Source(seconds) if literal is None else literal,)
-    elif default is not None:
-        arguments += (Source(python_expression(default, module.imports)),)
-    given = Call(module.own("states", "param"), arguments)
-    if isinstance(element, Named):
-        made = module.own("states", "message")
-        first = [Source(module.imports.interface(element, "msg"))]
-    elif element in (DURATION, TIME):
-        module.imports.module("rospy")
-        made, first = f"rospy.{str(element).capitalize()}", []
-    else:
-        return given
-    if not is_array:
-        return Call(made, (*first, given))
-    each = one_line(Call(made, (*first, Source("each"))))
-    return Source(f"[{each} for each in {one_line(given)}]")
-
-
-def _events(system: System, machines: list[StateMachine], report: Diagnostics) -> list[Event]:
-    """Return the events that the machines use."""
-    events = [system.event(name) for name in package.used_events(machines)]
-    for event in events:
-        if not isinstance(event.type, Named):
-            report.report(
-                "unsupported-construct",
-                event.origin,
-                target=TARGET,
-                construct=f"an event with data of type `{event.type}`, which is not a message",
-            )
-        _check_delivery(event, report)
-    return events
-
-
-def _check_delivery(event: Event, report: Diagnostics) -> None:
-    """Report the settings that topics of ROS 1 do not have."""
-    for setting in ("lifespan", "deadline"):
-        if event.delivery is not None and getattr(event.delivery, setting) is not None:
-            report.report(
-                "unsupported-construct",
-                event.delivery.origin,
-                target=TARGET,
-                construct=f"the {setting} of event `{event.name}`",
-                help="leave it out, or build for ROS 2: `--option smach.ros=2`",
-            )
-
-
-def _event_views(
-    events: Iterable[Event],
-    around: Mapping[str, Message],
-    constants: dict[str, str],
-    imports: Imports,
-) -> tuple[EventView, ...]:
-    found = []
-    for event in events:
-        assert isinstance(event.type, Named)
-        message = Source(imports.interface(event.type, "msg"))
-        keywords: list[tuple[str, object]] = []
-        if event.name in around:
-            interface = imports.interface(around[event.name].type, "msg")
-            keywords.append(("envelope", Source(interface)))
-        if event.delivery is not None and event.delivery.latest:
-            keywords.append(("latch", True))
-        if event.delivery is not None and event.delivery.keep is not None:
-            keywords.append(("queue_size", event.delivery.keep))
-        call = Call(
-            imports.name(f"{imports.types.package}.topics", "Event"),
-            (event.name, message, event.incoming_topic, event.topic),
-            tuple(keywords),
-        )
-        statement = layout(call, 0, f"{constants[event.name]} = ")
-        found.append(EventView(statement, comments(event.origin, event.doc)))
-    return tuple(found)
