@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TypeVar
 
 from swarmdsl.syntax.ast import (
@@ -16,7 +17,9 @@ from swarmdsl.syntax.ast import (
     Param,
     Part,
     Port,
+    Role,
     Sight,
+    Variable,
 )
 
 Item = (
@@ -32,6 +35,7 @@ Item = (
     | Sight
 )
 Kind = TypeVar("Kind", bound=Item)
+Named = TypeVar("Named", Param, Variable, Part, Port, Operation, Role)
 # Own items of these kinds replace inherited ones.
 _REPLACED = (Param, Contract, BehaviorUse, CommunicationSettings, Equipment, Sight)
 
@@ -77,3 +81,12 @@ def _place(item: Item) -> str:
         case Sight():
             return item.target.name
     return ""
+
+
+def by_name(items: Iterable[object], kind: type[Named]) -> dict[str, Named]:
+    """Return the items of a kind by name. The first of a repeated name counts."""
+    named: dict[str, Named] = {}
+    for item in items:
+        if isinstance(item, kind):
+            named.setdefault(str(item.name), item)
+    return named

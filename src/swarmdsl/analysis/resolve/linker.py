@@ -6,23 +6,24 @@ reported and stays None; later phases ignore it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache, partial
-from typing import Any, TypeVar
+from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
+from typing import Any
 
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
-from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.inheritance import all_items, by_name
 from swarmdsl.analysis.resolve.machines import link_expression_of_machine, link_machine
-from swarmdsl.analysis.resolve.properties import link_fitness, link_property, link_safe_states
+from swarmdsl.analysis.resolve.members import link_member
+from swarmdsl.analysis.resolve.properties import link_fitness, link_property
 from swarmdsl.analysis.resolve.report_unresolved import (
     report_activity,
     report_missing_inside,
-    report_part_as_port,
     report_reference,
 )
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes, Unresolved
 from swarmdsl.analysis.resolve.space import link_environment, link_model, link_sights, link_starts
+from swarmdsl.analysis.resolve.swarms import link_optimization, link_swarm
 from swarmdsl.analysis.resolve.types import TypeLinker
 from swarmdsl.analysis.resolve.values import ValueLinker, Values
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -31,10 +32,7 @@ from swarmdsl.syntax.ast import (
     Activity,
     BehaviorUse,
     Component,
-    Connector,
     Container,
-    Contract,
-    CountRange,
     EnumType,
     Environment,
     Event,
@@ -46,14 +44,9 @@ from swarmdsl.syntax.ast import (
     Operation,
     Optimization,
     Param,
-    ParamRange,
     Part,
-    Port,
-    PortRef,
     Property,
     Ref,
-    RobotValues,
-    Role,
     State,
     StateMachine,
     Swarm,
@@ -71,8 +64,6 @@ _TOP_LEVEL: dict[str, type[Any]] = {
         *(StateMachine, Component, Member, Environment, Event, Function, Fitness, Swarm, Property),
     )
 }
-
-K = TypeVar("K", Param, Variable, Part, Port, Operation, Role)
 
 
 def link(project: Project, report: Diagnostics) -> None:
@@ -134,9 +125,9 @@ class Linker:
             if isinstance(node, TypeRef):
                 self._types.link(node, file, report)
         link_expression_of_machine(expression, around, scope, report)
-        values: Values = {**self._params.get(machine, {}), **_named(machine.items, Param)}
+        values: Values = {**self._params.get(machine, {}), **by_name(machine.items, Param)}
         for each in around:
-            values = {**values, **_named(each.items, Variable)}
+            values = {**values, **by_name(each.items, Variable)}
         ValueLinker(scope, self._enums, report).link_only([expression], machine, values)
 
     def link_inside(self, file: File, owner: TopLevel, report: Diagnostics) -> None:
@@ -151,19 +142,19 @@ class Linker:
                 _link_activities(owner, self._parts.get(owner, {}), scope, report)
                 values = {
                     **self._params.get(owner, {}),
-                    **_named(owner.items, Param),
-                    **_named(owner.items, Variable),
+                    **by_name(owner.items, Param),
+                    **by_name(owner.items, Variable),
                 }
             case Member():
-                _link_member(owner, scope, report)
-                values = _named(all_items(owner, Param), Param)
+                link_member(owner, scope, report)
+                values = by_name(all_items(owner, Param), Param)
             case Fitness():
                 link_fitness(owner, scope, values_of_file(), report)
                 return
             case Optimization():
-                _link_optimization(owner, scope, report)
+                link_optimization(owner, scope, report)
             case Swarm():
-                _link_swarm(owner, scope, report)
+                link_swarm(owner, scope, report)
                 link_starts(owner, scope, report)
             case Environment():
                 link_environment(owner, scope, report)
@@ -204,7 +195,7 @@ def _params_of_members(
     """Return, for each machine, the params that all its members have in common."""
     found: dict[StateMachine, dict[str, Param]] = {}
     for owner in runners:
-        params = _named(all_items(owner, Param), Param)
+        params = by_name(all_items(owner, Param), Param)
         for use in all_items(owner, BehaviorUse):
             if use.machine.target is not None:
                 common = found.setdefault(use.machine.target, params)
@@ -218,7 +209,7 @@ def _parts_of_members(
     """Return, for each machine, the parts by name that all its members have in common."""
     found: dict[StateMachine, dict[str, list[Part]]] = {}
     for owner in runners:
-        parts = _named(all_items(owner, Part), Part)
+        parts = by_name(all_items(owner, Part), Part)
         for machine in machines_of(owner):
             common = found.setdefault(machine, {name: [] for name in parts})
             found[machine] = {k: [*v, parts[k]] for k, v in common.items() if k in parts}
@@ -237,15 +228,6 @@ def machines_of(runner: Member | Component) -> list[StateMachine]:
         states = nodes_of(machine, State)
         work += [state.machine.target for state in states if state.machine is not None]
     return list(seen)
-
-
-def _named(items: Iterable[object], kind: type[K]) -> dict[str, K]:
-    """Return the items of a kind by name. The first of a repeated name counts."""
-    named: dict[str, K] = {}
-    for item in items:
-        if isinstance(item, kind):
-            named.setdefault(str(item.name), item)
-    return named
 
 
 def _link_activities(
@@ -282,105 +264,5 @@ def _link_activities(
 
 def _common_operations(components: list[Component]) -> dict[str, Operation]:
     """Return the operations that all components have, several ones through a common base."""
-    first, *others = (_named(all_items(each, Operation), Operation) for each in components)
+    first, *others = (by_name(all_items(each, Operation), Operation) for each in components)
     return {k: v for k, v in first.items() if all(other.get(k) is v for other in others)}
-
-
-# ---- swarms and their optimization
-
-
-def _link_swarm(swarm: Swarm, scope: FileScope, report: Diagnostics) -> None:
-    """Resolve the roles of robots that have values of their own."""
-    roles = _named(swarm.items, Role)
-    for item in swarm.items:
-        if isinstance(item, RobotValues):
-            _link_role(item.role, swarm, roles, scope, report)
-
-
-def _link_role(
-    ref: Ref[Role],
-    swarm: Swarm,
-    roles: Mapping[str, Role],
-    scope: FileScope,
-    report: Diagnostics,
-) -> None:
-    ref.target = roles.get(ref.name)
-    if ref.target is None:
-        kind = f"role in swarm `{swarm.name}`"
-        report_missing_inside(kind, ref.name, ref.span, roles, scope, report)
-
-
-def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostics) -> None:
-    """Resolve the roles of the swarm and the params of their members."""
-    swarm = owner.swarm.target
-    if swarm is None:
-        return
-    roles = _named(swarm.items, Role)
-    params_of = cache(_params)
-    for item in owner.items:
-        if not isinstance(item, (CountRange, ParamRange)):
-            continue
-        _link_role(item.role, swarm, roles, scope, report)
-        if item.role.target is None:
-            continue
-        member = item.role.target.member.target
-        if isinstance(item, ParamRange) and member is not None:
-            params = params_of(member)
-            item.param.target = params.get(item.param.name)
-            if item.param.target is None:
-                kind = f"param of member `{member.name}`"
-                report_missing_inside(kind, item.param.name, item.param.span, params, scope, report)
-
-
-# ---- members
-
-
-def _link_member(member: Member, scope: FileScope, report: Diagnostics) -> None:
-    """Resolve the two ends of each connector, and the states of contracts."""
-    parts = _named(all_items(member, Part), Part)
-    ports = cache(_ports)
-    for item in member.items:
-        if isinstance(item, Contract):
-            link_safe_states(item, member, scope, report)
-        if isinstance(item, Connector):
-            for end in (item.source, item.target):
-                _link_port(end, member, parts, ports, scope, report)
-
-
-def _link_port(
-    end: PortRef,
-    member: Member,
-    parts: Mapping[str, Part],
-    ports: Callable[[Component | Member], Mapping[str, Port]],
-    scope: FileScope,
-    report: Diagnostics,
-) -> None:
-    if end.part is None:
-        name, own = end.port.name, ports(member)
-        end.port.target = own.get(name)
-        kind = f"port of member `{member.name}`"
-        if end.port.target is None and name in parts:
-            report_part_as_port(end.port, kind, report)
-        elif end.port.target is None:
-            report_missing_inside(kind, name, end.port.span, own, scope, report)
-        return
-    end.part.target = parts.get(end.part.name)
-    if end.part.target is None:
-        report_missing_inside("part", end.part.name, end.part.span, parts, scope, report)
-        return
-    component = end.part.target.component.target
-    if component is None:
-        return
-    known = ports(component)
-    end.port.target = known.get(end.port.name)
-    if end.port.target is None:
-        kind = f"port of {kind_name(component)} `{component.name}`"
-        report_missing_inside(kind, end.port.name, end.port.span, known, scope, report)
-
-
-def _ports(owner: Component | Member) -> dict[str, Port]:
-    return _named(all_items(owner, Port), Port)
-
-
-def _params(member: Member) -> dict[str, Param]:
-    return _named(all_items(member, Param), Param)
