@@ -14,23 +14,17 @@ from typing import Any
 
 from swarmdsl.execution.engine import Event, ExecutionError, InstanceLike
 from swarmdsl.execution.scxml.grammar import Unreadable, parse, unquoted
-from swarmdsl.execution.scxml.session import EVENT_FIELDS, SYSTEM_VARIABLES, event_fields
-from swarmdsl.execution.scxml.values import (
+from swarmdsl.execution.scxml.operations import (
     APPLYING,
     FUNCTIONS,
     METHODS,
     OPERATIONS,
     SIGNS,
     apply,
-    code_units,
-    contains,
-    copied,
-    number,
     takes,
-    text,
-    truth,
-    whole,
 )
+from swarmdsl.execution.scxml.session import EVENT_FIELDS, SYSTEM_VARIABLES, event_fields
+from swarmdsl.execution.scxml.values import code_units, contains, copied, number, text, truth, whole
 
 Names = Mapping[str, Any]
 Value = Callable[[InstanceLike, Event, Names], Any]

@@ -11,7 +11,7 @@ from lark import Token, Tree
 from swarmdsl.execution.engine import Effect, Event, InstanceLike
 from swarmdsl.execution.scxml.ecmascript import Value, assignment, compiled
 from swarmdsl.execution.scxml.grammar import Unreadable, parse_script
-from swarmdsl.execution.scxml.values import OPERATIONS
+from swarmdsl.execution.scxml.operations import OPERATIONS
 
 
 @lru_cache(maxsize=1000)
