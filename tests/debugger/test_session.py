@@ -269,6 +269,16 @@ def test_pause_and_restart_in_real_time(client: Client) -> None:
     client.request("pause", threadId=1)
     assert client.stop()["reason"] == "pause"
     assert client.request("swarmPicture")["time"] < 1
+    # A step does not wait, nor does the run without a speed.
+    client.request("swarmSpeed", speed=0.001)
+    assert client.go("next")["text"] == "bulb[0], at 1 s"
+    client.request("swarmSpeed")
+    assert client.go("continue")["reason"] == "exception"
+    shown = client.request("swarmPicture")
+    assert (shown["reason"], shown["member"]) == ("property `NeverDark` is violated", "bulb[0]")
+    assert shown["members"] == ["bulb[0]", "bulb[1]"]
+    shown = client.request("swarmPicture", threadId=2)
+    assert (shown["member"], shown["thread"], shown["variables"]["blinks"]) == ("bulb[1]", 2, "1")
     client.request("restart")
     assert client.stop()["text"] == "bulb[0], at 0 ms"
     client.request("disconnect")

@@ -225,19 +225,29 @@ def test_page_controls_a_debug_session(visit: Any, expect: Any) -> None:
     expect(shown.picture).to_contain_text("Digger")
     expect(bar).to_be_hidden()
     event = {"event": "Go", "label": "Go", "to": ["digger[0]"]}
-    session = {"held": True, "time": 1.5, "member": "digger[0]", "events": [event]}
+    other = {"event": "Dig", "label": "Dig", "to": ["digger[0]"], "data": {"depth": 0}}
+    session = {"held": True, "time": 1.5, "member": "digger[0]", "events": [event, other]}
     shown.tell(debug={**session, "variables": {"holes": "2"}})
     expect(bar.locator(".where")).to_have_text("digger[0], at 1.500 s")
     expect(bar.locator(".values")).to_have_text("holes = 2")
-    expect(bar.get_by_role("button", name="Pause")).to_be_disabled()
+    expect(bar.get_by_role("button", name="Pause")).to_have_count(0)
+    expect(bar.get_by_role("button", name="Simulate")).to_have_count(0)  # the editor has that
     bar.get_by_role("button", name="Back").click()
     bar.get_by_role("button", name="Go").click()
-    posted = [{"debug": {"request": "stepBack"}}, {"debug": {"event": "Go"}}]
+    bar.get_by_role("button", name="Dig").click()
+    shown.press("Enter")
+    expect(bar.get_by_role("button", name="Dig")).to_be_focused()
+    dig = {"event": "Dig", "data": {"depth": 0}}
+    posted = [{"debug": each} for each in ({"request": "stepBack"}, {"event": "Go"}, dig)]
     assert shown.page.evaluate("posted") == posted
+    shown.tell(debug={**session, "members": ["digger[0]", "digger[1]"], "reason": "it is late"})
+    expect(bar.locator(".said")).to_have_text("it is late")
+    bar.get_by_label("Robot to look at").select_option("digger[1]")
+    assert shown.page.evaluate("posted")[-1] == {"debug": {"look": 2}}
     shown.tell(debug={"held": False, "time": 2})
     expect(bar.get_by_role("button", name="Step")).to_be_disabled()
     expect(bar.get_by_role("button", name="Pause")).to_be_enabled()
-    expect(bar.locator(".sends")).to_have_count(0)
+    expect(bar.locator(".sends")).to_be_hidden()
     shown.tell(debug=None)
     expect(bar).to_be_hidden()
 

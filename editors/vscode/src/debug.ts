@@ -28,6 +28,8 @@ interface Shown extends Steps {
   readonly active: Active;
   readonly member?: string;
   readonly thread?: number;
+  readonly members?: readonly string[];
+  readonly reason?: string;
   readonly events?: readonly Sendable[];
   readonly variables?: Record<string, string>;
 }
@@ -88,7 +90,11 @@ export function provideDebugger(
       }
       const run = body as Shown;
       shown.highlights.move(run);
-      preview.showDebug(controls(run), (command) => void act(session, run, command, log));
+      show(run);
+
+      function show(seen: Shown): void {
+        preview.showDebug(controls(seen), (command) => void act(session, seen, command, log, show));
+      }
     }),
     vscode.debug.onDidTerminateDebugSession((session) => {
       if (shown?.session === session) {
@@ -123,23 +129,22 @@ async function configurationOf(
 }
 
 /** Controls for the page of the preview. */
-function controls({ time, member, events, variables }: Shown): object {
-  return { time, held: events !== undefined, member, events, variables };
+function controls({ time, member, thread, members, reason, events, variables }: Shown): object {
+  return { time, held: events !== undefined, member, thread, members, reason, events, variables };
 }
 
 async function act(
   session: vscode.DebugSession,
-  { thread, events }: Shown,
-  { request, event }: DebugCommand,
+  { thread }: Shown,
+  { request, event, data, look }: DebugCommand,
   log: vscode.LogOutputChannel,
+  show: (seen: Shown) => void,
 ): Promise<void> {
   try {
     if (event !== undefined) {
-      const data = events?.find((each) => each.event === event)?.data;
-      const filled = data && (await ask(event, data));
-      if (!data || filled) {
-        await session.customRequest("swarmSend", { event, ...(filled && { data: filled }) });
-      }
+      await session.customRequest("swarmSend", { event, ...(data && { data }) });
+    } else if (look !== undefined) {
+      show(await session.customRequest("swarmPicture", { threadId: look }) as Shown);
     } else if (request === "terminate") {
       await vscode.debug.stopDebugging(session);
     } else if (request !== undefined) {
@@ -148,25 +153,6 @@ async function act(
   } catch (error) {
     log.warn(String(error));
     void vscode.window.showWarningMessage(error instanceof Error ? error.message : String(error));
-  }
-}
-
-/** Let the user fill in the data of an event; undefined if they think better of it. */
-async function ask(event: string, data: object): Promise<object | undefined> {
-  const text = await vscode.window.showInputBox({
-    title: `Data of ${event}`,
-    value: JSON.stringify(data),
-    validateInput: (given) => (parsed(given) ? undefined : "Not a JSON object."),
-  });
-  return text === undefined ? undefined : parsed(text);
-}
-
-function parsed(text: string): object | undefined {
-  try {
-    const value: unknown = JSON.parse(text);
-    return typeof value === "object" && value && !Array.isArray(value) ? value : undefined;
-  } catch {
-    return undefined;
   }
 }
 

@@ -18,10 +18,12 @@ interface PageMessage {
   readonly debug?: DebugCommand;
 }
 
-/** Wish of the user for a debug session: a request of the protocol, or an event to send. */
+/** Wish of the user for a debug session: a request of the protocol, an event to send, or a robot to look at. */
 export interface DebugCommand {
   readonly request?: string;
   readonly event?: string;
+  readonly data?: object;
+  readonly look?: number;
 }
 
 /** Element of a diagram, as named by the language server; the frame has an empty name. */

@@ -65,8 +65,8 @@ def preview(
 
     A FOLDER means all .swarm files below it. Without arguments: the sources of swarm.toml, or
     the current folder. The page follows each change of a file until Ctrl-C; while the model
-    has errors, it keeps the last diagrams. `--follow` also shows the states of robots, of a
-    simulation in real time or of others.
+    has errors, it keeps the last diagrams. It also simulates the model, step by step.
+    `--follow` shows the states of robots, of a simulation in real time or of others.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.base.forced_end import forced_end
@@ -77,23 +77,30 @@ def preview(
     from swarmdsl.driver.config.settings import Settings
     from swarmdsl.driver.pipeline import Result
     from swarmdsl.ide.preview.live_trace import follow
-    from swarmdsl.ide.preview.pictures import pictures
+    from swarmdsl.ide.preview.pictures import Pictures, pictures
     from swarmdsl.ide.preview.ros2 import PREFIX, UnavailableError, listening
     from swarmdsl.ide.preview.serving import Snapshot, serving
+    from swarmdsl.ide.preview.simulation import Simulation
 
     served_page.run_for_hours()
     snapshot = Snapshot()
+    simulation = Simulation(snapshot)
 
-    def settings(report: Diagnostics) -> Settings:
+    def read_settings(report: Diagnostics) -> Settings:
         # Absolute paths, so that places open in an editor.
         found = run_settings(paths, {}, report)
         whole = (Path(os.path.abspath(path)) for path in found.sources)  # noqa: PTH100 - keeps links
         return replace(found, sources=tuple(whole))
 
-    def show(result: Result, _settings: Settings) -> Concluded:
+    def show(result: Result, settings: Settings) -> Concluded:
         def say() -> str:
             said = briefly(result, "text", sys.stdout)
-            snapshot.tell(pictures(result))
+            made = pictures(result)
+            simulation.model_changed()
+            if isinstance(made, Pictures):
+                snapshot.tell(made, simulation.offers(made, settings.sources, settings.folder))
+            else:
+                snapshot.tell(made)
             return f"{said}; {address}"
 
         return Concluded(len(result.report) > 0, say)
@@ -106,7 +113,8 @@ def preview(
         except UnavailableError as error:
             served_page.tell_of_ros(error)
             return 1
-        page = serving(snapshot, port, editor)
+        stack.callback(simulation.close)
+        page = serving(snapshot, port, editor, simulation.act)
         address = served_page.opened(page, f"port {port}", opens, stack, say=False)
         follow([each for each in traces if not each.startswith(PREFIX)], snapshot, served_page.tell)
-        return watch_files(paths, settings, show)
+        return watch_files(paths, read_settings, show)

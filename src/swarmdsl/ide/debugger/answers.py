@@ -206,7 +206,8 @@ def _send(session: Session, arguments: Arguments) -> Body:
 
 def _picture(session: Session, arguments: Arguments) -> Body:
     session.looking()
-    return session.picture()
+    thread = optional(arguments, "threadId", int)
+    return session.picture(session.standing().member(thread) if thread is not None else None)
 
 
 def _completions(session: Session, arguments: Arguments) -> Body:

@@ -102,7 +102,9 @@ class Controls:
         expressions: Expressions,
         speed: float | None,
     ) -> None:
-        self.pace: Pace = _Waiting(self, speed)
+        self.pace: Pace = _Waiting(self)
+        self.speed = speed
+        """Number of times that virtual time is as fast as real time; None for any speed."""
         self.subject = subject
         self.way: Way = GO_ON
         self.breakpoints = breakpoints
@@ -323,22 +325,19 @@ class Controls:
 class _Waiting(Pace):
     """Pace of a run that lets the user act between the moments.
 
-    With a speed, virtual time passes so many times as fast as real time, else as fast as it can.
+    With a speed, time passes at that while the run goes on by itself: a step does not wait.
     """
 
-    def __init__(self, controls: Controls, speed: float | None) -> None:
+    def __init__(self, controls: Controls) -> None:
         super().__init__()
         self._controls = controls
-        self._speed = speed
 
     def wait(self, until: int) -> None:
         """Let the user act, and wait until a time if there is a speed."""
         controls = self._controls
         controls.arrive("between", controls.point.member)
-        if self._speed is None:
-            return
-        left = (until - controls.world.clock.now) / SECOND / self._speed
-        while left > 0 and not controls.is_replaying:
-            time.sleep(min(left, _NAP))
-            left -= _NAP
+        left = (until - controls.world.clock.now) / SECOND
+        while left > 0 and controls.speed is not None and controls.way == GO_ON:
+            time.sleep(min(left / controls.speed, _NAP))
+            left -= _NAP * controls.speed
             controls.look()

@@ -138,6 +138,13 @@ def _go(session: Session, arguments: Arguments) -> Body:
     return way(session, arguments)
 
 
+def _speed(session: Session, arguments: Arguments) -> Body:
+    """Let time pass at another speed from now on, also when the run begins anew."""
+    session.looking()
+    session.set_speed(arguments)
+    return None
+
+
 _WAYS: Mapping[str, Handler] = {
     "continue": _continue,
     "next": _moment,
@@ -148,4 +155,4 @@ _WAYS: Mapping[str, Handler] = {
     "pause": _pause,
 }
 
-REQUESTS: Mapping[str, Handler] = {**_LIFE, **_WAYS, "swarmGo": _go}
+REQUESTS: Mapping[str, Handler] = {**_LIFE, **_WAYS, "swarmGo": _go, "swarmSpeed": _speed}

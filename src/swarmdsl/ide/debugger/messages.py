@@ -76,6 +76,16 @@ def required(arguments: Arguments, name: str, kind: type[T]) -> T:
     return value
 
 
+def speed_of(arguments: Arguments) -> float | None:
+    """Return the speed at which time passes; None if it is as fast as it can."""
+    speed = arguments.get("speed")
+    if speed is None:
+        return 1.0 if optional(arguments, "realTime", bool) else None
+    if isinstance(speed, bool) or not isinstance(speed, (int, float)) or not 0 < speed <= 1000:
+        raise RequestError("`speed` must be a number above 0, at most 1000")
+    return float(speed)
+
+
 def texts(arguments: Arguments, name: str) -> list[str]:
     """Return an argument that is a list of strings, or one string; empty if it is left out."""
     value = arguments.get(name)

@@ -34,6 +34,9 @@ class Session(Protocol):
     def after_answer(self, act: Callable[[], None]) -> None:
         """Do something when the present request has been answered."""
 
+    def set_speed(self, arguments: Arguments) -> None:
+        """Let time pass at the speed of some arguments; raise RequestError for a wrong one."""
+
     def looking(self) -> Controls:
         """Return the controls of the run; raise RequestError if nothing is launched."""
 
@@ -55,8 +58,8 @@ class Session(Protocol):
     def go_back(self, point: int, *, finds: bool = False) -> None:
         """Play the run again to a point, when the request has been answered."""
 
-    def picture(self) -> dict[str, Any]:
-        """Return the run as pages show it."""
+    def picture(self, member: int | None = None) -> dict[str, Any]:
+        """Return the run as pages show it, with what is to see of a member."""
 
 
 Handler = Callable[[Session, Arguments], Body]

@@ -28,6 +28,7 @@ from swarmdsl.ide.debugger.messages import (
     RequestError,
     as_path,
     optional,
+    speed_of,
 )
 from swarmdsl.ide.debugger.points import Way
 from swarmdsl.ide.debugger.programs import Program, load_model
@@ -57,6 +58,8 @@ class Session:
         self.places: Places | None = None
         self.is_held = False
         self._reason = ""
+        self._is_notable = False
+        """True if the run stands still for a reason that the user did not ask for."""
         self._goes_on = False
         self._is_configured = self._is_over = False
         self._lines: list[str] = []
@@ -135,9 +138,7 @@ class Session:
         self._launch = arguments
         report = Diagnostics()
         folder = Path(as_path(optional(arguments, "cwd", str) or ""))
-        speed = arguments.get("speed")
-        if speed is not None and not (isinstance(speed, (int, float)) and 0 < speed <= 1000):
-            raise RequestError("`speed` must be a number above 0, at most 1000")
+        speed = speed_of(arguments)
         program: Program | None
         if arguments.get("test") in (None, ""):
             program = load_model(arguments, folder, report)
@@ -153,8 +154,7 @@ class Session:
         expressions = Expressions(subject)
         self.places = Places(subject, program.machines)
         breakpoints = Breakpoints(self.places, expressions)
-        real = 1.0 if optional(arguments, "realTime", bool) else None
-        self.controls = Controls(subject, self, breakpoints, expressions, speed or real)
+        self.controls = Controls(subject, self, breakpoints, expressions, speed)
         self.inspection = Inspection(self.controls)
         if optional(arguments, "stopOnEntry", bool):
             self.controls.way = Way("moment")
@@ -177,6 +177,11 @@ class Session:
         if not self._is_over and (self.is_held or self._is_configured):
             self.after_answer(_begin_again)
         self._is_over = False
+
+    def set_speed(self, arguments: Arguments) -> None:
+        """Let time pass at the speed of some arguments; raise RequestError for a wrong one."""
+        self.looking().speed = speed_of(arguments)
+        self._launch = {**self._launch, "realTime": False, "speed": arguments.get("speed")}
 
     def looking(self) -> Controls:
         """Return the controls of the run; raise RequestError if nothing is launched."""
@@ -256,7 +261,7 @@ class Session:
         """Stand still until the user goes on."""
         controls = self.looking()
         self.is_held, self._goes_on = True, False
-        self._reason = text
+        self._reason, self._is_notable = text, reason in ("exception", "pause")
         self._show()
         thread = controls.point.member + 1
         body = {"reason": reason, "threadId": thread, "allThreadsStopped": True}
@@ -306,11 +311,20 @@ class Session:
         controls = self.looking()
         self._told = controls.last.get(controls.point.member)
 
-    def picture(self) -> dict[str, Any]:
-        """Return the run as pages show it."""
+    def picture(self, member: int | None = None) -> dict[str, Any]:
+        """Return the run as pages show it: `member` is looked at, by default the one at the stop.
+
+        The reason of a stop is in it unless that is a step, which the page shows itself.
+        """
         controls = self.looking()
         assert self.inspection is not None
-        return picture(controls, self.inspection, self._told, is_held=self.is_held)
+        if not self.is_held:
+            return picture(controls, self.inspection, self._told)
+        seen = controls.point.member if member is None else member
+        shown = picture(controls, self.inspection, self._told, seen)
+        if self._reason and self._is_notable:
+            shown["reason"] = self._reason
+        return shown
 
 
 def _begin_again() -> None:

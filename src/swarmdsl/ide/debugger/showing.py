@@ -39,11 +39,12 @@ def output_of(found: Diagnostic, first_line: int, first_column: int) -> dict[str
 
 
 def picture(
-    controls: Controls, inspection: Inspection, told: Line | None, *, is_held: bool
+    controls: Controls, inspection: Inspection, told: Line | None, seen: int | None = None
 ) -> dict[str, Any]:
     """Return a run as pages show it: active states, the last step unless that is told.
 
-    While the run stands still, also the events to send, and variables.
+    While the run stands still, `seen` is the member that the user looks at: then also its
+    variables, the names of all members, and the events to send.
     """
     if not controls.has_begun:
         return {"active": {}}
@@ -61,9 +62,10 @@ def picture(
         called = last.actor.machine.called
         shown["taken"] = {inspection.name(member): list(dict.fromkeys(map(called, last.taken)))}
         shown["entered"] = {inspection.name(member): last.entered}
-    if is_held:
-        shown["member"] = inspection.name(member)
-        shown["thread"] = member + 1
+    if seen is not None:
+        shown["member"] = inspection.name(seen)
+        shown["thread"] = seen + 1
+        shown["members"] = [each["name"] for each in inspection.threads()]
         shown["events"] = enabled(controls.subject, controls.world, instances)
-        shown["variables"] = inspection.variables(member)
+        shown["variables"] = inspection.variables(seen)
     return shown

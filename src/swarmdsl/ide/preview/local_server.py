@@ -47,7 +47,9 @@ class LocalHandler(BaseHTTPRequestHandler):
     def do_POST(self) -> None:
         """Answer JSON from a page of this computer."""
         # Browsers let no foreign page send JSON without a preflight, which is not answered.
-        if self.is_local() and self.headers.get("Content-Type") == "application/json":
+        is_own = self.headers.get("Origin") in (None, f"http://{self.headers.get('Host')}")
+        is_json = self.headers.get("Content-Type") == "application/json"
+        if self.is_local() and is_own and is_json:
             self.answer_command()
         else:
             self.send_error(HTTPStatus.FORBIDDEN)

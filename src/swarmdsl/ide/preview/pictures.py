@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TypedDict
+from typing import Any, TypedDict
 
 from swarmdsl.base.diagnostics.collector import Severity
 from swarmdsl.base.source import Span
@@ -17,6 +17,7 @@ from swarmdsl.tools.diagram.svg import svg
 from swarmdsl.tools.diagram.views import diagrams
 
 _TITLES = {"composition": "swarm", "internal": "member", "statechart": "state machine"}
+_RUNNING = {"composition": "swarm", "statechart": "machine"}
 
 
 class Steps(TypedDict, total=False):
@@ -49,6 +50,9 @@ class Message(Steps, total=False):
     including those left since; the empty id is a machine that started.
 
     `redrawn` is a new picture of a diagram, for pages that show it.
+
+    `subjects` are diagrams of what a page can simulate, by kind and name, and `scenarios` are the
+    files for that. `debug` is the state of a simulation that the user drives, None for none.
     """
 
     titles: dict[str, str]
@@ -59,6 +63,9 @@ class Message(Steps, total=False):
     foldable: Sequence[str]
     broken: int
     redrawn: Drawn
+    subjects: Mapping[str, str]
+    scenarios: Sequence[str]
+    debug: Mapping[str, Any] | None
     active: Mapping[str, Sequence[str] | None]
 
 
@@ -105,6 +112,13 @@ class Pictures:
         """Return the state ids of each machine by its name."""
         machines = self._system.machines if self._system is not None else ()
         return {each.name: frozenset(state.id for state in each.walk()) for each in machines}
+
+    @cached_property
+    def subjects(self) -> Mapping[tuple[str, str], str]:
+        """Return the diagrams of what can run, by kind and name; swarms are first."""
+        found = [(_RUNNING[each.kind], each) for each in self._diagrams if each.kind in _RUNNING]
+        found.sort(key=lambda pair: pair[0] != "swarm")
+        return {(kind, each.name): each.stem for kind, each in found}
 
     def _runs(self) -> Mapping[str, Sequence[tuple[str, str]]]:
         found: dict[str, list[tuple[str, str]]] = defaultdict(list)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import threading
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from http import HTTPStatus
 from pathlib import Path
+from typing import Any
 from urllib.parse import parse_qs
 
 from swarmdsl.base.read_files import read_file
@@ -34,6 +35,7 @@ _POLICY = (
 _HISTORY = 100
 _MAX_BODY = 1 << 16
 """Maximum length of a POST body in bytes."""
+Act = Callable[[Any], str]
 
 
 class Snapshot:
@@ -43,6 +45,7 @@ class Snapshot:
         self.pictures = Pictures()
         self._changed = threading.Condition()
         self._messages: Sequence[Message] = ()
+        self._debug: Message | None = None
         # Innermost active states of members by trace.
         self._active: dict[str, dict[str, Sequence[str]]] = {}
         self._moves = 0
@@ -52,15 +55,21 @@ class Snapshot:
         # Update number and the steps in it.
         self._steps: deque[tuple[int, Steps]] = deque(maxlen=_HISTORY)
 
-    def tell(self, update: Pictures | Message) -> None:
-        """Publish diagrams or a message to all pages."""
+    def tell(self, update: Pictures | Message, offers: Message | None = None) -> None:
+        """Publish diagrams or a message to all pages; with diagrams, what can be simulated."""
         with self._changed:
             if isinstance(update, Pictures):
                 self.pictures = update
-                self._messages = (update.listed(),)
+                self._messages = ({**update.listed(), **(offers or {})},)
             else:
                 # Keep the diagrams; only the last error count matters.
                 self._messages = (*(each for each in self._messages if "titles" in each), update)
+            self._notify()
+
+    def control(self, message: Message) -> None:
+        """Publish the state of the simulation that pages drive."""
+        with self._changed:
+            self._debug = message
             self._notify()
 
     def move(
@@ -120,11 +129,13 @@ class Snapshot:
     def _follow(self, page: object) -> Iterator[Sequence[Message]]:
         sent: Sequence[Message] = ()
         active: dict[str, Sequence[str]] = {}
+        debug: Message | None = None
         moves = changes = 0
         seen = self._moves
 
         def is_new() -> bool:
-            return self._messages is not sent or self._moves != moves
+            is_told = self._messages is sent and self._debug is debug
+            return not is_told or self._moves != moves
 
         while True:
             with self._changed:
@@ -133,6 +144,9 @@ class Snapshot:
                 self._changed.notify_all()
                 self._changed.wait_for(is_new, KEEP_ALIVE)
                 new = [each for each in self._messages if not any(each is old for old in sent)]
+                if self._debug is not None and self._debug is not debug:
+                    new.append(self._debug)
+                debug = self._debug
                 sent, moves, changes = self._messages, self._moves, self._changes
                 steps = [step for number, step in self._steps if number > seen]
                 seen = moves
@@ -171,13 +185,16 @@ def _merged(steps: Iterable[Steps]) -> Message:
 
 
 @contextmanager
-def serving(snapshot: Snapshot, port: int, editor: Editor | None = None) -> Iterator[str]:
+def serving(
+    snapshot: Snapshot, port: int, editor: Editor | None = None, act: Act | None = None
+) -> Iterator[str]:
     """Serve the page while the context lasts; yield its address.
 
-    Port 0 selects a free port. `editor` opens clicked places. Raises OSError if the port is taken.
+    Port 0 selects a free port. `editor` opens clicked places, `act` does what a page wishes of a
+    simulation and returns why it does not. Raises OSError if the port is taken.
     """
     server = _Server((HOST, port), _Handler)
-    server.snapshot, server.editor = snapshot, editor
+    server.snapshot, server.editor, server.act = snapshot, editor, act
     with running(server) as address:
         yield address
 
@@ -185,6 +202,7 @@ def serving(snapshot: Snapshot, port: int, editor: Editor | None = None) -> Iter
 class _Server(LocalServer):
     snapshot: Snapshot
     editor: Editor | None
+    act: Act | None
 
     def open_place(self, place: str) -> OpenResult:
         """Open a place of the model in the editor; reject all other places."""
@@ -219,15 +237,23 @@ class _Handler(LocalHandler):
         self.wfile.write(read_file(file))
 
     def answer_command(self) -> None:
-        if self.path != "/open":
+        act = self.server.act
+        if self.path == "/open":
+            place = self._body()
+            self._answer(self.server.open_place(place if isinstance(place, str) else ""))
+        elif self.path == "/simulate" and act is not None:
+            why = act(self._body())
+            self._answer({"failed": why} if why else {})
+        else:
             self.send_error(HTTPStatus.FORBIDDEN)
-            return
+
+    def _body(self) -> Any:
+        """Return the JSON of the request; None if it is none."""
         try:
             length = int(self.headers.get("Content-Length") or 0)
-            place = json.loads(self.rfile.read(max(0, min(length, _MAX_BODY))))
+            return json.loads(self.rfile.read(max(0, min(length, _MAX_BODY))))
         except (ValueError, RecursionError):
-            place = None
-        self._answer(self.server.open_place(place if isinstance(place, str) else ""))
+            return None
 
     def _answer(self, value: Mapping[str, object]) -> None:
         self.begin("application/json")

@@ -1,6 +1,6 @@
 // Connection to the host: an editor that embeds the page, or swarmc over HTTP. An editor receives
 // `{ want: { id, folded } }`, `{ reveal: "FILE:LINE:COLUMN" }`, `{ save: { name, base64 } }` and
-// `{ run: COMMAND }` and `{ debug: { request } }` or `{ debug: { event } }`.
+// `{ run: COMMAND }` and `{ debug }` with a wish for the simulation, see `Debugging`.
 
 const editor = typeof acquireVsCodeApi === "function" ? acquireVsCodeApi() : undefined;
 const DARK = window.matchMedia("(prefers-color-scheme: dark)");
@@ -54,12 +54,7 @@ export async function reveal(place, say) {
     editor.postMessage({ reveal: place });
     return;
   }
-  const answer = await fetch("open", {
-    method: "POST",
-    headers: { "Content-Type": "application/json" },
-    body: JSON.stringify(place),
-  });
-  const { address, failed, none } = await answer.json();
+  const { address, failed, none } = await post("open", place);
   if (none) {
     const copied = await navigator.clipboard?.writeText(place).then(() => true, () => false);
     say(copied ? `${place}, copied` : place);
@@ -71,14 +66,30 @@ export async function reveal(place, say) {
   }
 }
 
+async function post(path, value) {
+  const headers = { "Content-Type": "application/json" };
+  return await (await fetch(path, { method: "POST", headers, body: JSON.stringify(value) })).json();
+}
+
 /** Run a command of the editor that it has offered. */
 export function run(command) {
   editor?.postMessage({ run: command });
 }
 
-/** Ask something of the debug session of the editor. */
-export function debug(command) {
-  editor?.postMessage({ debug: command });
+/** Ask something of the simulation that the user drives; an editor tells itself what failed. */
+export async function debug(command, failed) {
+  if (editor) {
+    editor.postMessage({ debug: command });
+    return;
+  }
+  try {
+    const answer = await post("simulate", command);
+    if (answer.failed) {
+      failed(answer.failed);
+    }
+  } catch {
+    failed("swarmc preview does not answer");
+  }
 }
 
 /** Save a file where the user chooses. */

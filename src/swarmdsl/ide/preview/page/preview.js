@@ -4,7 +4,8 @@
 // diagram, `{ broken }` with the number of errors (the picture stays), `{ active }` with active states,
 // `{ taken, entered }` with transitions just taken and states they entered,
 // `{ redrawn: { id, svg } }` with a new picture of a diagram, for pages that show it,
-// `{ debug }` with the controls of a debug session or null for none, `{ cursor: [{ diagram, element }], moved }`, `{ show: ID }`, and
+// `{ debug }` with the controls of a simulation that the user drives or null for none; a browser starts
+// one of what `{ subjects: { NAME: ID }, scenarios }` offer with the titles. `{ cursor: [{ diagram, element }], moved }`, `{ show: ID }`, and
 // `{ unavailable: { text, actions: [{ title, command }] } }` if there are no diagrams.
 
 import { Cursor } from "./cursor.js";
@@ -27,7 +28,7 @@ const highlight = new Highlight(element("who"), () => update());
 const view = new View(canvas, picture, click);
 const cursor = new Cursor();
 const status = new Status(element("state"), element("note"), element("explanation"));
-const debugging = new Debugging(element("debug"), host.debug);
+const debugging = new Debugging(element("debug"), (command) => void host.debug(command, (why) => debugging.fail(why)), () => shown);
 const search = new Search(element("find"), element("names"), find, () => canvas.focus());
 let titles = {};
 let drawn; // { id, svg, names, foldable }
@@ -81,6 +82,9 @@ function receive(message) {
   if (message.titles) {
     list(message.titles);
     highlight.learn(message.runs ?? {});
+    if (message.subjects) {
+      debugging.offer(message.subjects, message.scenarios ?? []);
+    }
     if (!message.svg && Object.keys(titles).length) {
       want();
     }
@@ -137,6 +141,7 @@ function receivePicture({ id, svg, names, foldable }) {
   const isOther = id !== drawn?.id;
   drawn = { id, svg, names, foldable };
   shown = id;
+  debugging.follow();
   remember();
   const stays = touched ?? cursor.in(shown);
   if (isOther) {

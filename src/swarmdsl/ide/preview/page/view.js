@@ -15,6 +15,7 @@ export class View {
   #scale = 1;
   #left = 0;
   #top = 0;
+  #isFitted = false; // the user has not moved it since
 
   /** `click` is called with the target of a click, not of a drag. */
   constructor(view, picture, click) {
@@ -36,6 +37,7 @@ export class View {
     this.#left = (clientWidth - width * this.#scale) / 2;
     this.#top = (clientHeight - height * this.#scale) / 2;
     this.#move();
+    this.#isFitted = true;
   }
 
   /** Zoom around the middle. */
@@ -74,6 +76,7 @@ export class View {
   }
 
   #move() {
+    this.#isFitted = false;
     this.#picture.style.transform = `translate(${this.#left}px, ${this.#top}px) scale(${this.#scale})`;
   }
 
@@ -93,6 +96,7 @@ export class View {
 
   #listen(click) {
     const view = this.#view;
+    new ResizeObserver(() => this.#isFitted && this.fit()).observe(view);
     view.addEventListener(
       "wheel",
       (event) => {
