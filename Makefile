@@ -139,7 +139,7 @@ bless: $(READY) ## Take today's output as what the golden tests expect.
 	$(BIN)/pytest --bless
 
 dist: $(READY) ## Build the source distribution and the wheel.
-	$(BIN)/python -m build
+	$(if $(UV),PATH="$(dir $(UV)):$$PATH") $(BIN)/python -m build $(if $(UV),--installer uv)
 
 vsix: $(READY) $(EXTENSION_READY) ## Package the VS Code extension, with a server; needs Node 20.
 	mkdir -p $(VSIX_DIR)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 from swarmdsl import ir
@@ -28,6 +29,7 @@ PACKAGES = {
 }
 
 
+@cache
 def systems() -> Mapping[str, ir.System]:
     """Compile all libraries."""
     found = {}

@@ -25,8 +25,6 @@ from . import catalogue
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
-SYSTEMS = catalogue.systems()
-CURRENT = SYSTEMS["cpswarm"]
 VALUES = {"string": '"a"', "bool": "true"}
 needs_corpus = pytest.mark.skipif(not CORPUS.is_dir(), reason=f"no files of CPSwarm in {CORPUS}")
 
@@ -54,7 +52,7 @@ BUILDS = [
 @pytest.mark.parametrize(("name", "target"), BUILDS)
 def test_all_of_it_can_be_built(name: str, target: str, tmp_path: Path) -> None:
     """Build a model that calls all functions and extends or reuses all other declarations."""
-    system = SYSTEMS[name]
+    system = catalogue.systems()[name]
     path = tmp_path / "everything.swarm"
     path.write_text("\n".join(_everything(name, system)), encoding="utf-8")
     request = Request(target, {"profile": "portable"} if target == "scxml" else {})
@@ -75,7 +73,7 @@ def test_skeletons_of_all_functions_and_nodes(tmp_path: Path) -> None:
     made = {path.parent.name for path in tmp_path.rglob("package.xml")}
 
     assert [found.message for found in result.report] == []
-    assert {each.name for each in _called(CURRENT)} <= made
+    assert {each.name for each in _called(catalogue.systems()["cpswarm"])} <= made
 
 
 def _everything(name: str, system: ir.System) -> Iterator[str]:
@@ -128,7 +126,7 @@ def _taken(system: ir.System, function: ir.Function) -> tuple[ir.Field, ...]:
 
 
 def test_each_function_is_documented() -> None:
-    for system in SYSTEMS.values():
+    for system in catalogue.systems().values():
         items = (*system.functions, *system.events, *system.machines, *system.members)
         assert [each.name for each in items if not each.doc and "." not in each.name] == []
         params = [each for owner in _called(system) for each in owner.params]
@@ -261,7 +259,10 @@ def test_params_are_those_of_the_ros_packages() -> None:
     # Defaults in the library come from such files.
     ours = {
         (owner.name, param.name)
-        for owner in (*_called(CURRENT), *CURRENT.components)
+        for owner in (
+            *_called(catalogue.systems()["cpswarm"]),
+            *catalogue.systems()["cpswarm"].components,
+        )
         for param in owner.params
         if param.default is not None and owner.name not in HARDWARE
     }
@@ -277,7 +278,10 @@ HARDWARE = {"Camera", "CmosOv5640", "RangeSensor", "Sonar", "Gp2d12", "Communica
 
 def _owner(package: str) -> dict[str, ir.Param]:
     """Return the params of the function or component that is the node of a package."""
-    for each in (*CURRENT.functions, *CURRENT.components):
+    for each in (
+        *catalogue.systems()["cpswarm"].functions,
+        *catalogue.systems()["cpswarm"].components,
+    ):
         if _spelt(each.name) == _spelt(package):
             return {param.name: param for param in each.params}
     raise AssertionError(package)
