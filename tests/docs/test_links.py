@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from functools import cache
+from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
 
 from .pages import PAGES, Page
+
+
+@cache
+def anchors(path: Path) -> set[str]:
+    return Page(path).anchors
 
 
 @pytest.mark.parametrize("page", PAGES, ids=str)
@@ -19,7 +26,7 @@ def test_links(page: Page) -> None:
         target = (page.path.parent / path).resolve() if path else page.path
         if not target.exists():
             broken.append(f"{link}: no such file")
-        elif anchor and anchor not in Page(target).anchors:
+        elif anchor and anchor not in anchors(target):
             broken.append(f"{link}: no such heading")
 
     assert broken == []

@@ -116,7 +116,13 @@ class Window:
         self.again(lambda: self.press("Control+."), first)
 
     def rename(self, name: str) -> None:
-        """Rename the element at the cursor."""
+        """Rename the element at the cursor.
+
+        VS Code drops a rename if something moves the cursor before the edits are there.
+        """
+        self.again(lambda: self._rename(name), self.line(name).first)
+
+    def _rename(self, name: str) -> None:
         entry = self.page.locator(".rename-box input")
         self.again(lambda: self.press("F2"), entry)
         entry.fill(name)
