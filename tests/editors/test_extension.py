@@ -244,15 +244,21 @@ def test_background_matcher_detects_rebuilds(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "documentation"),
     [
-        ("/// Search and rescue.", True),
-        ("  ///", True),
-        ("// a remark", False),
-        ("//// a rule", False),
-        ("state X { /// a remark", False),
+        ("/// Search| and rescue.", True),
+        ("  ///| Search.", True),
+        ("/// Search and rescue.|", False),  # nearly all documentation is one line
+        ("// a| remark", False),
+        ("//// a| rule", False),
+        ("state X { /// a| remark", False),
     ],
 )
-def test_enter_continues_documentation(line: str, documentation: bool) -> None:
-    rules = [rule for rule in EDITING["onEnterRules"] if re.search(rule["beforeText"], line)]
+def test_enter_divides_documentation(line: str, documentation: bool) -> None:
+    before, after = line.split("|")
+    rules = [
+        rule
+        for rule in EDITING["onEnterRules"]
+        if re.search(rule["beforeText"], before) and re.search(rule.get("afterText", ""), after)
+    ]
     assert [rule["action"]["appendText"] for rule in rules] == ["/// "] * documentation
 
 

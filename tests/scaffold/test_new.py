@@ -153,6 +153,16 @@ def test_nothing_is_overwritten(swarmc, folder) -> None:
     assert swarmc("new", "file").code == 1
     assert swarmc("new", "rescue", "--folder", "other").code == 0
     assert (folder / "other" / "swarm.toml").is_file()
+    free = folder / "free"
+    for name in (".git", ".vscode"):
+        (free / name).mkdir(parents=True)
+    assert swarmc("new", "rescue", "--folder", "free").code == 0
+    assert swarmc("new", "rescue", "--folder", "free").code == 1
+    mine = folder / "mine" / ".gitignore"
+    mine.parent.mkdir()
+    mine.write_text("mine\n")
+    assert swarmc("new", "rescue", "--folder", "mine").code == 1
+    assert list(mine.parent.iterdir()) == [mine]
 
 
 def test_a_dry_run_writes_nothing(swarmc, folder) -> None:

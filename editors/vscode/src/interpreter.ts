@@ -1,8 +1,10 @@
 // Choice of the interpreter for swarmc, and the command that stores one.
 
+import { homedir } from "node:os";
+
 import * as vscode from "vscode";
 
-import { interpreterIn, onPath, probe } from "./probe.ts";
+import { environmentsIn, interpreterIn, onPath, probe, unique } from "./probe.ts";
 import { selectedInterpreter } from "./python.ts";
 import { INTERPRETER_SETTING, PATH_SETTING } from "./launch.ts";
 
@@ -53,17 +55,17 @@ export async function storeInterpreter(interpreter: string): Promise<void> {
 
 async function choices(first: readonly Choice[]): Promise<Choice[]> {
   const folders = vscode.workspace.workspaceFolders ?? [];
-  const found = new Set<string>();
+  const found: (string | undefined)[] = [];
   if (vscode.workspace.isTrusted) {
     const selected = await selectedInterpreter(folders[0]?.uri);
     const environments = await Promise.all(
       folders.map((each) => interpreterIn(vscode.Uri.joinPath(each.uri, ".venv").fsPath)),
     );
-    [selected, ...environments].forEach((each) => each && found.add(each));
+    found.push(selected, ...environments);
   }
-  (await onPath("python3", "python")).forEach((each) => found.add(each));
+  found.push(...(await environmentsIn(homedir())), ...(await onPath("python3", "python")));
   const described = await Promise.all(
-    [...found].map(async (interpreter): Promise<Choice | undefined> => {
+    (await unique(found)).map(async (interpreter): Promise<Choice | undefined> => {
       const python = await probe.python(interpreter);
       return (
         python && {

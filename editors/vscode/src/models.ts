@@ -24,7 +24,7 @@ export async function newModel(extension: vscode.Uri): Promise<void> {
   const file = chosen.path.endsWith(".swarm") ? chosen : chosen.with({ path: `${chosen.path}.swarm` });
   const made = text.replace(/^package \w+/m, `package ${packageName(basename(file.path, ".swarm"))}`);
   await vscode.workspace.fs.writeFile(file, new TextEncoder().encode(made));
-  await vscode.window.showTextDocument(file);
+  await vscode.window.showTextDocument(file, { preview: false });
 }
 
 /** The model of the workspace; the user chooses if there are several. */

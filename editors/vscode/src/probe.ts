@@ -1,8 +1,8 @@
 // Inspects programs by running them.
 
 import { execFile } from "node:child_process";
-import { access, constants } from "node:fs/promises";
-import { delimiter, join } from "node:path";
+import { access, constants, readdir, realpath } from "node:fs/promises";
+import { delimiter, dirname, join } from "node:path";
 
 import type { Probe, Python } from "./launch.ts";
 
@@ -48,6 +48,32 @@ export async function interpreterIn(folder: string): Promise<string | undefined>
   return (await runs(path)) ? path : undefined;
 }
 
+/** Interpreters of the virtual environments in a folder, such as that of the user. */
+export async function environmentsIn(folder: string): Promise<string[]> {
+  const names = await readdir(folder).catch(() => []);
+  const found = await Promise.all(
+    names.sort().map(async (name) => {
+      const environment = join(folder, name);
+      return (await exists(join(environment, "pyvenv.cfg"))) ? interpreterIn(environment) : undefined;
+    }),
+  );
+  return found.filter((each) => each !== undefined);
+}
+
+/** Programs without repetitions: links in the same environment, or outside of all, are one. */
+export async function unique(programs: readonly (string | undefined)[]): Promise<string[]> {
+  const found = new Map<string, string>();
+  for (const program of programs) {
+    if (program !== undefined) {
+      const folder = dirname(program);
+      const isEnvironment = await exists(join(dirname(folder), "pyvenv.cfg"));
+      const real = await realpath(isEnvironment ? folder : program).catch(() => program);
+      found.set(real, found.get(real) ?? program);
+    }
+  }
+  return [...found.values()];
+}
+
 /** Paths of programs on the PATH. */
 export async function onPath(...names: string[]): Promise<string[]> {
   const found: string[] = [];
@@ -63,9 +89,13 @@ export async function onPath(...names: string[]): Promise<string[]> {
   return found;
 }
 
-async function runs(path: string): Promise<boolean> {
+function runs(path: string): Promise<boolean> {
+  return exists(path, constants.X_OK);
+}
+
+async function exists(path: string, mode = constants.F_OK): Promise<boolean> {
   try {
-    await access(path, constants.X_OK);
+    await access(path, mode);
     return true;
   } catch {
     return false;

@@ -6,6 +6,7 @@ import { basename } from "node:path";
 import * as vscode from "vscode";
 
 import type { Launch } from "./launch.ts";
+import { isHidden } from "./entries.ts";
 import { showBundledLimit } from "./missing.ts";
 import { packageName } from "./models.ts";
 import type { Server } from "./server.ts";
@@ -43,7 +44,8 @@ export async function newProject(server: Server): Promise<void> {
   if (!parent) {
     return;
   }
-  const isEmpty = !(await vscode.workspace.fs.readDirectory(parent)).length;
+  const entries = await vscode.workspace.fs.readDirectory(parent);
+  const isEmpty = entries.every(([name]) => isHidden(name));
   const name = await vscode.window.showInputBox({
     title,
     prompt: isEmpty ? "Name of the project in this folder" : "Name of the project and its folder",
@@ -61,7 +63,8 @@ export async function newProject(server: Server): Promise<void> {
     return;
   }
   if (vscode.workspace.getWorkspaceFolder(folder)) {
-    await vscode.window.showTextDocument(vscode.Uri.joinPath(folder, "models", `${name}.swarm`));
+    const model = vscode.Uri.joinPath(folder, "models", `${name}.swarm`);
+    await vscode.window.showTextDocument(model, { preview: false });
     return;
   }
   await vscode.commands.executeCommand("vscode.openFolder", folder, {

@@ -23,7 +23,7 @@ class Creation:
 
 
 def create(plan: Plan, folder: Path, *, dry_run: bool = False) -> Creation:
-    """Write a project to a new or empty folder; write nothing if the plan has errors."""
+    """Write a project to a new or free folder; write nothing if the plan has errors."""
     report = Diagnostics()
     check_plan(plan, report)
     if is_taken(folder):
@@ -47,12 +47,17 @@ def create(plan: Plan, folder: Path, *, dry_run: bool = False) -> Creation:
 
 
 def is_taken(folder: Path) -> bool:
-    """Return True if something other than an empty folder exists there."""
-    return os.path.lexists(folder) and not _is_empty_folder(folder)
+    """Return True if something other than a free folder exists there.
+
+    A folder with hidden files of tools, such as `.git` and `.vscode`, is free.
+    """
+    return os.path.lexists(folder) and not _is_free_folder(folder)
 
 
-def _is_empty_folder(path: Path) -> bool:
+def _is_free_folder(path: Path) -> bool:
     try:
-        return is_folder(path) and not os.listdir(path)  # noqa: PTH208 - one entry is enough
+        return is_folder(path) and all(
+            each.name.startswith(".") and each.name != ".gitignore" for each in path.iterdir()
+        )
     except OSError:
         return False
