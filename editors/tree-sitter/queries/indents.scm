@@ -1,0 +1,3 @@
+; Lines within brackets are indented, for Helix and Zed.
+(_ "{" "}" @end @outdent) @indent
+(_ "(" ")" @end @outdent) @indent
