@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -130,14 +131,26 @@ def test_conditions_hits_and_messages(client: Client) -> None:
                 {"line": off, "logMessage": "{self.id} after {tries + blinks} of {most}"},
                 {"line": off, "condition": "blinks +"},
                 {"line": off, "condition": "nobody"},
+                {"line": off, "condition": "tries"},
+                {"line": line("on Start"), "condition": "event.times > 4"},
                 {"line": off, "hitCondition": "often"},
             ]
         },
         program=str(MODEL),
     )
-    assert [each["verified"] for each in said] == [True, True, True, False, False, False]
+    assert [each["verified"] for each in said] == [
+        True,
+        True,
+        True,
+        False,
+        False,
+        False,
+        True,
+        False,
+    ]
     assert said[4]["message"].startswith("no value called `nobody`")
-    assert said[5]["message"] == "write a number of hits, such as `3`, `>= 3` or `% 3`"
+    assert said[5]["message"] == "a condition is true or false, but this is a `int32`"
+    assert said[7]["message"] == "write a number of hits, such as `3`, `>= 3` or `% 3`"
     client.stop()
     client.value('send Start {"times": 3} to bulb[0]', "repl")
     stopped = client.stop()
@@ -285,6 +298,39 @@ def test_pause_and_restart_in_real_time(client: Client) -> None:
     assert client.await_event("terminated")
 
 
+def test_without_debugging_nothing_stops(client: Client) -> None:
+    lines = [line("state Waiting {")]
+    client.launch({MODEL: lines}, program=str(MODEL), noDebug=True, scenaro="x.toml", __id=1)
+    client.await_event("terminated")
+    assert client.output == (
+        "`scenaro` in the launch configuration is not read: did you mean `scenario`?\n"
+        "     0.000  bulb[0]  (start) -> Waiting\n"
+        "     0.000  bulb[1]  (start) -> Waiting\n"
+        "nothing is left to happen, at 0.000 s\n"
+    )
+
+
+def test_a_model_that_changes_while_it_runs(client: Client, tmp_path: Path) -> None:
+    model = tmp_path / MODEL.name
+    shutil.copy(MODEL, model)
+    client.launch({model: [line("state Waiting {")]}, program=str(model))
+    assert client.stop()["reason"] == "breakpoint"
+    assert "has changed" not in client.output
+    model.write_text(MODEL.read_text(encoding="utf-8").replace("on Start [", "on Strat ["))
+    client.request("setBreakpoints", source={"path": str(model)}, breakpoints=[{"line": 1}])
+    hint = "lamps.swarm has changed since the run began: restart to run it as it is now\n"
+    assert client.output.endswith(hint)
+    # The run goes on if the model has mistakes, and can go back.
+    with pytest.raises(RefusedError, match="no event called `Strat`"):
+        client.request("restart")
+    assert client.go("next")["text"] == "bulb[0], at 0 ms"
+    assert client.go("next")["reason"] == "breakpoint"
+    assert client.go("stepBack")["text"] == "bulb[0], at 0 ms"
+    shutil.copy(MODEL, model)
+    client.request("restart")
+    assert client.stop()["frame"]["name"] == "Waiting"
+
+
 def verdict(client: Client, outcome: str, exit_code: int) -> dict[str, Any]:
     """Let a test run to its end; return its result."""
     client.request("continue", threadId=1)
@@ -337,7 +383,7 @@ def test_the_first_seed_with_which_a_test_fails_is_debugged(
     client.launch(test=name, stopOnEntry=True)
     client.stop()
     first = judged["failed_seeds"][0]
-    assert client.output.startswith(f"seed {first} of 6 seeds, the first that fails\n")
+    assert client.output.startswith(f"seed {first} is the first of 6 that fails\n")
     assert client.go("continue")["reason"] == "exception"
     # It may fail with some.
     result = verdict(client, "passed", 0)

@@ -11,7 +11,7 @@ import type { Server } from "./server.ts";
 import { chooseScenario, chooseSubject } from "./simulate.ts";
 import type { Simulated } from "./subject.ts";
 
-const TYPE = "swarm";
+export const TYPE = "swarm";
 const MOVED = "swarmMoved";
 
 /** Event that would do something now, with data to fill in if it has any. */

@@ -62,6 +62,16 @@ steps = [{ send = "MissionStart" }, { all = "rover", in = "Mission.Rescue.Bid" }
 name  = "time passes"
 steps = [{ pass = "1 s" }]
 """
+SLOW = """[[test]]
+name    = "quick"
+machine = "RoverRescue"
+steps   = [{ in = "Bid", for = "1 s" }]
+
+[[test]]
+name  = "slow one"
+seeds = 10000
+steps = [{ send = "MissionStart" }, { pass = "30 min" }]
+"""
 LAMPS = Path(__file__).resolve().parents[2] / "debugger" / "lamps.swarm"
 PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
 
@@ -286,6 +296,22 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     row.locator(".monaco-tl-twistie").click()
     test = rows.filter(has_text="rovers bid at once")
     expect(rows).to_have_count(4)
+
+    window.place("behaviours.swarm", "on MissionStart -> Mission")
+    window.press("F9")
+    window.command("Testing: Focus on Test Explorer View")
+    test.hover()
+    test.locator(".codicon-testing-debug-icon").click()
+    expect(page.locator(".debug-top-stack-frame-line")).not_to_have_count(0)
+    window.command("Debug: Continue")
+    why = "wrong.swarmtest.toml:3: expected all `rover` in `Mission.Rescue.Bid`"
+    expect(page.locator(".exception-widget")).to_contain_text(why)
+    window.command("Debug: Continue")
+    window.command("Testing: Focus on Test Explorer View")
+    expect(test.locator(failed)).to_have_count(1)
+    expect(rows.locator(passed)).to_have_count(0)
+    window.command("Remove All Breakpoints")
+
     window.command("Test: Run All Tests with Coverage")
     expect(test.locator(failed)).to_have_count(1)
     expect(rows.filter(has_text="time passes").locator(passed)).to_have_count(1)
@@ -303,8 +329,9 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     expect(hit.filter(has_text=re.compile("^36$"))).to_have_count(0)
 
     window.leave()
-    test.hover()
-    test.locator(".codicon-testing-debug-icon").click()
+    test.click(button="right")
+    page.locator(".monaco-menu").get_by_text("Execute Using Profile...").click()
+    window.choose("Play")
     run = window.view()
     expect(run.locator("#about")).to_contain_text("SearchAndRescue")
     expect(run.locator("body")).to_contain_text("SW1101")
@@ -327,6 +354,32 @@ def test_tests_run_in_the_test_view(window: Window) -> None:
     expect(row).to_have_count(0)
     (window.folder / "again.swarmtest.toml").unlink()
     expect(rows).to_have_count(1)
+    window.command("View: Show Explorer")
+
+
+def test_tests_run_on_save_until_they_are_cancelled(window: Window) -> None:
+    (window.folder / "slow.swarmtest.toml").write_text(SLOW, encoding="utf-8")
+    window.command("Testing: Focus on Test Explorer View")
+    rows = window.page.locator(".test-explorer .monaco-list-row")
+    icons = {each: f".codicon-testing-{each}-icon" for each in ("passed", "failed", "skipped")}
+    rows.filter(has_text="slow.swarmtest.toml").locator(".monaco-tl-twistie").click()
+    quick, slow = (rows.filter(has_text=each) for each in ("quick", "slow one"))
+    quick.hover()
+    quick.get_by_role("button", name="Turn on Continuous Run").click()
+    window.open("sar.swarm")  # an input has the files of the one before, and this one is new
+    for before, state, result in (("Bid", "Idle", "passed"), ("Idle", "Ready", "failed")):
+        window.place("slow.swarmtest.toml", before)
+        window.press("Control+Shift+ArrowRight")
+        window.page.keyboard.insert_text(state)
+        window.saved("slow.swarmtest.toml", lambda now, state=state: f'"{state}"' in now)
+        expect(quick.locator(icons[result])).to_have_count(1)
+    window.command("Test: Stop Continuous Run")
+
+    slow.hover()
+    slow.locator(".codicon-testing-run-icon").click()
+    expect(slow.locator(".codicon-loading")).to_have_count(1)
+    window.command("Test: Cancel Test Run")
+    expect(slow.locator(icons["skipped"])).to_have_count(1)
     window.command("View: Show Explorer")
 
 

@@ -95,6 +95,9 @@ class Window:
         ).first
 
         def ask() -> None:
+            if self._asked.count():
+                self.press("Escape")  # an open input keeps its list of files
+                expect(self._asked).to_have_count(0, timeout=_SOON)
             self.press(key)
             self._entry.fill(text, timeout=_SOON)
 

@@ -17,18 +17,24 @@ export function exploreTests(server: Server): vscode.Disposable {
   const tree = new Tree(controller);
   const discovery = new Discovery(server, tree);
   const runs = new Runs(controller, server, tree);
-  const profile = (label: string, kind: Kind, of: vscode.TestRunProfileKind): vscode.TestRunProfile =>
+  const profile = (
+    label: string,
+    kind: Kind,
+    of: vscode.TestRunProfileKind,
+    isDefault = true,
+  ): vscode.TestRunProfile =>
     controller.createRunProfile(
       label,
       of,
       (request, token) =>
         request.continuous ? runOnSave(runs, tree, request, kind, token) : runs.run(request, kind, token),
-      true,
+      isDefault,
       undefined,
-      kind !== "debug",
+      kind === "run" || kind === "coverage",
     );
   profile("Run", "run", vscode.TestRunProfileKind.Run);
-  profile("Play", "debug", vscode.TestRunProfileKind.Debug);
+  profile("Play", "play", vscode.TestRunProfileKind.Run, false);
+  profile("Debug", "debug", vscode.TestRunProfileKind.Debug);
   const coverage = profile("Run with Coverage", "coverage", vscode.TestRunProfileKind.Coverage);
   coverage.loadDetailedCoverage = async (_run, file) =>
     file instanceof SwarmCoverage ? [...file.details] : [];

@@ -26,7 +26,7 @@ interface Listener {
   text?(text: string): void;
 }
 
-interface Cancelled {
+export interface Cancelled {
   onCancellationRequested(listener: () => void): { dispose(): void };
   readonly isCancellationRequested: boolean;
 }

@@ -10,7 +10,8 @@ import { showPage } from "../play.ts";
 import type { Server } from "../server.ts";
 import { Texts } from "./columns.ts";
 import { coverageOf } from "./coverage.ts";
-import { chosen, type Ended, runTests } from "./process.ts";
+import { debugTest } from "./debugging.ts";
+import { type Cancelled, chosen, type Ended, runTests } from "./process.ts";
 import {
   type CoverageRecord,
   described,
@@ -25,7 +26,7 @@ import { locationOf, type Tree } from "./tree.ts";
 // Characters of what swarmc tells that a message has.
 const LONGEST_TEXT = 2000;
 
-export type Kind = "run" | "debug" | "coverage";
+export type Kind = "run" | "play" | "debug" | "coverage";
 
 export class Runs {
   private readonly controller: vscode.TestController;
@@ -38,7 +39,11 @@ export class Runs {
     this.tree = tree;
   }
 
-  /** Run the tests of a request; of kind `debug`, play the first that fails or the only one. */
+  /**
+   * Run the tests of a request; of kind `play`, play the first that fails or the only one.
+   *
+   * Of kind `debug`, they run one after the other.
+   */
   async run(
     request: vscode.TestRunRequest,
     kind: Kind,
@@ -59,12 +64,17 @@ export class Runs {
       return;
     }
     const texts = new Texts();
-    const pages = kind === "debug" ? await mkdtemp(join(tmpdir(), "swarm-")) : undefined;
+    const stopped = either(token, run.token);
+    if (kind === "debug") {
+      await this.debug(run, all, texts, stopped);
+      run.end();
+      return;
+    }
+    const pages = kind === "play" ? await mkdtemp(join(tmpdir(), "swarm-")) : undefined;
     const page = pages && join(pages, "run.html");
     const pending = new Set(all);
     const coverage: CoverageRecord[] = [];
     let end: EndRecord | undefined;
-    const stopped = either(token, run.token);
     const args = ["--results", "-", ...(kind === "coverage" ? ["--coverage"] : [])];
     args.push(...(page ? ["--play", page] : []), ...chosen(files, tests));
     const ended = await runTests(
@@ -101,6 +111,36 @@ export class Runs {
           "There is no run to play: of several tests, the first that fails is played. See the test results.",
         );
       }
+    }
+  }
+
+  /** Debug tests until a session ends without a result: the user has had enough. */
+  private async debug(
+    run: vscode.TestRun,
+    items: readonly vscode.TestItem[],
+    texts: Texts,
+    stopped: Cancelled,
+  ): Promise<void> {
+    let goesOn = true;
+    for (const item of items) {
+      if (!goesOn || stopped.isCancellationRequested) {
+        run.skipped(item);
+        continue;
+      }
+      run.started(item);
+      // A file that cannot be read may have no tests.
+      const id = this.tree.testOf(item)?.id ?? item.uri?.fsPath ?? "";
+      const { started, result } = await debugTest(id, item, run, stopped);
+      if (result) {
+        // The time would include that of the user.
+        const { seconds: _, ...timeless } = result;
+        showResult(run, item, timeless, texts);
+      } else if (started) {
+        run.skipped(item);
+      } else {
+        run.errored(item, placed("The debugger did not start: see its message.", item));
+      }
+      goesOn = started && result !== undefined;
     }
   }
 

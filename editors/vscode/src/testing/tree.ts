@@ -105,8 +105,11 @@ export class Tree {
   }
 }
 
+/** Text of problems, errors first; undefined without any. */
 function problemText(problems: readonly Problem[]): string | undefined {
-  return problems.length ? problems.map(described).join("\n\n") : undefined;
+  const isError = ({ severity }: Problem): boolean => severity === "error";
+  const sorted = [...problems.filter(isError), ...problems.filter((each) => !isError(each))];
+  return sorted.length ? sorted.map(described).join("\n\n") : undefined;
 }
 
 /** Place of a problem; undefined without one. */

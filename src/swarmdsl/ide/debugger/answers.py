@@ -38,6 +38,9 @@ def _set_breakpoints(session: Session, arguments: Arguments) -> Body:
         for each in asked
     ]
     found = controls.breakpoints.replace(path, moved)
+    if asked and session.places is not None and session.places.has_changed(path):
+        hint = "has changed since the run began: restart to run it as it is now"
+        session.tell(f"{Path(path).name} {hint}", "stderr")
     return {
         "breakpoints": [
             {**each, "line": each["line"] - shift} if "line" in each else each for each in found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -17,8 +18,12 @@ from swarmdsl.execution.testing.run_case import run_case
 from swarmdsl.execution.testing.run_result import Failure, RunResult
 from swarmdsl.execution.testing.selection import chosen_files, read_selection, report_missing
 from swarmdsl.execution.testing.verdict import judge_runs
+from swarmdsl.ide.debugger.launch_keys import MODEL_KEYS
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, as_path, optional, required
-from swarmdsl.ide.debugger.programs import MODEL_KEYS, Stage, distinct_machines
+from swarmdsl.ide.debugger.programs import Stage, distinct_machines
+
+_SEARCH = 3.0
+"""Longest search for a seed that fails, in seconds; the others run when the shown one is over."""
 
 
 class TestProgram:
@@ -44,12 +49,7 @@ class TestProgram:
     def play(self, stage: Stage) -> str:
         """Run once; return why it is over."""
         if self._shown is None:
-            failing = (seed for seed in self._seeds if self._result(seed, stage).failure)
-            failed = next(failing, None)
-            self._shown = self._seeds[0] if failed is None else failed
-            count = len(self._seeds)
-            why = "which all pass" if failed is None else "the first that fails"
-            stage.tell(f"seed {self._shown} of {count} seeds, {why}")
+            self._shown = self._choose(stage)
         shown = run_case(self._case, self._shown, stage.see, _Opened(stage), stage.pace)
         if shown.failure is not None:
             stage.fail(_described(shown.failure))
@@ -62,6 +62,21 @@ class TestProgram:
         verdict.report(report)
         stage.judged(result_record(self._path, self._name, verdict, tuple(report)))
         return f"the test `{self._name}` {'passes' if verdict.passed else 'fails'}"
+
+    def _choose(self, stage: Stage) -> int:
+        """Return the seed to show: the first with which the test fails, found in a short time."""
+        began = time.monotonic()
+        for number, seed in enumerate(self._seeds):
+            if time.monotonic() - began > _SEARCH:
+                stage.tell(f"the first {number} of {len(self._seeds)} seeds pass")
+                break
+            if self._result(seed, stage).failure is not None:
+                stage.tell(f"seed {seed} is the first of {len(self._seeds)} that fails")
+                return seed
+        else:
+            stage.tell(f"all {len(self._seeds)} seeds pass")
+        stage.tell(f"this is seed {self._seeds[0]}")
+        return self._seeds[0]
 
     def _result(self, seed: int, stage: Stage) -> RunResult:
         """Return the result of an unseen run."""
@@ -94,8 +109,8 @@ def _described(failure: Failure) -> str:
     fields: dict[str, Any] = {**failure.fields}
     report.report(failure.code, failure.place, label=failure.label, **fields)
     (found,) = report
-    place = failure.place.source.name
-    return f"{place}:{failure.place.line}: {found.message}: {failure.label}"
+    file = Path(failure.place.source.name).name
+    return f"{file}:{failure.place.line}: {found.message}: {failure.label}"
 
 
 def load_test(

@@ -6,14 +6,19 @@ import operator
 import os
 import re
 from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
 from typing import Any
 
+from swarmdsl import ir
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.ide.debugger.expressions import Evaluate, Expressions
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required
 from swarmdsl.ide.debugger.points import Element
+from swarmdsl.project.read_source import read_source
+from swarmdsl.syntax.types import BOOL
 
 _COUNT = re.compile(r"\s*(>=|<=|==|=|>|<|%)?\s*(\d{1,9})\s*")
 _COMPARED: Mapping[str, Callable[[int, int], bool]] = {
@@ -42,7 +47,8 @@ class Places:
 
     def __init__(self, subject: Subject, machines: Iterable[Machine]) -> None:
         self._of: dict[int, Place] = {}
-        self._machines: dict[tuple[str, int], str] = {}
+        self._texts: dict[str, str] = {}
+        self._owners: dict[tuple[str, int], set[tuple[str, str]]] = {}
         for machine in machines:
             for state in machine.states:
                 elements: list[Element] = [state, *state.transitions]
@@ -54,19 +60,28 @@ class Places:
                     path = os.path.realpath(at.source.path or "")
                     place = Place(path, *at.source.line_column(at.start))
                     self._of[id(element.origin)] = place
-                    self._machines.setdefault((path, place.line), machine.name)
+                    self._texts[path] = at.source.text
+                    owners = self._owners.setdefault((path, place.line), set())
+                    owners.add((machine.name, state.id))
 
     def of(self, element: Element) -> Place | None:
         """Return the place of a state or transition."""
         return self._of.get(id(element.origin))
 
-    def machine(self, path: str, line: int) -> str:
-        """Return the name of a machine that has something at a line."""
-        return self._machines[path, line]
+    def has_changed(self, path: str) -> bool:
+        """Return True if a file is not any more what runs."""
+        if path not in self._texts:
+            return False
+        source = read_source(Path(path), None, Diagnostics())
+        return source is None or source.text != self._texts[path]
+
+    def owners(self, path: str, line: int) -> list[tuple[str, str]]:
+        """Return the machines and the states that have something at a line."""
+        return sorted(self._owners[path, line])
 
     def lines(self, path: str, first: int, last: int | None = None) -> list[int]:
         """Return the lines of a file on which a run can stop, from the first to the last."""
-        lines = (line for at, line in self._machines if at == path)
+        lines = (line for at, line in self._owners if at == path)
         return sorted(each for each in lines if each >= first and (last is None or each <= last))
 
 
@@ -161,10 +176,23 @@ class Breakpoints:
         if line is None:
             raise RequestError("no state or transition of a machine that runs is here or below")
         made = Breakpoint(line, asked)
-        for text in (made.condition, *_BRACES.findall(made.message)):
-            if text:
-                self._expressions.check(text, self._places.machine(path, line))
+        if made.condition:
+            type_ = self._type(made.condition, path, line)
+            if type_ not in (BOOL, None):
+                raise RequestError(f"a condition is true or false, but this is a `{type_}`")
+        for text in filter(None, _BRACES.findall(made.message)):
+            self._type(text, path, line)
         return made
+
+    def _type(self, text: str, path: str, line: int) -> ir.Type | None:
+        """Return the type of an expression at a line, if it is known."""
+        faults = []
+        for machine, state in self._places.owners(path, line):
+            try:
+                return self._expressions.check(text, machine, state)
+            except RequestError as error:
+                faults.append(error)
+        raise faults[0]
 
     def begin(self) -> None:
         """Count hits from 0, for a new run."""

@@ -115,6 +115,8 @@ class Controls:
         self.finds = False
         """True while the last breakpoint before a point is looked for."""
         self.wants_pause = False
+        self.stops = True
+        """False if the run goes to its end without the user."""
         self._client = client
         self._expressions = expressions
         self.reset()
@@ -238,6 +240,10 @@ class Controls:
         self.point = Point(kind, member, element, line)
         if kind in ("moment", "idle"):
             self.moments.append(self.number)
+        if not self.stops:
+            if kind != "microstep":
+                self._client.poll()
+            return
         is_hit = element is not None and self._is_hit(element, member)
         if is_hit:
             self.hit.append(self.number)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from functools import cached_property
 from typing import Any
 
@@ -75,17 +77,20 @@ class Expressions:
         except KeyError as error:
             raise RequestError(f"it has no value in this run: {error}") from error
 
-    def check(self, text: str, machine: str) -> None:
-        """Raise RequestError if a text is no expression in a machine, in any of its states."""
-        faults = []
-        for state in ("", *self._states(machine)):
-            try:
-                self._compiled(text, machine, state, "")
-            except RequestError as error:
-                faults.append(error)
-            else:
-                return
-        raise faults[0]
+    def check(self, text: str, machine: str, state: str) -> ir.Type | None:
+        """Return the type of an expression in a state of a machine, if it is known.
+
+        It may use the data of any event. Raises RequestError for a text that is no expression.
+        """
+        try:
+            return self._compiled(text, machine, state, "")[1]
+        except RequestError as error:
+            fault = error
+        if self._scope is not None and re.search(r"\bevent\b", text):
+            for event in self._scope.events:
+                with suppress(RequestError):
+                    return self._compiled(text, machine, state, event)[1]
+        raise fault
 
     def _types(self, machine: str) -> Mapping[str, ir.Type]:
         lowered = self._lowered.get(machine)
@@ -98,10 +103,6 @@ class Expressions:
     def _lowered(self) -> Mapping[str, ir.StateMachine]:
         system = self._subject.system
         return system.machines_by_name if system is not None else {}
-
-    def _states(self, machine: str) -> list[str]:
-        lowered = self._lowered.get(machine)
-        return [state.id for state in lowered.walk()] if lowered is not None else []
 
     def _compiled(self, text: str, machine: str, state: str, event: str) -> _Compiled:
         key = (text, machine, state, event)

@@ -31,6 +31,9 @@ class Session(Protocol):
     def event(self, name: str, body: Body = None) -> None:
         """Send an event to the client."""
 
+    def tell(self, text: str, category: str = "stdout") -> None:
+        """Tell the user a line."""
+
     def after_answer(self, act: Callable[[], None]) -> None:
         """Do something when the present request has been answered."""
 

@@ -21,17 +21,6 @@ from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, as_path, optional, texts
 
-MODEL_KEYS = (
-    "program",
-    "swarm",
-    "machine",
-    "scenario",
-    "events",
-    "world",
-    "until",
-)
-"""Launch arguments that are about a model, and not about a test."""
-
 
 class Stage(Protocol):
     """Follower of a run, which can hold it in each call."""

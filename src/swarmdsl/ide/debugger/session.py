@@ -22,6 +22,7 @@ from swarmdsl.ide.debugger.breakpoints import Breakpoints, Places
 from swarmdsl.ide.debugger.controls import GO_ON, Controls, EndedError, RunAgainError
 from swarmdsl.ide.debugger.expressions import Expressions
 from swarmdsl.ide.debugger.inspection import Inspection
+from swarmdsl.ide.debugger.launch_keys import misspelled
 from swarmdsl.ide.debugger.messages import (
     Arguments,
     Connection,
@@ -139,6 +140,8 @@ class Session:
         report = Diagnostics()
         folder = Path(as_path(optional(arguments, "cwd", str) or ""))
         speed = speed_of(arguments)
+        for hint in misspelled(arguments):
+            self.tell(hint, "stderr")
         program: Program | None
         if arguments.get("test") in (None, ""):
             program = load_model(arguments, folder, report)
@@ -156,6 +159,7 @@ class Session:
         breakpoints = Breakpoints(self.places, expressions)
         self.controls = Controls(subject, self, breakpoints, expressions, speed)
         self.inspection = Inspection(self.controls)
+        self.controls.stops = not optional(arguments, "noDebug", bool)
         if optional(arguments, "stopOnEntry", bool):
             self.controls.way = Way("moment")
 
