@@ -11,6 +11,7 @@ from swarmdsl.tools.diagram.layout.compound import Compound
 from swarmdsl.tools.diagram.layout.directions import choose_directions, fitted_size, uniform
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.routing import simplify
+from swarmdsl.tools.diagram.layout.texts import Texts
 from swarmdsl.tools.diagram.measure import width
 from swarmdsl.tools.diagram.shapes import PORT, PSEUDO_STATES, Direction, port_text
 from swarmdsl.tools.diagram.text_blocks import Block
@@ -73,14 +74,15 @@ class Picture:
 def lay_out(diagram: Diagram, direction: Direction | None = None) -> Picture:
     """Lay out a diagram; without a direction, each level in the one that fits a page best."""
     routes = EdgeRoutes(diagram)
+    texts = Texts(diagram, routes.right_ports)
     if direction is None and diagram.kind != "statechart":
         direction = "right" if diagram.kind == "internal" else "down"
     if direction is not None:
-        return _picture(Compound(diagram, routes, uniform(diagram, direction)))
-    choices = list(choose_directions(diagram, routes))
+        return _picture(Compound(diagram, routes, texts, uniform(diagram, direction)))
+    choices = list(choose_directions(diagram, routes, texts))
     if len(routes.nodes) > _MAX_TRIED:
         choices = choices[:1]
-    pictures = [_picture(Compound(diagram, routes, directions)) for directions in choices]
+    pictures = [_picture(Compound(diagram, routes, texts, each)) for each in choices]
     return min(pictures, key=lambda each: fitted_size(each.width, each.height))
 
 

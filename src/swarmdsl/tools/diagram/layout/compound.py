@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 
 from swarmdsl.codegen.diagram.graph import Diagram, Node
 from swarmdsl.tools.diagram.layout.cell_sides import END_GAP
+from swarmdsl.tools.diagram.layout.chains import LABEL_GAP
 from swarmdsl.tools.diagram.layout.container_layout import ContainerLayout, along_across
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.layered import layered
@@ -19,16 +20,14 @@ from swarmdsl.tools.diagram.layout.level import PORT_LINE, Level
 from swarmdsl.tools.diagram.layout.level_orders import order_levels
 from swarmdsl.tools.diagram.layout.loops import Loop, loop_room
 from swarmdsl.tools.diagram.layout.regions import place_regions, stretch_regions
-from swarmdsl.tools.diagram.layout.straightening import LABEL_GAP
+from swarmdsl.tools.diagram.layout.texts import Texts
 from swarmdsl.tools.diagram.shapes import (
     PSEUDO_STATES,
     Direction,
     Shape,
     resized,
-    shape_of,
     with_indent,
 )
-from swarmdsl.tools.diagram.text_blocks import Block, label_block
 
 PADDING = 18
 _REGION_PADDING = 14
@@ -41,16 +40,17 @@ class Compound:
     """Layouts of all containers of a diagram, each in its direction."""
 
     def __init__(
-        self, diagram: Diagram, edge_routes: EdgeRoutes, directions: Mapping[str, Direction]
+        self,
+        diagram: Diagram,
+        edge_routes: EdgeRoutes,
+        texts: Texts,
+        directions: Mapping[str, Direction],
     ) -> None:
         self.diagram = diagram
         self.directions = directions
         self.edge_routes = edge_routes
-        self.labels: dict[int, Block] = {
-            number: label_block(edge.label)
-            for number, edge in enumerate(diagram.edges)
-            if edge.label
-        }
+        self.texts = texts
+        self.labels = texts.labels
         self.layouts: dict[str, ContainerLayout] = {}
         self.levels: dict[str, Level] = {}
         self._make_levels(diagram.frame, directions[diagram.frame.id])
@@ -70,7 +70,7 @@ class Compound:
 
         `around` is the direction of the layout that it is in, and `title` its minimum width.
         """
-        shape = shape_of(node, around, self.edge_routes.right_ports)
+        shape = self.texts.shape(node, around)
         first_title = max(title, shape.width) if node.kind == "parallel" else 0
         for at, child in enumerate(node.nodes):
             self._lay_out(child, self.directions[node.id], 0 if at else first_title)

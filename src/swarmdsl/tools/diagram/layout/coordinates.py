@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from heapq import heappop, heappush
 
 from swarmdsl.tools.diagram.layout.cell_sides import CellSide, cell_sides
+from swarmdsl.tools.diagram.layout.chains import LINE_GAP
 from swarmdsl.tools.diagram.layout.layered_graph import Cell, Layers, Link
-from swarmdsl.tools.diagram.layout.straightening import LINE_GAP, Straightener
+from swarmdsl.tools.diagram.layout.straightening import Straightener
 
 
 def assign_coordinates(

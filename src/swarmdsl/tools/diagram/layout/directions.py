@@ -14,6 +14,7 @@ from math import log
 from swarmdsl.codegen.diagram.graph import Diagram, Node
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.size_estimate import Sizes
+from swarmdsl.tools.diagram.layout.texts import Texts
 from swarmdsl.tools.diagram.shapes import Direction
 
 ASPECT = 1.6
@@ -38,12 +39,12 @@ def fitted_size(wide: int, high: int) -> float:
     return max(wide / ASPECT, high) + 0.2 * abs(log(wide / high / ASPECT))
 
 
-def choose_directions(diagram: Diagram, routes: EdgeRoutes) -> Iterator[Directions]:
+def choose_directions(diagram: Diagram, routes: EdgeRoutes, texts: Texts) -> Iterator[Directions]:
     """Yield the best directions with the whole downwards, and with it to the right.
 
     They are yielded best first, by the estimate.
     """
-    sizes = Sizes(diagram, routes)
+    sizes = Sizes(routes, texts)
     containers = [node for node in diagram.frame.walk() if node.nodes]
     found: list[tuple[float, int, Directions]] = []
     for start in _OTHER:
@@ -86,12 +87,15 @@ def _search(
     def size(chosen: Mapping[str, Direction]) -> float:
         return fitted_size(*sizes.of(diagram.frame, chosen))
 
+    aligned = list(_aligned(diagram.frame, routes))
+
     least = size(directions)
     for _ in range(_ROUNDS):
         before = least
         for move in moves:
             turned = directions | {each: _OTHER[directions[each]] for each in move}
-            _align(diagram.frame, turned, routes)
+            for state, container in aligned:
+                turned[state] = turned[container]
             if (found := size(turned)) < least * (1 - _LEAST_GAIN):
                 least = found
                 directions.update(turned)
@@ -100,12 +104,13 @@ def _search(
     return least
 
 
-def _align(node: Node, directions: Directions, routes: EdgeRoutes) -> None:
-    """Give states with regions that edges enter or leave the direction around them.
+def _aligned(node: Node, routes: EdgeRoutes) -> Iterator[tuple[str, str]]:
+    """Yield states with the container whose direction they have, from the outside in.
 
-    Regions fill their state, so that there is no room in which such an edge could turn.
+    States with regions that edges enter or leave: regions fill their state, so that there is no
+    room in which such an edge could turn.
     """
     for child in node.nodes:
         if child.kind == "parallel" and routes.inner[child.id]:
-            directions[child.id] = directions[node.id]
-        _align(child, directions, routes)
+            yield child.id, node.id
+        yield from _aligned(child, routes)

@@ -5,16 +5,13 @@ from __future__ import annotations
 from swarmdsl.tools.diagram.layout.coordinates import assign_coordinates
 from swarmdsl.tools.diagram.layout.layered_graph import Placement
 from swarmdsl.tools.diagram.layout.level import Level
-from swarmdsl.tools.diagram.layout.ordering import order
 from swarmdsl.tools.diagram.layout.routing import route
 
 
 def layered(level: Level, in_row: bool) -> Placement:
-    """Lay out the cells and links of a container whose cells have their sizes.
+    """Lay out the cells and links of a container whose cells have their order and sizes.
 
     With `in_row`, the cells of a layer are aligned at their start.
     """
-    if not level.is_ordered:
-        order(level.layers)
     assign_coordinates(level.layers, level.cells, level.links, level.pitch, level.label_before)
     return route(level.layers, level.cells, level.links, level.pitch, in_row)

@@ -67,7 +67,7 @@ class Placement:
     labels: list[Point | None]
 
 
-@dataclass
+@dataclass(eq=False)
 class Vertex:
     """A cell, or the crossing of a link with a layer.
 
@@ -91,7 +91,7 @@ class Vertex:
         return self.layer + (self.beyond or 0) * (side == "last")
 
 
-@dataclass
+@dataclass(eq=False)
 class End:
     """End of a segment on a side of a vertex, at `at` from its corner."""
 
@@ -106,7 +106,7 @@ class End:
         return self.vertex.across + self.at
 
 
-@dataclass
+@dataclass(eq=False)
 class Segment:
     """Part of a link in gap `gap`, which precedes the layer of that number.
 

@@ -10,6 +10,7 @@ from swarmdsl.tools.diagram.layout.container_layout import along_across
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes, Route
 from swarmdsl.tools.diagram.layout.layered_graph import Cell, End, Link, Side
 from swarmdsl.tools.diagram.layout.layering import make_layers
+from swarmdsl.tools.diagram.layout.ordering import Ordering
 from swarmdsl.tools.diagram.measure import width
 from swarmdsl.tools.diagram.shapes import PORT, Direction, port_text
 from swarmdsl.tools.diagram.text_blocks import Block
@@ -70,7 +71,8 @@ class Level:
         left_out = {id(vertex) for vertex in self.reserved.values()}
         for layer in self.layers.layers if left_out else ():
             layer[:] = [vertex for vertex in layer if id(vertex) not in left_out]
-        self.is_ordered = False
+        self.ordering = Ordering(self.layers)
+        self.outer_ends = self._outer_ends()
 
     def _layered(self) -> list[Link]:
         return [] if self.beside else self.links
@@ -134,7 +136,7 @@ class Level:
         found: list[tuple[int, str, End, End]] = []
         if self.beside:
             return found
-        firsts, lasts = self._outer_segments()
+        firsts, lasts = self.outer_ends
         for link, number in enumerate(self.numbers):
             route = self.routes.routes[number]
             leg = next(at for at, each in enumerate(route.legs) if each[0] == self.node.id)
@@ -145,7 +147,7 @@ class Level:
                 found.append((number, target, *lasts[link]))
         return found
 
-    def _outer_segments(self) -> tuple[dict[int, tuple[End, End]], dict[int, tuple[End, End]]]:
+    def _outer_ends(self) -> tuple[dict[int, tuple[End, End]], dict[int, tuple[End, End]]]:
         """First and last ends of each link, with the other ends of their segments."""
         firsts: dict[int, tuple[End, End]] = {}
         lasts: dict[int, tuple[End, End]] = {}
@@ -156,7 +158,7 @@ class Level:
 
     def other_ends(self, child: str, numbers: Collection[int]) -> dict[int, End]:
         """Return the other ends of the segments at a child, of edges with these numbers."""
-        firsts, lasts = self._outer_segments()
+        firsts, lasts = self.outer_ends
         at = self.cell_of(next(at for at, each in enumerate(self.node.nodes) if each.id == child))
         found = {}
         for link, number in enumerate(self.numbers):
@@ -170,6 +172,6 @@ class Level:
         for vertex in self.layers.cells:
             cell = self.cells[vertex.cell or 0]
             vertex.length, vertex.breadth = cell.length, cell.breadth
-        firsts, lasts = self._outer_segments()
+        firsts, lasts = self.outer_ends
         for at, link in enumerate(self._layered()):
             firsts[at][0].at, lasts[at][0].at = link.source_at, link.target_at

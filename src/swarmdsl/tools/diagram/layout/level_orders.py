@@ -14,7 +14,6 @@ from collections.abc import Mapping, Sequence
 from swarmdsl.codegen.diagram.graph import Node
 from swarmdsl.tools.diagram.layout.layered_graph import Side, Vertex
 from swarmdsl.tools.diagram.layout.level import Level
-from swarmdsl.tools.diagram.layout.ordering import order
 
 _ROUNDS = 3
 _MAX_SWEPT = 2_000
@@ -29,15 +28,14 @@ _Wishes = dict[int, tuple[Side, float]]
 
 
 def order_levels(frame: Node, levels: Mapping[str, Level]) -> None:
-    """Order the layers of all levels in which edges cross borders."""
+    """Order the layers of all levels."""
     nested = [levels[node.id] for node in frame.walk() if node.id in levels]
-    if not any(level.border.cells for level in nested):
-        return
     orders = _Orders(nested)
     orders.inside_out({})
     least, best = orders.crossings(), orders.taken()
     count = sum(len(layer) for level in nested for layer in level.layers.layers)
-    for _ in range(_ROUNDS if count <= _MAX_SWEPT else 0):
+    crossed = any(level.border.cells for level in nested)
+    for _ in range(_ROUNDS if crossed and count <= _MAX_SWEPT else 0):
         if not least:
             break
         orders.outside_in()
@@ -131,9 +129,7 @@ class _Orders:
         for pairs in around.values():
             pairs.sort(key=lambda pair: pair[0])
             outside.append([vertex for _, vertex in pairs])
-        again = level.is_ordered
-        self._count[level.node.id] = order(level.layers, outside[0], outside[1], again)
-        level.is_ordered = True
+        self._count[level.node.id] = level.ordering.improve(*outside)
 
     def _place(self, level: Level) -> None:
         """Give the crossings of a level their places for the level around it."""
@@ -188,12 +184,9 @@ class _Orders:
     def crossings(self) -> int:
         return sum(self._count.values())
 
-    def taken(self) -> list[list[list[Vertex]]]:
-        return [[list(layer) for layer in level.layers.layers] for level in self.levels]
+    def taken(self) -> list[list[list[int]]]:
+        return [level.ordering.taken() for level in self.levels]
 
-    def restore(self, taken: Sequence[Sequence[list[Vertex]]]) -> None:
+    def restore(self, taken: Sequence[Sequence[Sequence[int]]]) -> None:
         for level, layers in zip(self.levels, taken, strict=True):
-            level.layers.layers[:] = [list(layer) for layer in layers]
-            for layer in level.layers.layers:
-                for at, vertex in enumerate(layer):
-                    vertex.order = at
+            level.ordering.restore(layers)

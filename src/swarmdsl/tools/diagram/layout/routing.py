@@ -29,6 +29,8 @@ _NEAR = 6
 """Lines closer than this look like one."""
 _MAX_ORDERED = 80
 _OVERLAP_COST = 1000
+_ROUNDS = 4
+"""Number of times at most that each part is moved to a better place among the others."""
 
 
 @dataclass
@@ -169,8 +171,12 @@ def _assign_with_few_crossings(bars: Sequence[_Crossbar]) -> None:
             if first != second:
                 weight[at][number] = second - first
                 weight[number][at] = first - second
-    place = _greedy_order(weight)
-    for at in sorted(range(len(bars)), key=place.__getitem__):
+    order = _greedy_order(weight)
+    _insert_better(order, weight)
+    place = [0] * len(bars)
+    for number, at in enumerate(order):
+        place[at] = number
+    for at in order:
         tracks = [bars[each].track + 1 for each in before[at] if place[each] < place[at]]
         bars[at].track = max(tracks, default=0)
 
@@ -195,17 +201,42 @@ def _cost(one: _Crossbar, other: _Crossbar) -> int:
 
 
 def _greedy_order(weight: Sequence[dict[int, int]]) -> list[int]:
-    """Rank of each bar; next is always the one with the highest gain over the rest."""
+    """Order of the bars; next is always the one with the highest gain over the rest."""
     gain = [sum(each.values()) for each in weight]
     left = set(range(len(weight)))
-    place = [0] * len(weight)
-    for number in range(len(weight)):
+    found = []
+    while left:
         best = max(left, key=lambda at: (gain[at], -at))
         left.remove(best)
-        place[best] = number
+        found.append(best)
         for other, value in weight[best].items():
             gain[other] += value
-    return place
+    return found
+
+
+def _insert_better(order: list[int], weight: Sequence[dict[int, int]]) -> None:
+    """Move each bar to the place where it costs least, as long as that helps."""
+    for _ in range(_ROUNDS):
+        better = False
+        for bar in list(order):
+            if not (mine := weight[bar]):
+                continue
+            at = order.index(bar)
+            best, least, cost = at, 0, 0
+            for place in range(at + 1, len(order)):
+                cost += mine.get(order[place], 0)
+                if cost < least:
+                    best, least = place, cost
+            cost = 0
+            for place in range(at - 1, -1, -1):
+                cost -= mine.get(order[place], 0)
+                if cost < least:
+                    best, least = place, cost
+            if best != at:
+                order.insert(best, order.pop(at))
+                better = True
+        if not better:
+            return
 
 
 def _routes(

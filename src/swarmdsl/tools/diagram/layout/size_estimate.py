@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.codegen.diagram.graph import Diagram, Node
+from swarmdsl.codegen.diagram.graph import Node
+from swarmdsl.tools.diagram.layout.chains import LABEL_GAP, LINE_GAP, NODE_GAP
 from swarmdsl.tools.diagram.layout.container_layout import along_across
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.routing import TRACK
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
-from swarmdsl.tools.diagram.layout.straightening import LABEL_GAP, LINE_GAP, NODE_GAP
-from swarmdsl.tools.diagram.shapes import Direction, Shape, shape_of
-from swarmdsl.tools.diagram.text_blocks import label_block
+from swarmdsl.tools.diagram.layout.texts import Texts
+from swarmdsl.tools.diagram.shapes import Direction
 
 Size = tuple[int, int]
 _PADDING = 18
@@ -31,67 +31,85 @@ class _Layer:
     lines: int = 0
     segments: int = 0
 
+    def fixed(self, direction: Direction) -> tuple[list[str], int, int, int]:
+        """Ids of the children, and what does not depend on their sizes.
+
+        That are the length of the labels, the length of all else, and the breadth.
+        """
+        labels = [along_across(direction, *label) for label in self.labels]
+        breadth = sum(across for _, across in labels) + LABEL_GAP * len(labels)
+        return (
+            [child.id for child in self.children],
+            max((along for along, _ in labels), default=0),
+            _GAP + round(self.segments * _BENDING) * TRACK,
+            breadth + NODE_GAP * len(self.children) + LINE_GAP * self.lines,
+        )
+
 
 class Sizes:
     """Estimated sizes of the nodes of a diagram."""
 
-    def __init__(self, diagram: Diagram, routes: EdgeRoutes) -> None:
-        self._diagram = diagram
+    def __init__(self, routes: EdgeRoutes, texts: Texts) -> None:
         self._routes = routes
+        self._texts = texts
         self._layers: dict[str, list[_Layer]] = {}
-        self._shapes: dict[str, Shape] = {}
+        self._fixed: dict[tuple[str, Direction], list[tuple[list[str], int, int, int]]] = {}
         self._turning: dict[str, int] = {}
-        self._containers: dict[str, tuple[str, ...]] = {}
+        self._containers: dict[str, list[str]] = {}
+        self._leaves: dict[str, dict[str, Size]] = {}
         self._known: dict[tuple[str, Direction, tuple[Direction, ...]], Size] = {}
 
     def of(self, frame: Node, directions: Mapping[str, Direction]) -> Size:
         """Width and height of the diagram."""
+        if not frame.nodes:
+            return self._leaf(frame)
         return self._size(frame, directions[frame.id], directions)
 
     def _size(self, node: Node, around: Direction, directions: Mapping[str, Direction]) -> Size:
-        if not node.nodes:
-            shape = self._shape(node)
-            return shape.width, shape.height
-        turned = tuple(directions[each] for each in self._inside(node))
-        key = (node.id, around, turned)
-        if key not in self._known:
-            direction = directions[node.id]
-            inner = {child.id: self._size(child, direction, directions) for child in node.nodes}
-            self._known[key] = self._container(node, direction, around, inner)
-        return self._known[key]
-
-    def _shape(self, node: Node) -> Shape:
-        if node.id not in self._shapes:
-            self._shapes[node.id] = shape_of(node, "down", self._routes.right_ports)
-        return self._shapes[node.id]
-
-    def _inside(self, node: Node) -> tuple[str, ...]:
-        """Return the containers in a node, from itself down."""
+        """Size of a container."""
         if node.id not in self._containers:
-            self._containers[node.id] = tuple(each.id for each in node.walk() if each.nodes)
-        return self._containers[node.id]
+            self._containers[node.id] = [each.id for each in node.walk() if each.nodes]
+            leaves = [child for child in node.nodes if not child.nodes]
+            self._leaves[node.id] = {child.id: self._leaf(child) for child in leaves}
+        key = (node.id, around, tuple([directions[each] for each in self._containers[node.id]]))
+        found = self._known.get(key)
+        if found is None:
+            direction = directions[node.id]
+            sizes = dict(self._leaves[node.id])
+            for child in node.nodes:
+                if child.nodes:
+                    sizes[child.id] = self._size(child, direction, directions)
+            found = self._known[key] = self._container(node, direction, around, sizes)
+        return found
+
+    def _leaf(self, node: Node) -> Size:
+        shape = self._texts.shape(node, "down")
+        return shape.width, shape.height
 
     def _container(
         self, node: Node, direction: Direction, around: Direction, sizes: Mapping[str, Size]
     ) -> Size:
         if node.id not in self._layers:
             self._layers[node.id] = self._layered(node)
-        shape = self._shape(node)
-        layers = self._layers[node.id]
-        if node.kind == "parallel":
-            layers = [_Layer(list(node.nodes))]
+        if (node.id, direction) not in self._fixed:
+            layers = self._layers[node.id]
+            if node.kind == "parallel":
+                layers = [_Layer(list(node.nodes))]
+            self._fixed[node.id, direction] = [layer.fixed(direction) for layer in layers]
+        along, across = along_across(direction, 0, 1)
         length = breadth = 0
-        for layer in layers:
-            boxes = [along_across(direction, *sizes[child.id]) for child in layer.children]
-            labels = [along_across(direction, *label) for label in layer.labels]
-            length += max((along for along, _ in (*boxes, *labels)), default=0)
-            length += _GAP + round(layer.segments * _BENDING) * TRACK
-            across = sum(size for _, size in boxes) + NODE_GAP * len(boxes)
-            across += sum(size for _, size in labels) + LABEL_GAP * len(labels)
-            breadth = max(breadth, across + LINE_GAP * layer.lines)
+        for children, least_length, more_length, more_breadth in self._fixed[node.id, direction]:
+            layer_breadth = more_breadth
+            for child in children:
+                size = sizes[child]
+                least_length = max(least_length, size[along])
+                layer_breadth += size[across]
+            length += least_length + more_length
+            breadth = max(breadth, layer_breadth)
         if direction != around:
             length += self._turning.get(node.id, 0) * TRACK
         wide, high = along_across(direction, length, breadth)
+        shape = self._texts.shape(node, "down")
         wide, high = wide + 2 * _PADDING, high + 2 * _PADDING + shape.height
         return max(wide, shape.width), high
 
@@ -104,8 +122,8 @@ class Sizes:
             route = self._routes.routes[number]
             _, source, target = route.legs[leg]
             label: Size | None = None
-            if leg == route.labelled and route.edge.label:
-                block = label_block(route.edge.label)
+            if leg == route.labelled and number in self._texts.labels:
+                block = self._texts.labels[number]
                 label = block.width, block.height
             legs.append((route, leg, source, target, label))
             if source is not None and target is not None:

@@ -1,21 +1,20 @@
 """Coordinates across that make edges straight.
 
 A network of differences has a number for each vertex, and one for each end of an edge that can
-move on its cell. The weighted bends of edges are minimal: Gansner et al. 1993, section 4. Two more
-numbers are the bounds of the level. Their distance has a cost, so that a level is narrower where
-that needs few bends.
+move on its cell; vertices between which an edge stays straight share one. The weighted bends of
+edges are minimal: Gansner et al. 1993, section 4. Two more numbers are the bounds of the level.
+Their distance has a cost, so that a level is narrower where that needs few bends.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 from swarmdsl.tools.diagram.layout.cell_sides import CellSide
-from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Segment, Vertex
-from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
+from swarmdsl.tools.diagram.layout.chains import make_chains, takes_space
+from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Segment
+from swarmdsl.tools.diagram.layout.simplex import minimize
 
-NODE_GAP, LINE_GAP, LABEL_GAP = 26, 12, 12
 _NARROW = 8
 """Cost of the breadth of a level, per pixel; half of the number of its vertices is added."""
 
@@ -26,15 +25,13 @@ class Straightener:
     def __init__(self, layers: Layers, sides: Sequence[CellSide]) -> None:
         self.layers = layers
         self.sides = sides
-        self.constraints: list[Constraint] = []
-        self.places: list[int] = []
-        self.number: dict[int, int] = {}
+        self.chains = make_chains(layers)
+        self.constraints = self.chains.constraints
+        self.places = self.chains.places
         self.end_number: dict[int, int] = {}
 
     def place(self) -> None:
         """Set the positions of vertices and of movable ends, starting at 0."""
-        for layer in self.layers.layers:
-            self._add_layer(layer)
         self._add_bounds()
         for side in self.sides:
             self._add_ends(side)
@@ -47,46 +44,37 @@ class Straightener:
                 if id(end) in self.end_number:
                     # A slight preference for ends that are spread evenly.
                     assert end.at is not None
-                    number = self.end_number[id(end)]
-                    self._add_cost(self.number[id(end.vertex)], number, end.at, 1)
+                    cell = self.chains.number[id(end.vertex)]
+                    self._add_cost(cell, self.end_number[id(end)], end.at, 1)
         found = minimize(len(self.places), self.constraints, self.places)
-        least = min((found[at] for at in self.number.values()), default=0)
-        for layer in self.layers.layers:
-            for vertex in layer:
-                vertex.across = found[self.number[id(vertex)]] - least
+        vertices = [vertex for layer in self.layers.layers for vertex in layer]
+        for vertex in vertices:
+            vertex.across = found[self.chains.number[id(vertex)]] + self.chains.offset[id(vertex)]
+        least = min((vertex.across for vertex in vertices), default=0)
+        for vertex in vertices:
+            vertex.across -= least
         for side in self.sides:
             for end in side.ends:
                 if id(end) in self.end_number:
                     end.at = found[self.end_number[id(end)]] - least - end.vertex.across
 
-    def _add_layer(self, layer: Sequence[Vertex]) -> None:
-        place = 0
-        for vertex in layer:
-            self.number[id(vertex)] = len(self.places)
-            self.places.append(place)
-            place += vertex.breadth
-        for one, other in pairwise(layer):
-            room = one.breadth + _gap(one, other)
-            tail, head = self.number[id(one)], self.number[id(other)]
-            self.constraints.append((tail, head, room, 0))
-            self.places[head] = self.places[tail] + room
-
     def _add_bounds(self) -> None:
-        count = top = len(self.places)
+        number, offset = self.chains.number, self.chains.offset
+        top = len(self.places)
         bottom = top + 1
-        last_place = 0
         for layer in filter(None, self.layers.layers):
-            first, last = self.number[id(layer[0])], self.number[id(layer[-1])]
-            self.constraints.append((top, first, 0, 0))
-            self.constraints.append((last, bottom, layer[-1].breadth, 0))
-            last_place = max(last_place, self.places[last] + layer[-1].breadth)
+            first, last = layer[0], layer[-1]
+            self.constraints.append((top, number[id(first)], -offset[id(first)], 0))
+            room = offset[id(last)] + last.breadth
+            self.constraints.append((number[id(last)], bottom, room, 0))
+        count = sum(map(len, self.layers.layers))
         self.constraints.append((top, bottom, 0, _NARROW + count // 2))
-        self.places += (0, last_place)
+        self.places += (0, self.chains.breadth)
 
     def _add_ends(self, side: CellSide) -> None:
         """Add the ends of a side that can move, in order and between their bounds."""
         for run, low, high, gap in side.runs:
-            cell = self.number[id(side.ends[run[0]].vertex)]
+            cell = self.chains.number[id(side.ends[run[0]].vertex)]
             before, distance = cell, low
             for at in run:
                 end = side.ends[at]
@@ -102,7 +90,7 @@ class Straightener:
         if id(end) in self.end_number:
             return self.end_number[id(end)], 0
         assert end.at is not None
-        return self.number[id(end.vertex)], end.at
+        return self.chains.number[id(end.vertex)], end.at + self.chains.offset[id(end.vertex)]
 
     def _add_cost(self, one: int, other: int, distance: int, weight: int) -> None:
         """Add the cost of a distance from `one` to `other` other than this."""
@@ -116,18 +104,6 @@ class Straightener:
         self.places.append(min(self.places[one] - to_one, self.places[other] - to_other))
 
 
-def _gap(one: Vertex, other: Vertex) -> int:
-    nodes = _takes_space(one) + _takes_space(other)
-    if nodes == 2:
-        return NODE_GAP
-    return LABEL_GAP if nodes or one.is_label or other.is_label else LINE_GAP
-
-
-def _takes_space(vertex: Vertex) -> bool:
-    """Return True for a cell that takes space, False for a continuation at the border."""
-    return vertex.cell is not None and vertex.breadth > 0
-
-
 def _weight(segment: Segment) -> int:
     """Cost per pixel of bend in a segment.
 
@@ -136,7 +112,7 @@ def _weight(segment: Segment) -> int:
     """
     if segment.turns:
         return 1  # it always bends
-    start, end = _takes_space(segment.start.vertex), _takes_space(segment.end.vertex)
+    start, end = takes_space(segment.start.vertex), takes_space(segment.end.vertex)
     if start and end:
         return 24
     if not (start or end):
