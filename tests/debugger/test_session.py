@@ -359,7 +359,7 @@ def test_what_the_user_sends_counts_for_the_verdict(client: Client) -> None:
     client.stop()
     client.request("swarmSend", event="Stop")
     client.request("setBreakpoints", source={"path": str(MODEL)}, breakpoints=[])
-    verdict(client, "passed", 0)
+    assert verdict(client, "passed", 0)["outcome"] == "passed"
 
 
 def test_a_test_that_fails_stops_where_it_fails(client: Client) -> None:
