@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from random import Random
 
 _PRELUDE = """package test
@@ -17,15 +18,16 @@ _PATTERNS = (
     *("before {a}, eventually {b} within {n} s", "after {a}, never {b}"),
 )
 _FACTS = ("in S0", "in S1", "in S2", "hears Ask", "sends Ask", "starts attempt", "hears Go")
+STATES = ("in S0", "in S1", "in S2", "in End")
 
 
-def random_timed_swarm(seed: int) -> str:
+def random_timed_swarm(seed: int, facts: Sequence[str] = _FACTS) -> str:
     """Return a model of one or two robots, with properties."""
     chance = Random(seed)
     text = _PRELUDE + _machine(chance)
     text += f"member A {{ behavior M }}\nswarm S {{ a : A[{chance.choice((1, 2, 2))}] }}\n"
     for number in range(6):
-        text += f"property P{number} of S : {_sentence(chance)}\n"
+        text += f"property P{number} of S : {_sentence(chance, facts)}\n"
     return text
 
 
@@ -55,13 +57,13 @@ def _target(chance: Random) -> str:
     return chance.choice(("S0", "S1", "S2", "S1", "S2", "End"))
 
 
-def _sentence(chance: Random) -> str:
+def _sentence(chance: Random, facts: Sequence[str]) -> str:
     each = chance.random() < 0.5
-    words = {letter: _fact(chance, each=each) for letter in "abcst"}
+    words = {letter: _fact(chance, facts, each=each) for letter in "abcst"}
     text = chance.choice(_PATTERNS).format(n=chance.randint(1, 4), **words)
     return f"each a : {text}" if each else text
 
 
-def _fact(chance: Random, *, each: bool) -> str:
-    fact = chance.choice(_FACTS)
+def _fact(chance: Random, facts: Sequence[str], *, each: bool) -> str:
+    fact = chance.choice(facts)
     return fact if each else f"{chance.choice(('some', 'all', 'some'))} a {fact}"

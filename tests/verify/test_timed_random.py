@@ -10,10 +10,12 @@ import pytest
 
 from swarmdsl.execution.simulate.durations import SECOND, Fixed, Uniform
 from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
+from swarmdsl.execution.verify import clock_classes
 from swarmdsl.execution.verify.environment import Options
+from swarmdsl.execution.verify.verdict import Verdict
 
 from .conftest import at_least, model_of, system_of, verdicts_of
-from .random_timed import random_timed_swarm
+from .random_timed import STATES, random_timed_swarm
 from .slow_timed import Bounds, refuted_in_time
 
 MOST = 350
@@ -26,7 +28,10 @@ FEW = (0, 2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 17, 19)
 
 def compare(seed: int, path: Path) -> Counter[str]:
     """Compare the verdicts on a random swarm; return how many of each kind there are."""
-    path.write_text(random_timed_swarm(seed), encoding="utf-8")
+    # Where only states count, what changes none is not told apart.
+    of_states = seed not in FEW and seed % 2
+    text = random_timed_swarm(seed, STATES) if of_states else random_timed_swarm(seed)
+    path.write_text(text, encoding="utf-8")
     function, latency = TIMES[seed % len(TIMES)]
     lengths = {(EVERY_FUNCTION, ""): {"duration": _length(function)}}
     scenario = Scenario(functions=lengths, latency=_length(latency))
@@ -61,3 +66,47 @@ def test_verdicts_with_clocks_are_those_of_all_runs(seeds: Sequence[int], tmp_pa
 
     assert min(found["holds"], found["fails"]) >= at_least(21, seeds)
     assert seeds is not FEW or found.total() == 6 * len(FEW)
+
+
+WAITING = """package test
+function attempt : abstraction { service "attempt" : std_srvs/Empty }
+event Go : std_msgs/Empty
+endless statemachine M {
+  initial Look
+  state Look {
+    do attempt
+    on succeeded, aborted -> Look
+    on Go -> Rest
+  }
+  state Rest { after 3 s -> Look }
+}
+member A { behavior M }
+swarm S { a : A[5] }
+property Wakes of S : some a in Rest leads to some a in Look within 3 s
+property Sleeps of S : some a in Rest leads to some a in Look within 2 s
+"""
+
+
+def test_states_that_no_run_tells_apart_are_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "model.swarm"
+
+    def both(text: str) -> list[dict[str, Verdict]]:
+        path.write_text(text, encoding="utf-8")
+        found = []
+        for most in (2_000, 0):
+            monkeypatch.setattr(clock_classes, "MOST_STATES", most)
+            found.append(verdicts_of(model_of(path, None, Options(2, exact=True))))
+        return found
+
+    classes, states = both(WAITING)
+    assert [each.outcome for each in classes.values()] == ["holds", "fails"]
+    assert 2 * classes["Wakes"].states <= states["Wakes"].states
+    for seed in range(20, 30):
+        classes, states = both(random_timed_swarm(seed, STATES))
+        for name, verdict in states.items():
+            assert (verdict.outcome, verdict.robot) == (
+                classes[name].outcome,
+                classes[name].robot,
+            ), (seed, name)

@@ -7,11 +7,14 @@ from typing import NamedTuple
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.verify.clock_classes import ClockClasses
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.quotient import Quotient
 
-Local = Quotient | ClockedAutomaton
+Clocked = ClockedAutomaton | ClockClasses
+"""Automaton of robots with clocks."""
+Local = Quotient | Clocked
 """Automaton of the robots of a group."""
 
 

@@ -11,6 +11,7 @@ from math import gcd
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
+from swarmdsl.execution.verify.clock_classes import classes_of
 from swarmdsl.execution.verify.clock_table import ClockTable
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.doubt import Doubt
@@ -23,10 +24,11 @@ from swarmdsl.execution.verify.possible import prove_possible
 from swarmdsl.execution.verify.run import steps_between
 from swarmdsl.execution.verify.sentence import is_about_ends, length_of, table_of
 from swarmdsl.execution.verify.subjects import about, place_of
-from swarmdsl.execution.verify.terms import mask_of
+from swarmdsl.execution.verify.terms import facts_of, is_act, mask_of
 from swarmdsl.execution.verify.timed_network import TimedNetwork
 from swarmdsl.execution.verify.timed_observer import TimedObserver
 from swarmdsl.execution.verify.timed_runs import violating
+from swarmdsl.execution.verify.unfolding import unfold, unfolded
 from swarmdsl.execution.verify.verdict import Verdict, unfinished, violated
 
 
@@ -82,12 +84,12 @@ class _Proof:
 
     def _search(self, groups: Sequence[Group], clocked: Collection[Group]) -> Verdict:
         """Look for a violation in a swarm in which some groups have clocks."""
-        observer = self._observer(groups, clocked, others=len(groups) < len(self._every))
+        observer = self._classes(groups, clocked, others=len(groups) < len(self._every))
         graph = observe(observer.network, observer, self._budget)
         if graph.bad is not None and observer.others:
             # Whether others act at that moment is known only with all of them.
             more = self._every if len(clocked) == len(groups) else clocked
-            observer = self._observer(self._every, more, others=False)
+            observer = self._classes(self._every, more, others=False)
             graph = observe(observer.network, observer, self._budget)
         if graph.bad is not None:
             return self._violated(observer, graph)
@@ -97,31 +99,39 @@ class _Proof:
         reason = f"{unfinished(self._model, self._budget)}; {self._rounding(clocked)}"
         return Verdict(self._property, "up to", states, reason, robot=self._me, full=full)
 
-    def _violated(self, observer: TimedObserver, graph: Graph) -> Verdict:
+    def _violated(self, classes: TimedObserver, graph: Graph) -> Verdict:
         assert graph.bad is not None
-        way = graph.way(graph.bad)
+        network = classes.timed
+        made = self._network([*map(unfolded, network.groups)], network.tick, network.base)
+        observer = self._observer(made, others=classes.others)
+        way = unfold(observer, classes, graph.way(graph.bad))
         steps = steps_between(way, lambda state: list(observer.successors(state)))
         ended = not observer.is_bad(way[-1])
         run = violating(observer.timed, steps, self._property, ended=ended)
         return violated(self._property, run, graph, self._me)
 
-    def _observer(
+    def _classes(
         self, groups: Sequence[Group], clocked: Collection[Group], *, others: bool
     ) -> TimedObserver:
+        """Return the observer of a swarm in which states are one that no run can tell apart."""
         tick = self._tick_of(clocked)
-        table = table_of(self._property)
-        clock = ClockTable(table, (length_of(self._property) or 0) // tick)
-        network = self._network(groups, clocked, tick, max(clock.size, 2).bit_length())
-        mine = place_of(self._me, groups)
+        made = [self._clocked(each, tick) if each in clocked else each for each in groups]
+        clock = self._clock(tick)
+        network = self._network([*map(self._folded, made)], tick, max(clock.size, 2).bit_length())
+        return self._observer(network, others=others)
+
+    def _observer(self, network: TimedNetwork, *, others: bool) -> TimedObserver:
+        mine = place_of(self._me, network.groups)
+        clock = self._clock(network.tick)
         return TimedObserver(self._property, clock, network, mine, others=others)
 
-    def _network(
-        self, groups: Sequence[Group], clocked: Collection[Group], tick: int, base: int = 0
-    ) -> TimedNetwork:
+    def _clock(self, tick: int) -> ClockTable:
+        return ClockTable(table_of(self._property), (length_of(self._property) or 0) // tick)
+
+    def _network(self, groups: Sequence[Group], tick: int, base: int = 0) -> TimedNetwork:
         model, options = self._model, self._model.options
-        made = [self._clocked(each, tick) if each in clocked else each for each in groups]
         return TimedNetwork(
-            made,
+            groups,
             model.alphabet,
             options.capacity,
             lossy=model.environment.lossy,
@@ -138,9 +148,16 @@ class _Proof:
         automaton = ClockedAutomaton(whole, mask, tick, lambda name: timing.function(name, robot))
         return Group(automaton, group.robots)
 
+    def _folded(self, group: Group) -> Group:
+        if not isinstance(group.automaton, ClockedAutomaton):
+            return group
+        forgets = any(map(is_act, facts_of(self._property)))
+        classes = classes_of(group.automaton, steps_count=forgets)
+        return group if classes is None else Group(classes, group.robots)
+
     def _possible(self) -> Verdict:
         tick = self._tick_of(self.cone)
-        network = self._network(self.cone, self.cone, tick)
+        network = self._network([self._clocked(each, tick) for each in self.cone], tick)
         mine = place_of(self._me, self.cone)
         found = prove_possible(self._property, self._model, network, mine, self._me, self._budget)
         if found.outcome == "holds" and not self._has_whole_ticks():

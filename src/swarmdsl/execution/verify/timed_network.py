@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from swarmdsl.execution.verify.alphabet import Alphabet
-from swarmdsl.execution.verify.clocks import ClockedAutomaton
-from swarmdsl.execution.verify.groups import TICK, Group, Step
+from swarmdsl.execution.verify.groups import TICK, Clocked, Group, Step
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.timing import Bounds, Timing
 
@@ -75,7 +74,7 @@ class TimedNetwork(Network):
     def aged(self, group: int, state: int, bag: tuple[int, ...]) -> tuple[int, ...] | None:
         """Return the messages on their way to a robot a tick later; None if one must arrive."""
         automaton = self.groups[group].automaton
-        if not isinstance(automaton, ClockedAutomaton):
+        if not isinstance(automaton, Clocked):
             return bag
         found = []
         for each in bag:
@@ -97,7 +96,7 @@ class TimedNetwork(Network):
         group, state, bag = self.places[number]
         automaton = self.groups[group].automaton
         later: int | None = state
-        if isinstance(automaton, ClockedAutomaton):
+        if isinstance(automaton, Clocked):
             later = automaton.later(state)
         old = self.aged(group, state, bag)
         if later is None or old is None:
@@ -109,7 +108,7 @@ class TimedNetwork(Network):
 
     def _arrives(self, group: int, each: int) -> bool:
         age, message = divmod(each, self._kinds)
-        is_clocked = isinstance(self.groups[group].automaton, ClockedAutomaton)
+        is_clocked = isinstance(self.groups[group].automaton, Clocked)
         return not is_clocked or age >= self._times[message][0]
 
     def _copy(self, each: int) -> int | None:
