@@ -1,1 +1,1 @@
-"""Language server, live preview, highlighting."""
+"""Language server, debug adapter, live preview, page of running robots, highlighting."""

@@ -1,4 +1,4 @@
-"""Data that all checks share, and helpers for several of them."""
+"""Data and predicates that several checks share."""
 
 from __future__ import annotations
 

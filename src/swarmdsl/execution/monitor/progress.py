@@ -37,7 +37,7 @@ Steps = Sequence["tuple[Followed, Leap]"]
 
 
 class Progress:
-    """What is known of a sentence or a measure in a run, about one robot or about each."""
+    """State of a sentence or a measure in a run, about one robot or about each."""
 
     def __init__(self, each: str | None, claims: Claims, roll: Roll) -> None:
         self.each = each

@@ -19,6 +19,7 @@ from swarmdsl.execution.simulate.scenario_file import read_scenario
 from swarmdsl.execution.simulate.scenario_table import Table
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.testing.case import Case, End, InvalidTest, Step, TestFile
+from swarmdsl.execution.testing.claims import ClaimReader
 from swarmdsl.execution.testing.keys import FILE, IMPOSSIBLE, MOST_SEEDS, TEST
 from swarmdsl.execution.testing.measures import read_measures
 from swarmdsl.execution.testing.models import Model, Models
@@ -113,11 +114,11 @@ class _Reader:
         )
         if not cast:
             return None
-        reader = StepReader(
-            Names(subject, cast, table.report), table.report, skips=self._skips(table)
-        )
+        names = Names(subject, cast, table.report)
+        claims = ClaimReader(names, table.report)
+        reader = StepReader(names, claims, table.report, skips=self._skips(table))
         steps = self._steps(table, reader)
-        always = [reader.claim(each) for each in table.items("always")]
+        always = [claims.always(each) for each in table.items("always")]
         if share is None:
             return None
         played = _with_ends(scenario, steps, cast)

@@ -299,12 +299,9 @@ class ExpressionParser:
         made = Call(self._span(start, end), Word(NEIGHBORS, place), (distance,))
         return made, start, end, following
 
-    def _state(self, at: int) -> tuple[Ref[Vertex], int] | None:
-        """Parse the path of a state; return it and the index of the next token."""
-        tokens = self._tokens
-        if not self._is_word(at) or tokens[at] in self._not_a_name:
-            return None
-        following = at + 1
+    def _after_path(self, at: int) -> int:
+        """Return the index of the token after a name and the names that `.` joins to it."""
+        tokens, following = self._tokens, at + 1
         while (
             tokens[following] == "."
             and self._is_adjacent(following)
@@ -312,6 +309,14 @@ class ExpressionParser:
             and self._is_adjacent(following + 1)
         ):
             following += 2
+        return following
+
+    def _state(self, at: int) -> tuple[Ref[Vertex], int] | None:
+        """Parse the path of a state; return it and the index of the next token."""
+        tokens = self._tokens
+        if not self._is_word(at) or tokens[at] in self._not_a_name:
+            return None
+        following = self._after_path(at)
         place = self._span(self._start(at), self._ends[following])
         return Ref("".join(tokens[at:following]), "Vertex", place), following
 
@@ -385,14 +390,7 @@ class ExpressionParser:
     def _construction(self, at: int) -> _Found | None:
         """Parse a type with values of fields."""
         tokens, start = self._tokens, self._start(at)
-        following = at + 1
-        while (
-            tokens[following] == "."
-            and self._is_adjacent(following)
-            and self._is_word(following + 1)
-            and self._is_adjacent(following + 1)
-        ):
-            following += 2
+        following = self._after_path(at)
         if tokens[following] != "(" or not self._is_word(following + 1):
             return None
         name = "".join(tokens[at:following])
