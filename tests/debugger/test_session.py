@@ -129,7 +129,7 @@ def test_conditions_hits_and_messages(client: Client) -> None:
                 {"line": again, "condition": "blinks == 2"},
                 {"line": line("state On {"), "hitCondition": "% 3"},
                 {"line": off, "logMessage": "{self.id} after {tries + blinks} of {most}"},
-                {"line": off, "condition": "blinks +"},
+                {"line": off, "condition": "blinks = 2"},
                 {"line": off, "condition": "nobody"},
                 {"line": off, "condition": "tries"},
                 {"line": line("on Start"), "condition": "event.times > 4"},
@@ -148,6 +148,7 @@ def test_conditions_hits_and_messages(client: Client) -> None:
         True,
         False,
     ]
+    assert said[3]["message"] == "expected an expression, and nothing else; `==` compares"
     assert said[4]["message"].startswith("no value called `nobody`")
     assert said[5]["message"] == "a condition is true or false, but this is a `int32`"
     assert said[7]["message"] == "write a number of hits, such as `3`, `>= 3` or `% 3`"

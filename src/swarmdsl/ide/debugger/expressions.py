@@ -125,7 +125,8 @@ class Expressions:
         if declared is not None:
             typing = typing.on_event(declared.type.type, of_swarm=declared.swarm)
         if expression is None or expression.tree is None or report.has_errors:
-            raise RequestError(_first(report))
+            hint = "; `==` compares" if re.search(r"[^=!<>]=[^=]", text) else ""
+            raise RequestError(f"{_first(report)}{hint}")
         typing.infer(expression.tree)
         if report.has_errors:
             raise RequestError(_first(report))
