@@ -135,3 +135,19 @@ def test_unhandled_outcomes(tmp_path):
     found = offered(tmp_path, work("|"), {"on"})
     assert filled(found["on the outcomes"]) == "on succeeded -> Target"
     assert "on the outcomes" not in offered(tmp_path, state("|"), {"on"})
+
+
+def test_snippet_below_documentation_has_none_of_its_own(tmp_path):
+    models = Models([tmp_path])
+    path = tmp_path / "a.swarm"
+    begun = {}
+    for before in ("", "/// Go.\n", "/// Go.\n\n", "// Go.\n"):
+        text = f"{FILE}{before}func"
+        models.edit(path, text)
+        [found] = [
+            each
+            for each in snippets({"statemachine", "function"}, *models.file(path), len(text))
+            if each.label == "function ..."
+        ]
+        begun[before] = found.text.startswith("///")
+    assert begun == {"": True, "/// Go.\n": False, "/// Go.\n\n": True, "// Go.\n": True}

@@ -33,6 +33,7 @@ def unhandled_outcomes(owner: TopLevel | None, offset: int) -> list[str]:
         if isinstance(item, Transition) and item.guard is None:
             _, start, end = item.span.absolute
             if not start <= offset <= end:
-                triggers = (each for each in item.triggers if isinstance(each, OutcomeTrigger))
-                taken.update(each.outcome for each in triggers)
+                # A trigger without text is not typed yet.
+                triggers = (each for each in item.triggers if each.span.text)
+                taken.update(each.outcome for each in triggers if isinstance(each, OutcomeTrigger))
     return [each for each in _ALL if each not in taken]

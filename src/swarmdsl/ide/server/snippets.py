@@ -19,6 +19,9 @@ from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Activity, State, StateMachine
 
 _BEGINNING = re.compile(r"(?:\A|[\n{};]|\*/)[ \t]*\Z")
+# Documentation on the line above, and in a snippet.
+_DOCUMENTED = re.compile(r"^[ \t]*///.*\n[ \t]*\Z", re.MULTILINE)
+_DOCUMENTATION = re.compile(r"\A///.*\n")
 _TABLE = Path(__file__).parent / "snippets.json"
 
 
@@ -47,14 +50,18 @@ def snippets(
 ) -> Iterator[Snippet]:
     """Yield the snippets that fit at an offset, given the possible keywords.
 
-    They are whole statements, so they fit only where one begins.
+    They are whole statements, so they fit only where one begins. Below documentation they have
+    none of their own.
     """
     start, _ = word_at(file.source.text, offset)
     if _BEGINNING.search(file.source.text, 0, start) is None:
         return
+    documented = _DOCUMENTED.search(file.source.text, 0, start) is not None
     for words, several in table().items():
         if all(word in keywords for word in words):
-            yield from several
+            for each in several:
+                text = _DOCUMENTATION.sub("", each.text) if documented else each.text
+                yield Snippet(each.label, text, each.about)
     if "on" not in keywords:
         return
     owner = declaration_at(file, offset)

@@ -54,6 +54,9 @@ def symbols_of(node: Node) -> Iterator[Symbol]:
     if not isinstance(node, Optimization) and type(node) not in KINDS:
         yield from inside
         return
+    if not isinstance(node, Optimization) and not node.name.span.text:  # type: ignore[attr-defined]
+        yield from inside  # the name is not typed yet, and editors refuse an empty one
+        return
     span = node.span.absolute
     if isinstance(node, Optimization):
         name = node.swarm.span.absolute
