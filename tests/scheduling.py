@@ -20,6 +20,8 @@ LATER = (
 # Their tests wait for processes, often long: they are not to be the last ones.
 WAITING = {"editors", "preview", "ros1", "ros2", "skeleton"}
 
+gc.disable()  # until all tests are collected: hardly anything of them is garbage
+
 
 def unit(nodeid: str) -> str:
     """The file of a test, or the folder whose tests share a worker."""
@@ -87,11 +89,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 def pytest_collection_finish() -> None:
     """Exempt what pytest has made so far from garbage collection.
 
-    Programs under test collect garbage, which would walk all of it each time.
+    Programs under test collect garbage, which would walk all of it each time. Models are large
+    and leave hardly any, so it is looked for less often than by default.
     """
     _begin_hypothesis()
     gc.collect()
     gc.freeze()
+    gc.set_threshold(20_000)
+    gc.enable()
 
 
 @settings(max_examples=1)
