@@ -9,8 +9,10 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.execution.verify import model as made
+from swarmdsl.execution.verify.alone import hearing_all
 from swarmdsl.execution.verify.environment import Options
 from swarmdsl.execution.verify.limits import Budget, Limits
+from swarmdsl.execution.verify.loose import can_be_loose
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.prove import prove
 
@@ -115,3 +117,135 @@ def test_what_holds_so_holds_in_random_swarms(tmp_path: Path) -> None:
 
     assert found["alone"] > 5
     assert found["missed"] < 3
+
+
+LOOSE = """
+package farm
+
+swarm event Bid  : std_msgs/Float64
+swarm event Take : std_msgs/Empty
+swarm event Halt : std_msgs/Empty
+event Go : std_msgs/Bool
+
+struct Offer {
+  way : float64
+  id  : string
+}
+// Its states are too many, and where it sends depends on numbers that others compute.
+endless statemachine Sell {
+  var offers : Offer[<=8]
+  var best   : Offer
+  var lost   : int32 = 0
+  initial Open
+  state Open {
+    on Bid [len(offers) < 8] / append Offer(way = event.data, id = event.sender) to offers
+    on Go [event.data] -> Choose
+    on Go [not event.data and lost < 100] / lost = lost + 1, send Take
+    on Halt -> Shut
+  }
+  choice Choose {
+    [len(offers) > 0] / best = min(o in offers by o.way), send Take to best.id, clear offers -> Sold
+    else -> Open
+  }
+  state Sold {
+    on Go [in(Sold) and lost > 3] -> Open
+    on Go [in(Open)] -> Shut
+    on Halt -> Shut
+  }
+  state Shut { on Go [event.data] -> Open }
+}
+endless statemachine Buy {
+  var way : float64
+  initial Near
+  state Near { on Go / way = way + 1.5, send Bid(data = way) -> Near }
+}
+member Seller { behavior Sell }
+member Buyer { behavior Buy }
+swarm Market {
+  seller : Seller
+  buyer  : Buyer[2]
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("sentence", "holds"),
+    [
+        ("hears Halt leads to in Shut within 1 s", True),
+        ("sends Take leads to in Sold or in Open", True),
+        ("in Sold only after Go", True),
+        ("in Shut only after hears Halt", True),
+        ("after hears Halt until Go [event.data], in Shut at all times", False),
+        # Data decide, or it is about them.
+        ("sends Take only after hears Bid", False),
+        ("never has [lost > 100]", False),
+        ("sends Take leads to in Sold", False),
+    ],
+)
+def test_data_are_left_open_where_they_have_too_many_values(
+    sentence: str, holds: bool, modelled: Callable[..., Model], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(made, "MOST_STATES", 30)
+    monkeypatch.setattr(made, "MOST_MOVES", 300)
+    model = modelled(f"{LOOSE}property P of Market : each seller : {sentence}\n")
+
+    verdict = verdicts_of(model, 300)["P"]
+
+    assert (verdict.outcome == "holds", verdict.loose) == (holds, holds)
+
+
+SMALL = """
+package small
+
+swarm event Take : std_msgs/Empty
+swarm event Halt : std_msgs/Empty
+event Go : std_msgs/Bool
+endless statemachine Work {
+  var full : bool = false
+  initial A
+  state A {
+    on Go [event.data and not full] / full = true -> B
+    on Go [full] / send Take, full = false -> C
+    on Halt -> C
+  }
+  state B {
+    on Halt [full] -> A
+    on Go [not full] -> C
+    on Halt -> C
+  }
+  state C { on Go / full = event.data -> A }
+}
+endless statemachine Tell {
+  initial On
+  state On { on Go / send Halt -> On }
+}
+member Worker { behavior Work }
+member Teller { behavior Tell }
+swarm S {
+  worker : Worker
+  teller : Teller
+}
+"""
+
+
+def test_what_holds_without_data_holds_with_them(modelled: Callable[..., Model]) -> None:
+    facts = ("in A", "in B", "in C", "sends Take", "hears Halt", "hears Go [event.data]")
+    forms = ("{} only after {}", "{} leads to {}", "never {} and {}", "after {}, never {}")
+    pairs = [form.format(a, b) for a in facts for b in facts if a != b for form in forms]
+    said = [f"property P{n} of S : each worker : {each}\n" for n, each in enumerate(pairs)]
+    model = modelled(SMALL + "".join(said))
+    found: Counter[tuple[bool, bool]] = Counter()
+    for property_, sentence in zip(model.system.properties, pairs, strict=True):
+        assert can_be_loose(property_, model.machines_of("worker[0]"))
+        shown = []
+        for loose in (False, True):
+            alone = model.alone([property_], "worker[0]", Budget(Limits()), loose=loose)
+            (own,) = alone.groups([property_], me="worker[0]")
+            assert alone.complete
+            shown.append(hearing_all(property_, own.automaton) is not None)
+        known, without_data = shown
+        assert known or not without_data, sentence
+        found[known, without_data] += 1
+
+    assert found[True, True] > 10
+    assert found[True, False] > 3

@@ -5,11 +5,13 @@ from __future__ import annotations
 from swarmdsl import ir
 from swarmdsl.execution.verify.groups import Group, Local
 from swarmdsl.execution.verify.limits import Budget
+from swarmdsl.execution.verify.loose import can_be_loose
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.sentence import table_of
 from swarmdsl.execution.verify.terms import Terms, arriving, facts_of
+from swarmdsl.execution.verify.verdict import Verdict
 
 _COVERED = ("never", "always", "only", "times", "leads")
 """Patterns that a finite run violates, and what may be answered at once."""
@@ -24,18 +26,25 @@ def is_alone(property_: ir.Property) -> bool:
 
 def without_others(
     property_: ir.Property, model: Model, me: str | None, budget: Budget
-) -> int | None:
+) -> Verdict | None:
     """Prove a property of one robot of which not all is known, whatever the others send.
 
-    Return the number of states that were looked at, or None if it may be violated so. First the
-    robot is looked at for all such properties at once, then, if it has too many states, for one.
+    Return None if it may be violated so. First the robot is looked at for all such properties at
+    once, then, if it has too many states, for one, and then without its data.
     """
     like = [each for each in model.properties if each.each == property_.each and is_alone(each)]
-    for properties in (like, [property_]):
-        alone = model.alone(properties, me, budget)
+    for properties, loose in ((like, False), ([property_], False), ([property_], True)):
+        if loose and not can_be_loose(property_, model.machines_of(me)):
+            continue
+        alone = model.alone(properties, me, budget, loose=loose)
         (own,) = alone.groups([property_], me=me)
         if alone.complete and not alone.doubts([own]):
-            return hearing_all(property_, own.automaton)
+            states = hearing_all(property_, own.automaton)
+            if states is not None:
+                return Verdict(property_, "holds", states, robot=me, alone=True, loose=loose)
+            if not loose:
+                # It has all its data: without them, more would be possible.
+                return None
     return None
 
 

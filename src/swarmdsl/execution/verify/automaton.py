@@ -272,6 +272,7 @@ class Automaton:
             yield act(body, given._replace(near=todo.popleft()))
             todo += body.near.others()
             self.asks_who_is_near |= body.near.is_asked
+            self.is_too_large |= body.near.has_too_many
 
     def _move(
         self,

@@ -22,7 +22,7 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.expressions import NEIGHBORS, PRESENT
+from swarmdsl.execution.simulate.expressions import PRESENT
 from swarmdsl.execution.simulate.headers import signed
 from swarmdsl.execution.simulate.members import DEPARTED, JOINED, Roster
 from swarmdsl.execution.simulate.trace import Line, Trace
@@ -215,7 +215,7 @@ class Body:
         servers = Servers()
         made = []
         for number, actor in enumerate(self.cast):
-            data = {**deepcopy(actor.data), NEIGHBORS: self.near.count}
+            data = {**deepcopy(actor.data), **self.near.functions}
             if self.roster is not None:
                 data[PRESENT] = self.roster.count
             made.append(Instance(actor.machine, _Desk(self, number), data=data, servers=servers))

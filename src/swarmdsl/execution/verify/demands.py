@@ -34,7 +34,7 @@ class Demands:
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
     conditions of properties, each with the machine and the events that it is about. With `lengths`,
-    those of delays count.
+    those of delays count. If the machines are `loose`, only the conditions count.
     """
 
     def __init__(
@@ -44,9 +44,10 @@ class Demands:
         extra: Iterable[tuple[str, ir.Expression, tuple[str, ...]]] = (),
         *,
         lengths: bool = False,
+        loose: bool = False,
     ) -> None:
         self._system = system
-        self._slice = Slice(system, data, extra, lengths=lengths)
+        self._slice = Slice(system, data, extra, lengths=lengths, loose=loose)
         self._demanded = frozenset(self._slice.demanded)
         self._variables = {name for kind, name, _ in self._demanded if kind == "var"}
         self._fields: dict[str, set[Path]] = {}

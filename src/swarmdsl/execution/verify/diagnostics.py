@@ -161,6 +161,7 @@ def rows(verdicts: Sequence[Verdict], faults: int = 0) -> Iterator[tuple[str, st
             reason += f" ({each.place.source.name}:{each.place.line})"
         if each.outcome == "holds" and each.alone:
             reason = "whatever the other robots do"
+            reason += ", and whatever conditions on data hold" if each.loose else ""
         if each.outcome == "fails" and each.robot is not None:
             reason = f"for {each.robot}" + (f", {reason}" if reason else "")
         if faults and each.outcome in ("holds", "up to"):

@@ -23,7 +23,9 @@ from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.environment import Environment, Options
 from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.kind import Kind
+from swarmdsl.execution.verify.kinship import activities, key_of
 from swarmdsl.execution.verify.limits import Budget
+from swarmdsl.execution.verify.loose import loosened
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.strangers import messages_to
@@ -37,7 +39,8 @@ MOST_STATES, MOST_MOVES = 500, 5_000
 class Model:
     """Automata of the robots of a subject, for given numbers of members.
 
-    If it is of `only` one robot, all others may send it anything at any time.
+    If it is of `only` one robot, all others may send it anything at any time. If it is `loose`,
+    its data are left open.
     """
 
     def __init__(
@@ -49,6 +52,8 @@ class Model:
         budget: Budget,
         report: Diagnostics,
         only: str | None = None,
+        *,
+        loose: bool = False,
     ) -> None:
         assert subject.system is not None
         self.subject = subject
@@ -61,6 +66,8 @@ class Model:
         everybody = actors(subject, robots, scenario, report)
         self.cast = [each for each in everybody if only in (None, each.robot.name)]
         self._strangers = [each for each in everybody if each not in self.cast]
+        if loose:
+            self.cast = loosened(self.cast, self.system)
         self.kinds: list[Automaton] = []
         if report.has_errors:
             return
@@ -77,7 +84,7 @@ class Model:
         for actor in self.cast:
             data.setdefault(actor.machine.name, []).append({**actor.params, **actor.data})
         extra = conditions(self.cast, facts)
-        self.demands = Demands(self.system, data, extra, lengths=options.exact)
+        self.demands = Demands(self.system, data, extra, lengths=options.exact, loose=loose)
         self.alphabet = Alphabet(self.system, self.demands)
         robots = list(dict.fromkeys(actor.robot for actor in everybody))
         self.environment = Environment(
@@ -128,17 +135,31 @@ class Model:
             and each.robots.quantifier == "index"
         }
 
-    def alone(self, properties: Sequence[ir.Property], robot: str | None, budget: Budget) -> Model:
+    def alone(
+        self,
+        properties: Sequence[ir.Property],
+        robot: str | None,
+        budget: Budget,
+        *,
+        loose: bool = False,
+    ) -> Model:
         """Return the automaton of one robot, to which others may send anything at any time.
 
-        Only what decides on this robot and some properties counts: of this there is less.
+        Only what decides on this robot and some properties counts, without its data if `loose`.
         """
-        key = (robot, tuple(each.name for each in properties))
+        key = (robot, tuple(each.name for each in properties), loose)
         if key in self._alone:
             return self._alone[key]
         found = Diagnostics()
         made = self._alone[key] = Model(
-            self.subject, self.counts, properties, self.options, budget, found, robot
+            self.subject,
+            self.counts,
+            properties,
+            self.options,
+            budget,
+            found,
+            robot,
+            loose=loose,
         )
         assert not found.has_errors, "the swarm has been made before"
         return made
@@ -230,6 +251,10 @@ class Model:
             found.update(dict.fromkeys(self._doubts[number]))
         return list(found)
 
+    def machines_of(self, robot: str | None) -> list[ir.StateMachine]:
+        """Return the machines of a robot."""
+        return [self.machines[actor.machine.name] for actor in self._by_robot[robot]]
+
     def may_send(self, group: Group) -> set[str]:
         """Return the events that a group may send other robots, beyond those that it was seen to.
 
@@ -259,7 +284,9 @@ class Model:
         """Make an automaton for each kind of robot."""
         keys: dict[Any, int] = {}
         for robot, cast in self._by_robot.items():
-            key = self._key(cast)
+            key = key_of(
+                cast, self.machines, self.system, self.demands, self.options, self.environment
+            )
             if key in keys:
                 self._robots[keys[key]].append(robot)
                 self.kinds[keys[key]].kind.robots[robot] = cast
@@ -283,29 +310,6 @@ class Model:
         senders = [each.robot for each in self._strangers]
         return messages_to(kind, senders, sends, self.demands, self.environment, doubts)
 
-    def _key(self, cast: Sequence[Actor]) -> Any:
-        """Return what tells the robots of a kind from others."""
-        if self.demands.identity:
-            return cast[0].robot.name
-        shown = []
-        for actor in cast:
-            machine = self.machines[actor.machine.name]
-            names = [each.name for each in machine.params]
-            names += [v.name for v in machine.variables if self.demands.keeps(machine.name, v.name)]
-            # Conditions of properties can read params of the robot that its machine lacks.
-            values = {**actor.params, **{name: actor.data.get(name) for name in names}}
-            times = [
-                self.options.timing.function(each.function, actor.robot)
-                for each in self._activities([actor] if self.options.exact else ())
-            ]
-            shown.append((machine.name, repr(sorted(values.items())), tuple(times)))
-        happens = self.environment.key(
-            cast[0].robot,
-            (each.function for each in self._activities(cast)),
-            (event.name for event in self.system.events),
-        )
-        return cast[0].robot.role, tuple(shown), happens
-
     def _kind(
         self,
         cast: Sequence[Actor],
@@ -315,7 +319,7 @@ class Model:
         robot = cast[0].robot
         ends = {
             each.function: self.environment.ends(each.function, robot, doubts)
-            for each in self._activities(cast)
+            for each in activities(cast, self.machines)
         }
         arrivals = self.environment.arrivals(cast, doubts, is_alone=self.subject.swarm is None)
         return Kind(
@@ -331,12 +335,6 @@ class Model:
             len(self._crew.robots) - 1,
             {robot.name: cast},
         )
-
-    def _activities(self, cast: Sequence[Actor]) -> Iterator[ir.Activity]:
-        for actor in cast:
-            for state in self.machines[actor.machine.name].walk():
-                if state.activity is not None:
-                    yield state.activity
 
     def _follows(self, cast: Iterable[Actor]) -> bool:
         return any(map(self._crew.observes, cast))

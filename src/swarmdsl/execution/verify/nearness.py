@@ -1,12 +1,20 @@
-"""Numbers of robots that a robot counts as near, step by step: any that places could make."""
+"""Choices of what is left open in a step: how many robots are near, whether a condition holds."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
+
+from swarmdsl.execution.simulate.expressions import NEIGHBORS
+
+EITHER = "either()"
+"""Key of the data of a machine at which a function makes a free choice."""
+_MOST_FREE = 8
+"""Maximum number of free choices in a step that are followed."""
 
 
 class Nearness:
-    """Answers to `neighbors within`, chosen from 0 to the number of other robots.
+    """Answers to `neighbors within`, chosen from 0 to the number of other robots; free choices.
 
     A macrostep takes no time: in one, the answer is the same for the same distance, and no less for
     a longer one. Where no answer is chosen it is the least.
@@ -18,6 +26,13 @@ class Nearness:
         self._asked: list[tuple[int, int]] = []
         """Each answer of the step, with the greatest that was possible."""
         self._known: dict[float, int] = {}
+        self.has_too_many = False
+        """True if a step had more free choices than are followed."""
+
+    @property
+    def functions(self) -> dict[str, Any]:
+        """Functions that machines ask, as their data have them."""
+        return {NEIGHBORS: self.count, EITHER: self.either}
 
     @property
     def is_asked(self) -> bool:
@@ -45,6 +60,16 @@ class Nearness:
             self._asked.append((answer, most))
             self._known[distance] = answer
         return self._known[distance]
+
+    def either(self) -> bool:
+        """Return a free choice, which no other one binds."""
+        at = len(self._asked)
+        if at >= _MOST_FREE:
+            self.has_too_many = True
+            return False
+        answer = self._chosen[at] if at < len(self._chosen) else 0
+        self._asked.append((answer, 1))
+        return bool(answer)
 
     def others(self) -> Iterator[tuple[int, ...]]:
         """Yield the beginnings of answers that the step leaves out, and no other step tries."""

@@ -128,10 +128,10 @@ def _without_clocks(
     if mine is not None and is_alone(property_):
         if model.complete and not model.doubts(groups):
             states = hearing_all(property_, every[mine].automaton)
-        else:
-            states = without_others(property_, model, me, budget)
-        if states is not None:
-            return Verdict(property_, "holds", states, robot=me, alone=True)
+            if states is not None:
+                return Verdict(property_, "holds", states, robot=me, alone=True)
+        elif (found := without_others(property_, model, me, budget)) is not None:
+            return found
     if is_about_ends(property_):
         return _in_the_end(property_, model, me, budget, lonely=lonely)
     if property_.kind == "possible":

@@ -35,7 +35,7 @@ class Slice:
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
     conditions of properties, each with the machine and the events that it is about. With `lengths`,
-    those of delays count, else only if they are positive.
+    those of delays count, else only if they are positive. If `loose`, only the conditions count.
     """
 
     def __init__(
@@ -45,6 +45,7 @@ class Slice:
         extra: Iterable[tuple[str, ir.Expression, tuple[str, ...]]] = (),
         *,
         lengths: bool = False,
+        loose: bool = False,
     ) -> None:
         self._system = system
         self._has_lengths = lengths
@@ -59,7 +60,7 @@ class Slice:
         """True if a machine computes an address."""
         self.read: dict[Node, ir.Expression] = {}
         """Places of data with the first expressions that compare or need them."""
-        for name in data:
+        for name in () if loose else data:
             self._machine(system.machines_by_name[name])
         for name, expression, events in extra:
             self._decide(expression, name, events)
