@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import re
+from collections.abc import Sequence
 from itertools import combinations, pairwise
 
 import pytest
@@ -12,7 +13,15 @@ from hypothesis import strategies as st
 
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.tools.diagram import layout
-from swarmdsl.tools.diagram.layout import Box, Picture, lay_out, layering, routing
+from swarmdsl.tools.diagram.layout import (
+    Box,
+    Picture,
+    directions,
+    lay_out,
+    layering,
+    routing,
+    rows,
+)
 from swarmdsl.tools.diagram.layout.cycles import feedback_edges
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
 from swarmdsl.tools.diagram.measure import width, wrap
@@ -121,8 +130,8 @@ def test_a_line_from_a_state_to_its_region(monkeypatch: pytest.MonkeyPatch) -> N
     )
     edge = Edge("e", "transition", "p.r.s", "p.r", ("Event",))
     for across in ("down", "right"):
-        directions = {"": "down", "p": "right", "p.r": across, "p.q": across}
-        monkeypatch.setattr(layout, "choose_directions", lambda *_, found=directions: [found])
+        chosen = {"": "down", "p": "right", "p.r": across, "p.q": across}
+        monkeypatch.setattr(layout, "choose_directions", lambda *_, found=chosen: [(found, {})])
         check(lay_out(Diagram("statechart", "M", frame, (edge,))))
 
 
@@ -202,6 +211,53 @@ def test_pictures_with_lanes_beside_all_else(seed: int, direction: Direction | N
         patch.setattr(layering, "_MAX_CROSSED", -1)
         patch.setattr(layering, "_NEAR", 0)
         check(lay_out(machines(seed), direction))
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 2**32))
+def test_pictures_with_levels_in_rows(seed: int) -> None:
+    """As in large ones, whatever the shape."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(directions, "_PAGE", 0)
+        patch.setattr(directions, "_LEAST_GAIN_OF_ROWS", -10)
+        patch.setattr(rows, "MAX_LANES", 100)
+        check(lay_out(machines(seed)))
+
+
+def chain(count: int, extra: Sequence[tuple[int, int]] = ()) -> Diagram:
+    """A state machine whose states follow each other, with further transitions."""
+    states = tuple(Node(f"s{number}", "state", f"S{number}") for number in range(count))
+    pairs = [*pairwise(range(count)), *extra]
+    edges = tuple(
+        Edge(f"e{number}", "transition", f"s{source}", f"s{target}", ("Next",))
+        for number, (source, target) in enumerate(pairs)
+    )
+    frame = Node("", "frame", "Machine", "statemachine", nodes=states)
+    return Diagram("statechart", "Machine", frame, edges)
+
+
+def test_a_long_chain_has_rows_of_states_that_follow_each_other() -> None:
+    picture = lay_out(chain(100))
+    check(picture)
+    assert 0.8 < picture.width / picture.height < 2.5, "it is a page, no strip"
+    boxes = {box.node.id: box for box in picture.boxes}
+    places = [(boxes[f"s{at}"].x, boxes[f"s{at}"].y) for at in range(100)]
+    turned = 0
+    for line, (one, other) in zip(picture.lines, pairwise(places), strict=True):
+        if one[0] == other[0] or one[1] == other[1]:
+            assert len(line.points) == 2, "it is straight within a row"
+        else:
+            turned += 1
+            assert len(line.points) == 6, "it goes around the ends of two rows"
+    assert 5 < turned < 20
+
+
+def test_a_transition_to_a_row_far_away_passes_those_between() -> None:
+    near, far = chain(100), chain(100, [(99, 0), (10, 90)])
+    plain, picture = lay_out(near), lay_out(far)
+    check(picture)
+    assert picture.width * picture.height < 1.5 * plain.width * plain.height
+    assert all(len(line.points) <= 12 for line in picture.lines[-2:])
 
 
 def test_far_transitions_of_a_large_machine_share_lanes() -> None:

@@ -78,11 +78,11 @@ def lay_out(diagram: Diagram, direction: Direction | None = None) -> Picture:
     if direction is None and diagram.kind != "statechart":
         direction = "right" if diagram.kind == "internal" else "down"
     if direction is not None:
-        return _picture(Compound(diagram, routes, texts, uniform(diagram, direction)))
+        return _picture(Compound(diagram, routes, texts, uniform(diagram, direction), {}))
     choices = list(choose_directions(diagram, routes, texts))
     if len(routes.nodes) > _MAX_TRIED:
         choices = choices[:1]
-    pictures = [_picture(Compound(diagram, routes, texts, each)) for each in choices]
+    pictures = [_picture(Compound(diagram, routes, texts, *each)) for each in choices]
     return min(pictures, key=lambda each: fitted_size(each.width, each.height))
 
 

@@ -25,12 +25,12 @@ class CellSide:
         fixed = [each for each in found if each[0].at is not None]
         fixed.sort(key=lambda each: each[0].at or 0)
         free = [each for each in found if each[0].at is None]
-        free.sort(key=lambda each: _order(each[1]))
+        free.sort(key=lambda each: _order(each[1], each[0]))
         merged = list(fixed)
-        orders = sorted(_order(other) for _, other, _ in fixed)
+        orders = sorted(_order(other, end) for end, other, _ in fixed)
         for number, each in enumerate(free):
             # Insert it between fixed ends so that it crosses none.
-            merged.insert(bisect_left(orders, _order(each[1])) + number, each)
+            merged.insert(bisect_left(orders, _order(each[1], each[0])) + number, each)
         self.ends = [end for end, _, _ in merged]
         self.others = [other for _, other, _ in merged]
         self.links = [link for _, _, link in merged]
@@ -119,8 +119,15 @@ class CellSide:
             start = stop
 
 
-def _order(end: End) -> tuple[int, int]:
-    return end.vertex.order, end.at or 0
+def _order(end: End, here: End) -> tuple[int, int, int]:
+    """Place of the other end of a segment among those that begin here.
+
+    Segments that turn go around all others on their side, those to far places around the rest.
+    """
+    if end.side != here.side:
+        return 0, end.vertex.order, end.at or 0
+    beyond = 1 if end.vertex.order > here.vertex.order else -1
+    return beyond, -end.vertex.order, -(end.at or 0)
 
 
 def cell_sides(layers: Layers, cells: Sequence[Cell]) -> list[CellSide]:

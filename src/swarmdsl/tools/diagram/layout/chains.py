@@ -15,6 +15,8 @@ from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Segment, Ve
 from swarmdsl.tools.diagram.layout.simplex import Constraint
 
 NODE_GAP, LINE_GAP, LABEL_GAP = 26, 12, 12
+_PATIENCE = 8
+"""Number of rounds after which twice as many parts bend."""
 _BROAD = 1.3
 """Breadth of a level, relative to its broadest layer, above which straight parts may bend."""
 
@@ -87,12 +89,18 @@ class Chains:
         last = layer[-1]
         return self.places[self.number[id(last)]] + self.offset[id(last)] + last.breadth
 
-    def broader(self, limit: float) -> set[Segment]:
-        """Return straight parts of which each keeps a layer from having this breadth."""
-        found = set()
+    def broader(self, limit: float, count: int) -> set[Segment]:
+        """Return straight parts of which each keeps a layer from having this breadth.
+
+        At most `count` of a layer.
+        """
+        found: set[Segment] = set()
         for at, layer in enumerate(self.layers.layers):
             if layer and self._stop(layer) > limit and (parts := self._before_end(at)):
-                found.add(parts[len(parts) // 2])
+                step = len(parts) / min(count, len(parts))
+                found.update(
+                    parts[int(step * (number + 0.5))] for number in range(min(count, len(parts)))
+                )
         return found
 
     def _before_end(self, at: int) -> list[Segment]:
@@ -114,9 +122,12 @@ def make_chains(layers: Layers) -> Chains:
     straight = list(_straight(layers))
     chains = Chains(layers, straight)
     limit = _BROAD * max(map(_least_breadth, layers.layers), default=0)
-    while bent := chains.broader(limit):
+    # The more rounds, the more parts bend in each, so that large levels need few.
+    rounds = 0
+    while bent := chains.broader(limit, 1 << rounds // _PATIENCE):
         straight = [segment for segment in straight if segment not in bent]
         chains = Chains(layers, straight)
+        rounds += 1
     return chains
 
 

@@ -37,7 +37,7 @@ _FROM_RULE, _FROM_ARROW = 5, 12
 
 
 class Compound:
-    """Layouts of all containers of a diagram, each in its direction."""
+    """Layouts of all containers of a diagram, each in its direction and number of rows."""
 
     def __init__(
         self,
@@ -45,9 +45,11 @@ class Compound:
         edge_routes: EdgeRoutes,
         texts: Texts,
         directions: Mapping[str, Direction],
+        rows: Mapping[str, int],
     ) -> None:
         self.diagram = diagram
         self.directions = directions
+        self.rows = rows
         self.edge_routes = edge_routes
         self.texts = texts
         self.labels = texts.labels
@@ -120,7 +122,9 @@ class Compound:
             placement = place_regions(level.cells, level.links)
         else:
             level.place_ends()
-            placement = layered(level, self.diagram.kind == "composition")
+            placement = layered(
+                level, self.diagram.kind == "composition", self.rows.get(level.node.id, 1)
+            )
         placement.cells = placement.cells[level.titled :]
         return self._wrap(level, shape, around, title, placement)
 

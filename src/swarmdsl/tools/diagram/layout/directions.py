@@ -1,14 +1,15 @@
-"""Choose the direction of the layout of each level.
+"""Choose the direction of the layout of each level, and its number of rows.
 
 The size of a container in either direction is estimated from its layers, before anything is laid
 out. From a start with one direction everywhere, directions are turned as long as the diagram then
 fits its page better: a local search for the orientations of Stockmeyer: Optimal Orientations of
-Cells in Slicing Floorplan Designs (1983), which also asks for the shape of the whole.
+Cells in Slicing Floorplan Designs (1983), which also asks for the shape of the whole. If the
+diagram is large then, long levels are wrapped into rows where that makes it much smaller.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from math import log
 
 from swarmdsl.codegen.diagram.graph import Diagram, Node
@@ -21,12 +22,19 @@ ASPECT = 1.6
 """Preferred ratio of width to height."""
 _LEAST_GAIN = 0.03
 """Share of its size that a diagram must lose for a turn: small edits then rarely turn something."""
+_PAGE = 2_400
+"""Size of a diagram from which on the layers of a container are wrapped into rows."""
+_LEAST_GAIN_OF_ROWS = 0.25
+"""Share of its size that a diagram must lose for that."""
+_MAX_ROWS = 32
 _MAX_SEARCHED = 60
 """Maximum number of containers for which single ones are turned, not only whole levels."""
 _ROUNDS = 4
 _OTHER: dict[Direction, Direction] = {"down": "right", "right": "down"}
 
 Directions = dict[str, Direction]
+Rows = dict[str, int]
+"""Number of rows by the id of a container, for those with more than one."""
 
 
 def uniform(diagram: Diagram, direction: Direction) -> Directions:
@@ -39,19 +47,24 @@ def fitted_size(wide: int, high: int) -> float:
     return max(wide / ASPECT, high) + 0.2 * abs(log(wide / high / ASPECT))
 
 
-def choose_directions(diagram: Diagram, routes: EdgeRoutes, texts: Texts) -> Iterator[Directions]:
+def choose_directions(
+    diagram: Diagram, routes: EdgeRoutes, texts: Texts
+) -> Iterator[tuple[Directions, Rows]]:
     """Yield the best directions with the whole downwards, and with it to the right.
 
-    They are yielded best first, by the estimate.
+    They are yielded best first, by the estimate, with the number of rows of containers.
     """
     sizes = Sizes(routes, texts)
     containers = [node for node in diagram.frame.walk() if node.nodes]
-    found: list[tuple[float, int, Directions]] = []
+    moves = _moves(diagram, containers)
+    found: list[tuple[float, int, Directions, Rows]] = []
     for start in _OTHER:
-        directions = uniform(diagram, start)
-        least = _search(diagram, routes, sizes, directions, _moves(diagram, containers))
-        found.append((least, len(found), directions))
-    yield from (directions for _, _, directions in sorted(found, key=lambda each: each[:2]))
+        search = _Search(diagram, routes, sizes, uniform(diagram, start))
+        search.turn(moves)
+        if search.least > _PAGE:
+            search.wrap([[diagram.frame.id], *moves])
+        found.append((search.least, len(found), search.directions, search.rows))
+    yield from (choice[2:] for choice in sorted(found, key=lambda each: each[:2]))
 
 
 def _moves(diagram: Diagram, containers: Sequence[Node]) -> list[list[str]]:
@@ -75,33 +88,50 @@ def _moves(diagram: Diagram, containers: Sequence[Node]) -> list[list[str]]:
     return [move for at, move in enumerate(moves) if move and move not in moves[:at]]
 
 
-def _search(
-    diagram: Diagram,
-    routes: EdgeRoutes,
-    sizes: Sizes,
-    directions: Directions,
-    moves: Sequence[Sequence[str]],
-) -> float:
-    """Turn what makes the diagram smaller on its page; return its size then."""
+class _Search:
+    """Directions and rows of containers, while they are improved; `least` is their size."""
 
-    def size(chosen: Mapping[str, Direction]) -> float:
-        return fitted_size(*sizes.of(diagram.frame, chosen))
+    def __init__(
+        self, diagram: Diagram, routes: EdgeRoutes, sizes: Sizes, directions: Directions
+    ) -> None:
+        self.diagram = diagram
+        self.sizes = sizes
+        self.directions = directions
+        self.rows: Rows = {}
+        self.aligned = list(_aligned(diagram.frame, routes))
+        self.least = self.size(directions, {})
 
-    aligned = list(_aligned(diagram.frame, routes))
+    def size(self, directions: Directions, rows: Rows) -> float:
+        return fitted_size(*self.sizes.of(self.diagram.frame, directions, rows))
 
-    least = size(directions)
-    for _ in range(_ROUNDS):
-        before = least
+    def turn(self, moves: Sequence[Sequence[str]]) -> None:
+        """Turn what makes the diagram smaller on its page."""
+        for _ in range(_ROUNDS):
+            before = self.least
+            for move in moves:
+                turned = self.directions | {each: _OTHER[self.directions[each]] for each in move}
+                for state, container in self.aligned:
+                    turned[state] = turned[container]
+                if (found := self.size(turned, self.rows)) < self.least * (1 - _LEAST_GAIN):
+                    self.least = found
+                    self.directions = turned
+            if self.least == before:
+                return
+
+    def wrap(self, moves: Sequence[Sequence[str]]) -> None:
+        """Wrap what makes the diagram much smaller on its page, and turn levels again."""
+        nodes = {node.id: node for node in self.diagram.frame.walk() if node.nodes}
+        layers = {id_: self.sizes.layer_count(node) for id_, node in nodes.items()}
         for move in moves:
-            turned = directions | {each: _OTHER[directions[each]] for each in move}
-            for state, container in aligned:
-                turned[state] = turned[container]
-            if (found := size(turned)) < least * (1 - _LEAST_GAIN):
-                least = found
-                directions.update(turned)
-        if least == before:
-            return least
-    return least
+            wrapped = self.rows
+            least = self.least * (1 - _LEAST_GAIN_OF_ROWS)
+            for count in range(2, _MAX_ROWS + 1):
+                rows = {each: count for each in move if layers[each] >= 2 * count}
+                if rows and (found := self.size(self.directions, self.rows | rows)) < least:
+                    least, wrapped = found, self.rows | rows
+            if wrapped is not self.rows:
+                self.least, self.rows = least, wrapped
+                self.turn(moves)
 
 
 def _aligned(node: Node, routes: EdgeRoutes) -> Iterator[tuple[str, str]]:

@@ -131,9 +131,13 @@ class Segment:
 
 @dataclass
 class Layers:
-    """Ordered vertices of each layer, segments between layers, and lanes."""
+    """Ordered vertices of each layer, segments between layers, and lanes.
+
+    The layers of a wrapped graph have the vertices of several `rows`.
+    """
 
     layers: list[list[Vertex]]
     segments: list[Segment]
     cells: list[Vertex]
     lanes: list[Vertex]
+    rows: int = 1

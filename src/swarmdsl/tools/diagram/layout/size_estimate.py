@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.codegen.diagram.graph import Node
@@ -10,6 +10,7 @@ from swarmdsl.tools.diagram.layout.chains import LABEL_GAP, LINE_GAP, NODE_GAP
 from swarmdsl.tools.diagram.layout.container_layout import along_across
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.routing import TRACK
+from swarmdsl.tools.diagram.layout.rows import starts_of_rows
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
 from swarmdsl.tools.diagram.layout.texts import Texts
 from swarmdsl.tools.diagram.shapes import Direction
@@ -57,29 +58,48 @@ class Sizes:
         self._turning: dict[str, int] = {}
         self._containers: dict[str, list[str]] = {}
         self._leaves: dict[str, dict[str, Size]] = {}
-        self._known: dict[tuple[str, Direction, tuple[Direction, ...]], Size] = {}
+        self._known: dict[tuple[str, Direction, tuple[tuple[Direction, int], ...]], Size] = {}
 
-    def of(self, frame: Node, directions: Mapping[str, Direction]) -> Size:
+    def of(self, frame: Node, directions: Mapping[str, Direction], rows: Mapping[str, int]) -> Size:
         """Width and height of the diagram."""
         if not frame.nodes:
             return self._leaf(frame)
-        return self._size(frame, directions[frame.id], directions)
+        return self._size(frame, directions[frame.id], directions, rows)
 
-    def _size(self, node: Node, around: Direction, directions: Mapping[str, Direction]) -> Size:
+    def layer_count(self, node: Node) -> int:
+        """Return the number of layers of a container that may have rows, otherwise 1."""
+        if node.id not in self._layers:
+            self._layers[node.id] = self._layered(node)
+        inner = self._routes.inner[node.id]
+        ends = (self._routes.routes[number].legs[leg][1:] for number, leg in inner)
+        if node.kind == "parallel" or node.ports or any(None in pair for pair in ends):
+            return 1
+        return len(self._layers[node.id])
+
+    def _size(
+        self,
+        node: Node,
+        around: Direction,
+        directions: Mapping[str, Direction],
+        rows: Mapping[str, int],
+    ) -> Size:
         """Size of a container."""
         if node.id not in self._containers:
             self._containers[node.id] = [each.id for each in node.walk() if each.nodes]
             leaves = [child for child in node.nodes if not child.nodes]
             self._leaves[node.id] = {child.id: self._leaf(child) for child in leaves}
-        key = (node.id, around, tuple([directions[each] for each in self._containers[node.id]]))
+        inside = self._containers[node.id]
+        key = (node.id, around, tuple([(directions[each], rows.get(each, 1)) for each in inside]))
         found = self._known.get(key)
         if found is None:
             direction = directions[node.id]
             sizes = dict(self._leaves[node.id])
             for child in node.nodes:
                 if child.nodes:
-                    sizes[child.id] = self._size(child, direction, directions)
-            found = self._known[key] = self._container(node, direction, around, sizes)
+                    sizes[child.id] = self._size(child, direction, directions, rows)
+            found = self._known[key] = self._container(
+                node, direction, around, sizes, rows.get(node.id, 1)
+            )
         return found
 
     def _leaf(self, node: Node) -> Size:
@@ -87,7 +107,12 @@ class Sizes:
         return shape.width, shape.height
 
     def _container(
-        self, node: Node, direction: Direction, around: Direction, sizes: Mapping[str, Size]
+        self,
+        node: Node,
+        direction: Direction,
+        around: Direction,
+        sizes: Mapping[str, Size],
+        rows: int,
     ) -> Size:
         if node.id not in self._layers:
             self._layers[node.id] = self._layered(node)
@@ -97,15 +122,16 @@ class Sizes:
                 layers = [_Layer(list(node.nodes))]
             self._fixed[node.id, direction] = [layer.fixed(direction) for layer in layers]
         along, across = along_across(direction, 0, 1)
-        length = breadth = 0
+        layers_: list[Size] = []
         for children, least_length, more_length, more_breadth in self._fixed[node.id, direction]:
             layer_breadth = more_breadth
             for child in children:
                 size = sizes[child]
                 least_length = max(least_length, size[along])
                 layer_breadth += size[across]
-            length += least_length + more_length
-            breadth = max(breadth, layer_breadth)
+            layers_.append((least_length + more_length, layer_breadth))
+        crossed = [0, *(layer.segments for layer in self._layers[node.id])]
+        length, breadth = wrapped_size(layers_, crossed, rows)
         if direction != around:
             length += self._turning.get(node.id, 0) * TRACK
         wide, high = along_across(direction, length, breadth)
@@ -156,3 +182,17 @@ class Sizes:
                 layers[min(max(at, 0), len(layers) - 1)].labels.append(label)
         self._turning[node.id] = turning
         return [layer for layer in layers if layer.children or layer.labels]
+
+
+def wrapped_size(layers: Sequence[Size], crossed: Sequence[int], rows: int) -> Size:
+    """Length and breadth of layers of these sizes in a number of rows."""
+    starts = starts_of_rows([length for length, _ in layers], crossed, rows) if rows > 1 else [0]
+    lengths: list[int] = []
+    breadth = NODE_GAP * (len(starts) - 1)
+    for start, stop in zip(starts, (*starts[1:], len(layers)), strict=True):
+        breadth += max((across for _, across in layers[start:stop]), default=0)
+        for at in range(stop - start):
+            lengths[at : at + 1] = [max([layers[start + at][0], *lengths[at : at + 1]])]
+        if stop < len(layers):
+            breadth += LINE_GAP * crossed[stop]
+    return sum(lengths), breadth

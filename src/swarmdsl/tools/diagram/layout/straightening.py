@@ -16,7 +16,7 @@ from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Segment
 from swarmdsl.tools.diagram.layout.simplex import minimize
 
 _NARROW = 8
-"""Cost of the breadth of a level, per pixel; half of the number of its vertices is added."""
+"""Cost of the breadth of a level, per pixel; half the number of vertices in a row is added."""
 
 
 class Straightener:
@@ -67,7 +67,7 @@ class Straightener:
             self.constraints.append((top, number[id(first)], -offset[id(first)], 0))
             room = offset[id(last)] + last.breadth
             self.constraints.append((number[id(last)], bottom, room, 0))
-        count = sum(map(len, self.layers.layers))
+        count = sum(map(len, self.layers.layers)) // self.layers.rows
         self.constraints.append((top, bottom, 0, _NARROW + count // 2))
         self.places += (0, self.chains.breadth)
 
