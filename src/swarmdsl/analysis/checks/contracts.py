@@ -12,7 +12,7 @@ from swarmdsl.analysis.checks.contract_answers import Answer, Answers
 from swarmdsl.analysis.checks.safe_paths import SafePaths, is_left_at_once
 from swarmdsl.analysis.checks.state_places import Place, inside, places_of
 from swarmdsl.analysis.resolve.inheritance import all_items
-from swarmdsl.analysis.resolve.properties import machines_of_member
+from swarmdsl.analysis.resolve.sentences import machines_of_member
 from swarmdsl.analysis.resolve.states import all_resolved
 from swarmdsl.base.diagnostics.advice import insert
 from swarmdsl.base.diagnostics.collector import Label, listed

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.properties import check_facts
-from swarmdsl.analysis.resolve.properties import facts_in
+from swarmdsl.analysis.resolve.sentences import facts_in
 from swarmdsl.analysis.types.space_types import LENGTH
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import Fitness, FitnessInput, FitnessUse, Measure, Swarm

@@ -10,7 +10,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
 from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.analysis.resolve.multiplicity import greatest
-from swarmdsl.analysis.resolve.properties import (
+from swarmdsl.analysis.resolve.sentences import (
     Sentence,
     each_robot_of,
     facts_in,

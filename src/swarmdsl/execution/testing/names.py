@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 
-from swarmdsl.analysis.resolve.properties import matches
+from swarmdsl.analysis.resolve.sentences import matches
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import did_you_mean, suggest

@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 from swarmdsl.analysis.resolve.addresses import machines_in, roles_of, swarms_of
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.membership import member_events, presence_calls
-from swarmdsl.analysis.resolve.properties import (
+from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.sentences import (
     Path,
     Sentence,
     facts_in,
@@ -18,8 +19,7 @@ from swarmdsl.analysis.resolve.properties import (
     subjects_of,
     values_of_fact,
 )
-from swarmdsl.analysis.resolve.properties import roles_of as property_roles
-from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.sentences import roles_of as property_roles
 from swarmdsl.analysis.resolve.space import areas_of, goal_fields, targets_of
 from swarmdsl.analysis.resolve.states import content, regions, vertices
 from swarmdsl.driver.workspace import Workspace

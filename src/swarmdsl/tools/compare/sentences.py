@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from swarmdsl.analysis.resolve.properties import matches
+from swarmdsl.analysis.resolve.sentences import matches
 from swarmdsl.ir import Member, Property, StateMachine, System, sentences
 from swarmdsl.ir.sentences import sentence
 from swarmdsl.tools.compare.elements import (
