@@ -345,6 +345,10 @@ def verdict(client: Client, outcome: str, exit_code: int) -> dict[str, Any]:
 def test_a_behaviour_test_is_driven_by_its_steps(client: Client) -> None:
     client.launch({MODEL: [line("state On {")]}, test=str(TESTS))
     assert client.stop()["frame"]["name"] == "Lit.On"
+    step = client.stack(1)[-1]
+    assert (step["name"], step["source"]["path"]) == ("step of the test", str(TESTS))
+    text = TESTS.read_text(encoding="utf-8").splitlines()[step["line"] - 1]
+    assert text[step["column"] - 1 : step["endColumn"] - 1] == '"Start"'
     assert client.value("blinks") == "2"
     assert client.go("continue")["text"] == "bulb[0], at 1 s"
     assert client.go("stepBack")["text"] == "bulb[0], at 0 ms"

@@ -61,12 +61,13 @@ def run_case(
     listener: Callable[[Line], None],
     recorder: Recording | None = None,
     pace: Pace | None = None,
+    reached: Callable[[Span], None] = lambda place: None,
 ) -> RunResult:
     """Run a test until its end or first failure; the recorder keeps the lines of the run.
 
-    A pace waits before time passes.
+    A pace waits before time passes; `reached` gets the place of each step.
     """
-    run = _CaseRun(case, seed, listener, pace)
+    run = _CaseRun(case, seed, listener, pace, reached)
     if recorder is not None:
         run.tell(recorder)
     return run.run_case()
@@ -74,10 +75,16 @@ def run_case(
 
 class _CaseRun:
     def __init__(
-        self, case: Case, seed: int, listener: Callable[[Line], None], pace: Pace | None
+        self,
+        case: Case,
+        seed: int,
+        listener: Callable[[Line], None],
+        pace: Pace | None,
+        reached: Callable[[Span], None],
     ) -> None:
         self._case = case
         self._pace = pace
+        self._reached = reached
         robots = case.subject.create_robots(case.scenario.counts, case.scenario.alone)
         # Actors are not reusable: a run changes their data.
         self._cast = actors(case.subject, robots, case.scenario, Diagnostics())
@@ -132,6 +139,7 @@ class _CaseRun:
             self._pass(0)
             for number, step in enumerate(self._case.steps):
                 place = step.place
+                self._reached(place)
                 self._do(step)
                 self._release(number)
             self._judge_properties()

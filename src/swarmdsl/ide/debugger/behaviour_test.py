@@ -50,7 +50,9 @@ class TestProgram:
         """Run once; return why it is over."""
         if self._shown is None:
             self._shown = self._choose(stage)
-        shown = run_case(self._case, self._shown, stage.see, _Opened(stage), stage.pace)
+        shown = run_case(
+            self._case, self._shown, stage.see, _Opened(stage), stage.pace, stage.reach
+        )
         if shown.failure is not None:
             stage.fail(_described(shown.failure))
         verdict = judge_runs(

@@ -9,9 +9,10 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Event, Instance, InstanceLike, State, Transition
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
@@ -20,6 +21,7 @@ from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.ide.debugger.breakpoints import Breakpoints
+from swarmdsl.ide.debugger.client import Client, RunAgainError
 from swarmdsl.ide.debugger.expressions import Expressions, Result
 from swarmdsl.ide.debugger.points import Element, Kind, Microsteps, Point, Way
 from swarmdsl.ide.debugger.values import text_of
@@ -29,42 +31,6 @@ VIOLATIONS, FAILURES = "violations", "failures"
 GO_ON = Way("breakpoint")
 _NAP = 0.05
 """Greatest time for which a run in real time does not listen to the user, in seconds."""
-
-
-class RunAgainError(BaseException):
-    """The run is to be played again, to a point.
-
-    It passes through the model of a function, which may handle every `Exception`.
-    """
-
-    def __init__(self, point: int, *, finds: bool = False) -> None:
-        super().__init__(point)
-        self.point = point
-        self.finds = finds
-        """True if the point is the last breakpoint before it."""
-
-
-class EndedError(BaseException):
-    """The session is over."""
-
-
-class Client(Protocol):
-    """Owner of a run, which a user drives."""
-
-    def poll(self) -> None:
-        """Handle what the user has asked for meanwhile."""
-
-    def hold(self, reason: str, text: str) -> None:
-        """Stand still until the user goes on; may raise RunAgainError or EndedError."""
-
-    def tell(self, text: str, category: str = "stdout") -> None:
-        """Tell the user a line."""
-
-    def moved(self, line: Line) -> None:
-        """Follow a step that the user sees."""
-
-    def judged(self, result: Mapping[str, Any]) -> None:
-        """Follow the result of a test."""
 
 
 @dataclass(frozen=True)
@@ -128,6 +94,8 @@ class Controls:
         """Numbers of the machines in the cast."""
         self.number = 0
         self.point = Point("between", 0)
+        self.step: Span | None = None
+        """Place of the step of a test that drives the run."""
         self.last: dict[int, Line] = {}
         """Last line of each member."""
         self.moments: list[int] = []
@@ -216,6 +184,10 @@ class Controls:
         self.has_failed = True
         self._faults.append(why)
         self.arrive("failed", self.point.member)
+
+    def reach(self, step: Span) -> None:
+        """Note the step of a test."""
+        self.step = step
 
     def judged(self, result: Mapping[str, Any]) -> None:
         """Show the result of a test."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from swarmdsl.ide.debugger.controls import FAILURES, VIOLATIONS, EndedError
+from swarmdsl.ide.debugger.client import EndedError
+from swarmdsl.ide.debugger.controls import FAILURES, VIOLATIONS
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required
 from swarmdsl.ide.debugger.owner import Body, Handler, Session
 from swarmdsl.ide.debugger.points import Way

@@ -95,6 +95,7 @@ class Inspection:
         if instance.final is not None:
             state = machine.states[machine.numbers[instance.final]]
             yield self._frame(member, state, f"ended in {state.id}")
+            yield from self._step(member)
             return
         element = point.element if point.member == member else None
         active = [state for state in machine.states[1:] if instance.active(state.id)]
@@ -107,6 +108,13 @@ class Inspection:
         yield from (self._frame(member, state) for state in reversed(active))
         if not active and element is None:
             yield Frame(member, "not running", None, "")
+        yield from self._step(member)
+
+    def _step(self, member: int) -> Iterator[Frame]:
+        """Yield the step of a test that drives the run, if any."""
+        place = self._controls.step
+        if place is not None:
+            yield Frame(member, "step of the test", place.absolute, "")
 
     def _frame(
         self, member: int, element: Element, name: str = "", state: str | None = None

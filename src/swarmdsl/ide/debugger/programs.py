@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import LoopError, Machine
 from swarmdsl.execution.monitor import FALSE
 from swarmdsl.execution.simulate.actors import Actor
@@ -41,6 +42,9 @@ class Stage(Protocol):
 
     def fail(self, why: str) -> None:
         """Follow the failure of a run."""
+
+    def reach(self, step: Span) -> None:
+        """Follow that a step of a test begins."""
 
     def judged(self, result: Mapping[str, Any]) -> None:
         """Follow the result of a test."""

@@ -19,7 +19,8 @@ from swarmdsl.execution.simulate.trace import Line, as_text
 from swarmdsl.ide.debugger import answers, courses
 from swarmdsl.ide.debugger.behaviour_test import load_test
 from swarmdsl.ide.debugger.breakpoints import Breakpoints, Places
-from swarmdsl.ide.debugger.controls import GO_ON, Controls, EndedError, RunAgainError
+from swarmdsl.ide.debugger.client import EndedError, RunAgainError
+from swarmdsl.ide.debugger.controls import GO_ON, Controls
 from swarmdsl.ide.debugger.expressions import Expressions
 from swarmdsl.ide.debugger.inspection import Inspection
 from swarmdsl.ide.debugger.launch_keys import misspelled
