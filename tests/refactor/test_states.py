@@ -2,9 +2,7 @@
 
 import random
 import re
-from collections import Counter
 from collections.abc import Iterator
-from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -13,8 +11,6 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.renaming import RefusedError, rename, replaced
-from swarmdsl.execution.engine import LoopError
-from swarmdsl.ir import System
 from swarmdsl.ir.dump import dump
 from swarmdsl.lowering import lower
 from swarmdsl.project.loader import File
@@ -25,42 +21,11 @@ from swarmdsl.tools.refactor.inline_state import inline_state, why_not_inline
 from swarmdsl.tools.refactor.selected_states import Selection, selected_states
 from swarmdsl.tools.refactor.wrap_states import wrap_states
 
-from ..agreement.engines import Ours, Step
-from ..agreement.scripts import Model, Subject
+from .traces import behaviour, behaviours, check_text, comments
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = sorted((ROOT / "examples").glob("*/*.swarm"))
 MODELS += sorted((ROOT / "tests" / "golden").glob("*/model.swarm"))
-
-
-def behaviours(before: System, after: System, name: str, gone: str) -> int:
-    """Compare a machine in two systems step by step; `gone` is a state that one has in between."""
-    one, other = (
-        next(each for each in system.machines if each.name == name) for system in (before, after)
-    )
-    first, second = Subject(one, before), Subject(other, after)
-
-    def plain(state: str) -> str:
-        return ".".join(part for part in state.split(".") if part != gone)
-
-    renamed = {plain(state.id): state.id for state in other.walk() if plain(state.id)}
-    compared = 0
-    for steps in map(first.walk, map(random.Random, range(2))):
-        left, right = Model(first), Model(second)
-        for step in steps:
-            assert told(left, plain) == told(right, plain)
-            left.take(step)
-            run = (renamed[plain(step.run[0])], step.run[1]) if step.run is not None else None
-            right.take(Step(step.event, step.data, run, step.time, step.sender, step.sent))
-            compared += 1
-        assert told(left, plain) == told(right, plain)
-    return compared
-
-
-def told(model: Ours, plain) -> object:
-    """All states that are active, but for the one in between, and the values of variables."""
-    active = {plain(state) for state in Ours.active.fget(model)} - {""}
-    return active, repr(model.instance.data).replace("group_", "")
 
 
 def selections(file: File, dice: random.Random) -> Iterator[Selection]:
@@ -74,10 +39,6 @@ def selections(file: File, dice: random.Random) -> Iterator[Selection]:
         found = selected_states(file, within)
         if found is not None:
             yield found
-
-
-def comments(text: str) -> Counter[str]:
-    return Counter(each.strip() for each in re.findall(r"//+(.*)", text))
 
 
 @pytest.mark.parametrize("path", MODELS, ids=lambda path: f"{path.parent.name}-{path.stem}")
@@ -119,16 +80,6 @@ def group(workspace: Workspace, path: Path) -> tuple[File, Selection]:
     found = selected_states(file, Span(file.source, at, at))
     assert found is not None
     return file, found
-
-
-def behaviour(before: System, after: System, name: str, gone: str) -> None:
-    with suppress(LoopError):  # a machine by chance may not come to rest
-        behaviours(before, after, name, gone)
-
-
-def check_text(text: str, original: str) -> None:
-    assert format_source(Source("", text), Diagnostics()) == text
-    assert comments(text) == comments(original)
 
 
 @pytest.mark.parametrize("path", MODELS, ids=lambda path: f"{path.parent.name}-{path.stem}")
@@ -177,6 +128,8 @@ def test_machine_extracted(path: Path) -> None:
             at = state.span.absolute.start
             selection = selected_states(file, Span(file.source, at, at))
             if not isinstance(state, State) or not left or selection is None:
+                continue
+            if selection.composite is None:
                 continue
             if why_not_extract(selection) is not None:
                 continue
@@ -305,11 +258,11 @@ def test_extracted_text(model: Workspace) -> None:
         (
             "on Stop -> Y",
             "defer Go; on Stop -> A",
-            "`A` would be entered after events that `W` raises",
+            "`A` would be entered after events that `W` defers",
         ),
         ("[1 == 1]", "[in(A)]", "`A` is named in `W`, and not inside"),
         ("on Go -> C }", "on Go -> W.Y }", "`W.Y` is inside, and named outside of `W`"),
-        ("initial A", "var n : int32 = 0; initial A", "`n` is a variable of `M`"),
+        ("initial A", "var n : int32 = 0; initial A", "`n` is a variable around `W`"),
         ("// on a stop", "do halt", "`W` has an activity"),
         ("// on a stop", "var k : int32 = 0", "`W` has variables"),
         ("in W.X", "in W", ""),
@@ -416,3 +369,123 @@ def test_machine_whose_name_is_taken_gets_a_number(tmp_path: Path) -> None:
     [changed] = extract_machine(model, *chosen(model, "state F")).values()
     assert "state F = MF2" in changed
     assert "statemachine MF2 {" in changed
+
+
+def changed(tmp_path: Path, change, text: str, first: str, last: str = "") -> str:
+    """Return a machine after a change of what is selected."""
+    head = MODEL[: MODEL.index("statemachine")]
+    path = tmp_path / "model.swarm"
+    path.write_bytes(f"{head}statemachine M {{\n{text}\n}}\n".encode())
+    [made] = change((model := Workspace([tmp_path])), *chosen(model, first, last)).values()
+    return made[made.index("statemachine") :]
+
+
+COMMON = """\
+  initial A
+  // a
+  state A { on Go -> B; on Stop -> Z }  // b
+  state B {
+    on Go -> C
+    // c
+    on Stop -> Z  // d
+  }
+  state C { on Stop -> Z }
+  final Z
+"""
+
+
+def test_common_transitions_are_kept_once(tmp_path: Path) -> None:
+    assert (
+        changed(tmp_path, wrap_states, COMMON, "// a", "state C")
+        == """\
+statemachine M {
+  initial Group
+  state Group {
+    initial A
+
+    // a
+    state A { on Go -> B }  // b
+
+    state B {
+      on Go -> C
+    }
+
+    state C
+
+    // c
+    // d
+    on Stop -> Z
+  }
+
+  final Z
+}
+"""
+    )
+
+
+def test_states_are_extracted_into_a_machine(tmp_path: Path) -> None:
+    text = COMMON.replace("on Go -> C", "on Go -> D").replace("final Z", "state D\n  final Z")
+    made = changed(tmp_path, extract_machine, text.replace("\n", "\r\n"), "-> B; on", "state C {")
+    assert "  initial Group\n  state Group = MGroup {\n    on done.ToD -> D\n    // c\n" in made
+    assert "    on Go -> ToD\n" in made
+    assert made.startswith("statemachine MGroup {\n  initial A\n\n  // a\n")
+
+
+AROUND = """\
+  initial P
+  state P {
+    initial S
+    state S {
+      initial A
+      state A { on Go -> B }
+      state B { on Stop -> A }
+      on Go, Stop -> A
+      on Stop -> Z
+    }
+    on Go -> Z
+  }
+  final Z
+"""
+
+
+def test_transitions_are_lifted_to_the_state_around(tmp_path: Path) -> None:
+    made = changed(tmp_path, inline_state, AROUND, "state S")
+    assert "    state B { on Stop -> A }\n" in made
+    assert re.search(r"internal on Go, Stop +-> A\n +on Stop +-> Z\n +on Go +-> Z\n", made)
+
+
+def test_copies_are_as_few_as_possible(tmp_path: Path) -> None:
+    text = AROUND.replace("state P {", "state P {\nstate Q { on Go -> S }")
+    made = changed(tmp_path, inline_state, text, "state S")
+    assert re.sub(r"\s+", " ", made[made.index("state A") : made.index("final Z")]) == (
+        "state A { on Go -> B on Stop -> A on Stop -> Z }"
+        " state B { on Stop -> A on Go -> A } on Go -> Z } "
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "first", "last", "names"),
+    [
+        (COMMON, "// a", "// a", ""),
+        (COMMON, "on Go -> C", "on Go", "B"),
+        (COMMON, "on Go -> B", "state B", "AB"),
+        (AROUND, "state A", "state B", "AB"),
+        (AROUND, "on Stop -> Z", "on Stop", "S"),
+        (COMMON + "}\nstatemachine N { initial A; state A", "state C", "state A", ""),
+        (COMMON, "  initial A", "final Z", "ABCZ"),
+    ],
+)
+def test_what_a_selection_touches(tmp_path: Path, text, first, last, names) -> None:
+    head = MODEL[: MODEL.index("statemachine")]
+    (tmp_path / "model.swarm").write_text(f"{head}statemachine M {{\n{text}\n}}\n", "utf-8")
+    [file] = [each for each in Workspace([tmp_path]).project.files if not each.library]
+    start = file.source.text.index(first)
+    end = file.source.text.index(last, start) + len(last)
+    found = selected_states(file, Span(file.source, start, end))
+    assert "".join(str(each.name) for each in (found.states if found else ())) == names
+
+
+def test_machine_of_states_that_are_entered_twice(tmp_path: Path) -> None:
+    text = COMMON.replace("final Z", "state D { on Go -> B }\n  final Z")
+    with pytest.raises(RefusedError, match="`B` is inside, and named outside of `A` and"):
+        changed(tmp_path, extract_machine, text, "state A", "state C")

@@ -82,11 +82,16 @@ async def offered(client, document, first, last="", only=None):
     return {each.title: each for each in found}
 
 
-async def test_states_are_wrapped(client, document):
+async def test_states_are_extracted(client, document):
     found = await offered(client, document, "state A", "state B", [lsp.CodeActionKind.Refactor])
-    assert list(found) == ["Wrap `A`, `B` in a composite state"]
-    [action] = found.values()
+    assert list(found) == [
+        "Extract `A`, `B` into a composite state",
+        "Extract `A`, `B` into a machine",
+    ]
+    action, other = found.values()
     assert action.edit is None
+    made = (await client.code_action_resolve_async(other)).edit
+    assert "state Group = MGroup" in "".join(each.new_text for each in made.changes[document.uri])
     edit = (await client.code_action_resolve_async(action)).edit
     new = "".join(each.new_text for each in edit.changes[document.uri])
     assert "initial Group\n  state Group {\n    initial A\n" in new
@@ -94,11 +99,11 @@ async def test_states_are_wrapped(client, document):
 
 async def test_reasons_are_shown(client, document):
     found = await offered(client, document, "final Z")
-    reason = found["Wrap `Z` in a composite state"].disabled.reason
+    reason = found["Extract `Z` into a composite state"].disabled.reason
     assert reason == "the final state `Z` ends what it is in"
     found = await offered(client, document, "state C")
     assert found["Dissolve composite state `C`"].disabled.reason == "`C` has effects at its entry"
-    assert found["Wrap `C` in a composite state"].disabled is None
+    assert found["Extract `C` into a composite state"].disabled is None
     assert not await offered(client, document, "state C", only=[lsp.CodeActionKind.QuickFix])
 
 

@@ -101,23 +101,23 @@ def _at(
         names = ", ".join(f"`{each.name}`" for each in selection.states)
         yield Refactoring(
             WRAP,
-            f"Wrap {names} in a composite state",
+            f"Extract {names} into a composite state",
             lambda: wrap_states(workspace, file, selection),
             why_not_wrap(selection),
         )
-    if selection is not None and selection.composite is not None:
-        name = f"`{selection.composite.name}`"
-        yield Refactoring(
-            INLINE,
-            f"Dissolve composite state {name}",
-            lambda: inline_state(workspace, file, selection),
-            why_not_inline(selection),
-        )
+        inside = "the states of " if selection.composite is not None else ""
         yield Refactoring(
             EXTRACT,
-            f"Make a machine of {name}",
+            f"Extract {inside}{names} into a machine",
             lambda: extract_machine(workspace, file, selection),
             why_not_extract(selection),
+        )
+    if selection is not None and selection.composite is not None:
+        yield Refactoring(
+            INLINE,
+            f"Dissolve composite state `{selection.composite.name}`",
+            lambda: inline_state(workspace, file, selection),
+            why_not_inline(selection),
         )
     declaration = movable(file, span.start)
     if declaration is not None and _creates_files(session):

@@ -14,6 +14,8 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.renaming import RefusedError
 from swarmdsl.syntax.formatter import format_source
 
+COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
+_SEPARATOR = re.compile(r"[ \t]*;")
 _ENDS_LINE = re.compile(r"[ \t]*;?[ \t]*(?://[^\n]*)?(?=\n|\Z)")
 
 
@@ -46,6 +48,19 @@ def statement(span: Span) -> tuple[int, int]:
             break
         start = above
     return start, end
+
+
+def removal(span: Span) -> Change:
+    """Return the change that removes a statement with its comments, and what separates it."""
+    start, end = statement(span)
+    found = _SEPARATOR.match(span.source.text, end)
+    return start, found.end() if found is not None else end, ""
+
+
+def comments_of(span: Span) -> list[str]:
+    """Return the comments that belong to a statement: above it, in it and behind it."""
+    start, end = statement(span)
+    return COMMENT.findall(span.source.text[start:end])
 
 
 def tried(workspace: Workspace, texts: Mapping[Path, str]) -> dict[Path, str]:

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from swarmdsl.analysis.resolve.states import vertices
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
-from swarmdsl.driver.workspace.references import owner_at
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
     Container,
@@ -46,6 +45,12 @@ class Selection:
         return state
 
     @property
+    def subject(self) -> str:
+        """Name of what is selected, for messages."""
+        first, *others = self.states
+        return f"`{first.name}`" if not others else f"`{first.name}` and the states with it"
+
+    @property
     def shallow_history(self) -> History | None:
         """A history that restores one of the states directly inside their container."""
         found = (each for each in vertices(self.container) if isinstance(each, History))
@@ -53,17 +58,22 @@ class Selection:
 
 
 def selected_states(file: File, span: Span) -> Selection | None:
-    """Return the states that a span covers or touches at their names; None if there are none."""
-    machine = owner_at(file, span.start)
-    if not isinstance(machine, StateMachine):
+    """Return the states that a span covers or touches; None for none, or those of two machines.
+
+    A place is at a state from the beginning of its line to the end of its name.
+    """
+    machines = [each for each in file.model.declarations if isinstance(each, StateMachine)]
+    touched = [each for each in machines if _meet(each.span.absolute, span)]
+    if len(touched) != 1:
         return None
+    [machine] = touched
     around: tuple[Container, ...] = (machine,)
     while True:
         inner = next(
             (each for each in _inside(around[0]) if _covers(each.span.absolute, span)), None
         )
         if inner is None:
-            found = [each for each in vertices(around[0]) if _overlap(each.span.absolute, span)]
+            found = [each for each in vertices(around[0]) if _meet(each.span.absolute, span)]
             break
         if span.start <= inner.name.span.absolute.end or not isinstance(
             inner, (State, Parallel, Region)
@@ -71,6 +81,8 @@ def selected_states(file: File, span: Span) -> Selection | None:
             found = [] if isinstance(inner, Region) else [inner]
             break
         around = (inner, *around)
+    if not found and span.start < span.end and isinstance(around[0], (State, Parallel)):
+        found, around = [around[0]], around[1:]  # what is selected is in it
     return Selection(machine, around, tuple(found)) if found else None
 
 
@@ -88,5 +100,8 @@ def _covers(outer: Span, inner: Span) -> bool:
     return outer.start <= inner.start and inner.end <= outer.end
 
 
-def _overlap(one: Span, other: Span) -> bool:
+def _meet(one: Span, other: Span) -> bool:
+    """Return True if a selection touches what has a span; an empty one may be at its borders."""
+    if other.start == other.end:
+        return one.start <= other.start <= one.end
     return one.start < other.end and other.start < one.end

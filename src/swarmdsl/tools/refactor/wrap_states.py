@@ -1,12 +1,14 @@
 """Move states that are beside each other into a new composite state.
 
-The new state has nothing but them, so each step of the machine does what it did. It is refused
-where it would not: a final state would end another state, and a history would restore less.
+Transitions on events that all of them have at their end become transitions of the new state, which
+has nothing else, so each step of the machine does what it did. It is refused where it would not: a
+final state would end another state, and a history would restore less.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from swarmdsl.base.naming import fresh
@@ -16,7 +18,14 @@ from swarmdsl.driver.workspace.references import occurrences_of
 from swarmdsl.driver.workspace.renaming import RefusedError
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import FinalState, History, Initial, State, Vertex
-from swarmdsl.tools.refactor.changed_texts import applied, statement, tried
+from swarmdsl.tools.refactor.changed_texts import (
+    applied,
+    comments_of,
+    removal,
+    statement,
+    tried,
+)
+from swarmdsl.tools.refactor.common_transitions import Common, common_transitions
 from swarmdsl.tools.refactor.selected_states import Selection
 
 _NAME = "Group"
@@ -37,6 +46,11 @@ def why_not_wrap(selection: Selection) -> str | None:
     return None
 
 
+def new_name(selection: Selection) -> str:
+    """Return the name of the new state, which nothing in the machine has."""
+    return fresh(_NAME, re.findall(r"\w+", selection.machine.span.text), gap="")
+
+
 def wrap_states(workspace: Workspace, file: File, selection: Selection) -> dict[Path, str]:
     """Return the texts of files with the states in a new one; raise RefusedError if not."""
     reason = why_not_wrap(selection)
@@ -44,7 +58,7 @@ def wrap_states(workspace: Workspace, file: File, selection: Selection) -> dict[
         raise RefusedError(reason)
     path = file.source.path
     assert path is not None  # sources of a workspace are files
-    name = fresh(_NAME, re.findall(r"\w+", selection.machine.span.text), gap="")
+    name = new_name(selection)
     changes: dict[Path, list[Change]] = {path: []}
     entered: list[Vertex] = []
     inside = [each.span.absolute for each in selection.states]
@@ -84,8 +98,11 @@ def wrap_states(workspace: Workspace, file: File, selection: Selection) -> dict[
 
 def _moved(text: str, selection: Selection, changes: list[Change], name: str, initial: str) -> str:
     """Return the text of the file with the states in the new one, where the first of them was."""
+    lifted = common_transitions(selection.states)
+    inner = [*changes, *_without(selection, lifted)]
     bounds = [statement(each.span.absolute) for each in selection.states]
-    states = "\n\n".join(applied(text, changes, *each) for each in bounds)
+    states = "\n\n".join(applied(text, inner, *each) for each in bounds)
+    states += "".join(f"\n\n{_lifted(text, each)}" for each in lifted)
     others = [
         (first, last, new)
         for first, last, new in changes
@@ -93,3 +110,32 @@ def _moved(text: str, selection: Selection, changes: list[Change], name: str, in
     ]
     places = [(*bounds[0], f"state {name} {{\ninitial {initial}\n\n{states}\n}}")]
     return applied(text, [*others, *places, *((start, end, "") for start, end in bounds[1:])])
+
+
+def _without(selection: Selection, lifted: Sequence[Common]) -> Iterator[Change]:
+    """Yield the removals of transitions that are lifted; a state that had no more has no body."""
+    gone = {each for common in lifted for each in common.transitions}
+    for state in selection.states:
+        if not isinstance(state, State) or gone.isdisjoint(state.items):
+            continue
+        removals = [removal(each.span.absolute) for each in state.items if each in gone]
+        source, start, end = state.span.absolute
+        start = state.name.span.absolute.end
+        if gone.issuperset(state.items) and state.machine is None:
+            rest = applied(source.text, removals, start, end)
+            if not rest.strip(" \t\n;{}"):
+                yield start, end, ""
+                continue
+        yield from removals
+
+
+def _lifted(text: str, common: Common) -> str:
+    """Return the text of a transition that is lifted, with the comments of all of them."""
+    start, end = statement(common.kept.span.absolute)
+    comments = dict.fromkeys(
+        comment.rstrip()
+        for each in common.transitions[1:]
+        for comment in comments_of(each.span.absolute)
+        if comment.rstrip() not in text[start:end]
+    )
+    return "\n".join([*comments, text[start:end]])
