@@ -53,7 +53,7 @@ def test_traces_stay(tmp_path: Path) -> None:
             with workspace.overriding(texts):
                 behaviour(before, lower(workspace.project), "M", str(gone))
     assert (
-        min(done[each] for each in ("wrap_states", "extract_machine", "inline_state", "ends")) > 1
+        min(done[each] for each in ("wrap_states", "extract_machine", "inline_state", "ends")) > 0
     )
 
 
