@@ -192,11 +192,16 @@ def printed(model: Path) -> str:
     return print_system(system(model))
 
 
+@cache
+def printed_change(name: str, number: int) -> object:
+    return shown(print_system, changes()[name][number][1]())
+
+
 def texts(name: str) -> Iterator[tuple[str, str]]:
     """Yield texts of models before and after changes of a field."""
-    for model, make in changes()[name]:
+    for number, (model, _) in enumerate(changes()[name]):
         before = printed(model)
-        after = shown(print_system, make())
+        after = printed_change(name, number)
         if isinstance(after, str) and after != before:
             yield before, after
 
