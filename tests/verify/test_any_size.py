@@ -87,6 +87,9 @@ SENTENCES = {
         *("unknown", "it is about what is possible; it holds for 1 drone"),
     ),
     "each drone : in Wait leads to in Dock within 5 s": ("fails", ""),
+    # What it does at once it does whatever the others do.
+    "each drone : sends Ask leads to in Wait within 5 s": ("holds", "for 1 or more drone"),
+    "each drone : hears Ready leads to in Wait or in Dock": ("holds", "for 1 or more drone"),
     "never count(drone in Dock) > 200": ("unknown", "more than 100 robots"),
     "drone[0] in Dock only after drone[0] hears Grant": ("holds", "for 1 or more drone"),
 }

@@ -8,6 +8,7 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
+from swarmdsl.execution.verify.alone import hearing_all, is_alone
 from swarmdsl.execution.verify.cover import Cover, cover
 from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.groups import Group
@@ -16,7 +17,7 @@ from swarmdsl.execution.verify.limits import Budget
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.questions import Bounds, question
 from swarmdsl.execution.verify.sentence import is_about_ends, not_covered
-from swarmdsl.execution.verify.subjects import about
+from swarmdsl.execution.verify.subjects import about, place_of
 from swarmdsl.execution.verify.terms import facts_of
 from swarmdsl.execution.verify.verdict import ESTIMATE, INTERRUPTED, Outcome, Verdict, unfinished
 from swarmdsl.execution.verify.wanted import NotCoveredError
@@ -52,13 +53,37 @@ def prove_any(
         reason = reason or "it is about what must happen"
     elif property_.kind == "possible":
         reason = reason or "it is about what is possible"
-    doubt = Doubt(reason) if reason else differs(property_, model, bounds)
+    differing = differs(property_, model, bounds)
+    robots = model.one_of_each(property_)
+    if property_.kind == "leads" and differing is None:
+        answered = _answered_at_once(property_, model, bounds, robots)
+        if answered is not None:
+            return answered
+    doubt = Doubt(reason) if reason else differing
     if doubt is not None:
         return _smallest(property_, model, bounds, doubt, prove_at)
-    robots = model.one_of_each(property_)
     found = [_one(property_, model, bounds, me, budget, prove_at) for me in robots]
     absent = Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
     return min(found, key=lambda each: _RANK[each.outcome], default=absent)
+
+
+def _answered_at_once(
+    property_: ir.Property, model: Model, bounds: Bounds, robots: Sequence[str | None]
+) -> Verdict | None:
+    """Prove what robots must do, if each does it in the same step, whatever the others do."""
+    if not is_alone(property_) or not model.complete:
+        return None
+    looked = 0
+    for me in robots:
+        groups = model.groups([property_], me=me)
+        mine = place_of(me, groups)
+        if mine is None or model.doubts(groups):
+            return None
+        states = hearing_all(property_, groups[mine].automaton)
+        if states is None:
+            return None
+        looked += states
+    return Verdict(property_, "holds", looked, _every(bounds)) if robots else None
 
 
 def differs(property_: ir.Property, model: Model, bounds: Bounds) -> Doubt | None:

@@ -97,13 +97,14 @@ def bounds(subject: Subject, asked: Sequence[Size]) -> dict[str, tuple[int, int 
 
 def _report(role: ir.Role, number: int | str, report: Diagnostics) -> None:
     example = number if isinstance(number, int) else "2..8"
+    ways = f"`{role.member}[{example}]` or `[1..*]`" if number != 0 else f"`{role.member}[0..*]`"
     report.report(
         "size-not-allowed",
         role.origin,
         count=number,
         role=role.name,
         label=f"here there are {role.multiplicity}",
-        help=f"change the multiplicity, such as `{role.member}[{example}]` or `[1..*]`",
+        help=f"change the multiplicity, such as {ways}",
     )
 
 
