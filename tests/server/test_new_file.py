@@ -56,6 +56,24 @@ async def test_empty_file_has_no_error_until_it_is_closed(client, editor, folder
     assert await editor.told(other) == []
 
 
+async def test_documentation_has_no_warning_while_it_is_typed(client, editor, folder):
+    path = folder / "new.swarm"
+    path.write_text("package new\nevent A : std_msgs/Empty\n")
+    document = editor.open(path)
+
+    async def codes(line, text):
+        at_line = lsp.Position(line=line, character=0)
+        editor.type(document, (lsp.Range(start=at_line, end=at_line), text))
+        return [each.code for each in await editor.told(document)]
+
+    assert await codes(2, "/// About B") == []
+    assert await codes(3, "\n") == []  # the declaration comes next
+    assert await codes(0, "\n") == ["SW0105"]  # there is something else to do
+    assert await codes(3, "/// Long: ") == []
+    editor.changed_on_disk(path)
+    assert [each.code for each in await editor.told(document)] == ["SW0105"]
+
+
 async def test_formatter_tells_once_that_a_file_has_errors(client, editor, folder):
     document = editor.open(folder / "patrol.swarm", MODEL + "statemachine {")
     options = lsp.FormattingOptions(tab_size=2, insert_spaces=True)

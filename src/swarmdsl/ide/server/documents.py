@@ -18,21 +18,27 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
 class Document:
-    """Text of an open file, with its original line ends."""
+    """Text of an open file, with its original line ends.
+
+    `typed_line` is the line at the end of the last change, None if it is not being typed.
+    """
 
     def __init__(self, text: str, version: int) -> None:
         self.text = text
         self.version = version
+        self.typed_line: int | None = None
 
     def change(self, changes: Iterable[lsp.TextDocumentContentChangeEvent], encoding: str) -> None:
         """Apply changes of the whole text or of ranges, in order."""
         for each in changes:
             if isinstance(each, lsp.TextDocumentContentChangeWholeDocument):
                 self.text = each.text
+                self.typed_line = None
                 continue
             start = self._offset(each.range.start, encoding)
             end = self._offset(each.range.end, encoding)
             self.text = self.text[:start] + each.text + self.text[max(start, end) :]
+            self.typed_line = self.text.count("\n", 0, start + len(each.text))
 
     def _offset(self, at: lsp.Position, encoding: str) -> int:
         start = self._line_start(at.line)

@@ -19,7 +19,7 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.diagnostics import to_lsp_diagnostics, to_range
 from swarmdsl.ide.server.documents import Document
 from swarmdsl.ide.server.models import Models
-from swarmdsl.ide.server.positions import Position, offset, position
+from swarmdsl.ide.server.positions import Position, bounds, offset, position
 from swarmdsl.ide.server.semantic_tokens import SemanticTokenCache
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import TopLevel
@@ -150,7 +150,11 @@ class Session:
         self.dirty = True
 
     def refresh(self, paths: Iterable[Path]) -> None:
-        """Read files again that changed on disk."""
+        """Read files again that changed on disk; those that are open have been saved."""
+        paths = list(paths)
+        for path in paths:
+            if path in self.documents:
+                self.documents[path].typed_line = None
         self.models.refresh(paths)
         self.dirty = True
 
@@ -215,7 +219,6 @@ class Session:
         for workspace, name, diagnostics in self.models.diagnostics():
             # Diagnostics without a file are shown in an open one.
             for path in [Path(name)] if name else self.models.opened(workspace)[:1]:
-                # Somebody begins to write a file that is open and empty.
                 shown = (each for each in diagnostics if not self._is_begun(path, each))
                 found.setdefault(self.uri(path), []).extend(shown)
         for uri in {**self._published, **found, **dict.fromkeys(self._changed)}:
@@ -226,7 +229,15 @@ class Session:
         self._published = {uri: each for uri, each in found.items() if each}
 
     def _is_begun(self, path: Path, found: Diagnostic) -> bool:
-        return found.name == "empty-file" and path in self.documents
+        """Return True for an empty file that is open, or documentation that is being typed."""
+        document = self.documents.get(path)
+        if document is None or found.name == "empty-file":
+            return document is not None
+        if found.name != "unattached-doc-comment" or document.typed_line is None:
+            return False
+        comment = found.primary
+        lines = [line for line, _ in bounds(comment.span, self.encoding)] if comment else []
+        return bool(lines) and lines[0] <= document.typed_line <= lines[1] + 1
 
     def _publish(self, uri: str, found: Sequence[Diagnostic]) -> None:
         path = self.path(uri)
