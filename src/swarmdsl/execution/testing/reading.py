@@ -12,7 +12,7 @@ from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config.toml import Document, Keys, Place, parse_toml
 from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.choose_space import choose_space
+from swarmdsl.execution.simulate.choose_space import Spaces, choose_space
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.scenario_file import read_scenario
@@ -31,16 +31,19 @@ from swarmdsl.project.read_source import read_source
 _NEVER = {"aborted": 0.0, "preempted": 0.0, "never": 1.0}
 
 
-def read_tests(source: Source, models: Models, report: Diagnostics) -> TestFile | None:
+def read_tests(
+    source: Source, models: Models, report: Diagnostics, *, runs: bool = True
+) -> TestFile | None:
     """Read the tests of a file; None if it has errors, which are reported.
 
-    Errors in a single test are kept with it, so that the others can run.
+    Errors in a single test are kept with it, so that the others can run. Unless it `runs`, no space
+    is prepared, for which Python of the project may be imported.
     """
     document = parse_toml(source, report)
     if document is None:
         return None
     assert source.path is not None  # paths in it are relative to the file
-    cases = _Reader(document, source.path, models, report).read()
+    cases = _Reader(document, source.path, models, report, runs).read()
     if not cases or report.has_errors:
         for case in cases:
             report.include(case.problems if isinstance(case, InvalidTest) else ())
@@ -49,7 +52,10 @@ def read_tests(source: Source, models: Models, report: Diagnostics) -> TestFile 
 
 
 class _Reader:
-    def __init__(self, document: Document, path: Path, models: Models, report: Diagnostics) -> None:
+    def __init__(
+        self, document: Document, path: Path, models: Models, report: Diagnostics, runs: bool
+    ) -> None:
+        self._runs = runs
         self._path = path
         self._models = models
         self._report = report
@@ -122,7 +128,9 @@ class _Reader:
         if share is None:
             return None
         played = _with_ends(scenario, steps, cast)
-        spaces = choose_space(scenario.world, subject, played, table.report)
+        spaces = Spaces()
+        if self._runs:
+            spaces = choose_space(scenario.world, subject, played, table.report)
         return Case(
             name,
             _place(table),

@@ -11,7 +11,7 @@ from lsprotocol import types as lsp
 from swarmdsl.ide.server.session import Session
 
 # Files whose changes on disk the client reports, if it can.
-_WATCHED = ("*.swarm", "swarm.toml", "*.{msg,srv,action}")
+_WATCHED = ("*.swarm", "*.toml", "*.{msg,srv,action}")
 
 
 def _initialize(session: Session, params: lsp.InitializeParams) -> None:

@@ -9,14 +9,18 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.source import Source
 from swarmdsl.driver.config import FILE_NAME, Settings, find_file, read_project
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.allowed_paths import AllowedPaths
 from swarmdsl.project.loader import File
+
+if TYPE_CHECKING:
+    from swarmdsl.ide.server.data_files import DataFiles
 
 # About 80,000 lines; larger models would block the editor after each key.
 _MAX_BYTES = 2 * 2**20
@@ -44,6 +48,10 @@ class Models:
         self._changed: dict[Path, bool] = {}
         self._workspaces: dict[tuple[Path, ...], Workspace] = {}
         self._projects: dict[Path, _Project] = {}
+        # Imported with the first data file that is open.
+        self._data: DataFiles | None = None
+        self._named: dict[tuple[Path, ...], Workspace] = {}
+        """Workspaces of models that tests name, until a model changes."""
 
     @property
     def has_pending_edits(self) -> bool:
@@ -79,7 +87,7 @@ class Models:
     def file(self, path: Path) -> tuple[Workspace, File] | None:
         """Return an open file and its workspace."""
         self._apply_edits()
-        if path not in self._texts or path.name == FILE_NAME:
+        if path not in self._texts or not _is_model(path):
             return None
         workspace = self._workspace_of(path)
         file = workspace.file(path)
@@ -90,23 +98,56 @@ class Models:
         files = [path for path in self._models() if self._workspace_of(path) is workspace]
         return sorted(files, key=lambda path: workspace.file(path) is not None)
 
-    def diagnostics(self) -> Iterator[tuple[Workspace, str, list[Diagnostic]]]:
+    def diagnostics(self) -> Iterator[tuple[Workspace | None, str, list[Diagnostic]]]:
         """Yield diagnostics by workspace and file name ("" if they have no file)."""
-        workspaces = self.all()
-        for workspace in workspaces:
+        self._apply_edits()
+        # They may need workspaces of their own.
+        data = [(None, *each) for each in self._mistakes_in_data()]
+        for workspace in self._workspaces.values():
             for name, found in workspace.diagnostics().items():
                 yield workspace, name, found
+        yield from data
         for path, project in self._projects.items():
-            yield from [(each, str(path), list(project.report)) for each in workspaces[:1]]
+            yield None, str(path), list(project.report)
+
+    def _mistakes_in_data(self) -> Iterator[tuple[str, list[Diagnostic]]]:
+        """Yield diagnostics of open tests and scenarios by file name."""
+        for path in filter(_is_data, self._texts):
+            for found in self._data_files().mistakes(path, self._texts[path], self._texts):
+                name = found.primary.span.source.name if found.primary is not None else str(path)
+                yield name, [found]
+
+    def _data_files(self) -> DataFiles:
+        if self._data is None:
+            from swarmdsl.ide.server.data_files import DataFiles
+
+            self._data = DataFiles(self._workspace_of_data)
+        return self._data
+
+    def _workspace_of_data(self, path: Path, named: tuple[Path, ...]) -> Workspace | None:
+        """Return the workspace of the models that a data file names, else of its project."""
+        settings, home = self._settings(path)
+        if settings is None:
+            if path.parent == path.parent.parent:
+                return None
+            settings = Settings(sources=(path.parent,))
+        if not named:
+            return self._workspaces.get(settings.sources) or self._create_workspace(settings, home)
+        if named not in self._named:
+            self._named[named] = self._new_workspace(replace(settings, sources=named), home)
+        return self._named[named]
 
     def _models(self) -> Iterator[Path]:
-        return (path for path in self._texts if path.name != FILE_NAME)
+        return (path for path in self._texts if _is_model(path))
 
     def _apply_edits(self) -> None:
         """Bring all workspaces up to date."""
         if not self._changed:
             return
         changed, self._changed = self._changed, {}
+        if self._data is not None and not all(map(_is_data, changed)):
+            self._data.forget()
+            self._named.clear()
         known = [workspace.file for workspace in self._workspaces.values()]
         for path in changed:
             # A file that could not be read is treated as new.
@@ -118,12 +159,15 @@ class Models:
                 texts = {
                     path: self._texts.get(path)
                     for path, fresh in changed.items()
-                    if path.name != FILE_NAME and (fresh or workspace.file(path) is not None)
+                    if _is_model(path) and (fresh or workspace.file(path) is not None)
                 }
                 if texts:
                     workspace.update(texts)
             for path in self._models():
                 self._workspace_of(path)
+            for path in self._texts:
+                if path.name == FILE_NAME and (path in changed or path not in self._projects):
+                    self._project(path)
         except BaseException:
             self._discard_workspaces()  # a partial update leaves a workspace inconsistent
             raise
@@ -131,13 +175,18 @@ class Models:
             self._drop_unused()
 
     def _drop_unused(self) -> None:
-        """Drop workspaces that no open file needs."""
+        """Drop workspaces and projects that no open file needs."""
         used = {id(self._workspace_of(path)) for path in self._models()}
+        used |= {
+            id(self._workspaces.get(settings.sources))
+            for path in self._texts
+            if _is_data(path) and (settings := self._settings(path)[0]) is not None
+        }
+        homes = {find_file(path) for path in self._texts}
+        self._projects = {path: each for path, each in self._projects.items() if path in homes}
         kept = {key: each for key, each in self._workspaces.items() if id(each) in used}
         if len(kept) < len(self._workspaces):
             self._workspaces = kept
-            homes = {find_file(path) for path in self._models()}
-            self._projects = {path: each for path, each in self._projects.items() if path in homes}
             gc.unfreeze()
             gc.collect()
 
@@ -187,12 +236,21 @@ class Models:
         return settings
 
     def _create_workspace(self, settings: Settings, home: Path) -> Workspace:
-        allowed = AllowedPaths([*self.folders, home], settings)
-        models = {path: self._texts[path] for path in self._models()}
-        workspace = Workspace(
-            settings.sources, settings, texts=models, within=allowed, most=_MAX_BYTES
-        )
-        self._workspaces[settings.sources] = workspace
+        workspace = self._workspaces[settings.sources] = self._new_workspace(settings, home)
         gc.collect()
         gc.freeze()
         return workspace
+
+    def _new_workspace(self, settings: Settings, home: Path) -> Workspace:
+        allowed = AllowedPaths([*self.folders, home], settings)
+        models = {path: self._texts[path] for path in self._models()}
+        return Workspace(settings.sources, settings, texts=models, within=allowed, most=_MAX_BYTES)
+
+
+def _is_data(path: Path) -> bool:
+    """Return True for a file that may have tests or a scenario."""
+    return path.suffix == ".toml" and path.name != FILE_NAME
+
+
+def _is_model(path: Path) -> bool:
+    return path.suffix != ".toml"

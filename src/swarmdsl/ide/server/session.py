@@ -218,7 +218,8 @@ class Session:
         found: dict[str, list[Diagnostic]] = {}
         for workspace, name, diagnostics in self.models.diagnostics():
             # Diagnostics without a file are shown in an open one.
-            for path in [Path(name)] if name else self.models.opened(workspace)[:1]:
+            alone = self.models.opened(workspace)[:1] if workspace is not None else []
+            for path in [Path(name)] if name else alone:
                 shown = (each for each in diagnostics if not self._is_begun(path, each))
                 found.setdefault(self.uri(path), []).extend(shown)
         for uri in {**self._published, **found, **dict.fromkeys(self._changed)}:
