@@ -476,3 +476,70 @@ def test_saved_tests_wait_as_the_run_does(
     assert "property `P` is violated by `a[0]` at 9 s" in capsys.readouterr().out
     model.write_text(text.replace("after 10 s", "after 8 s"), encoding="utf-8")
     assert run(["test", str(saved)]) == 0
+
+
+GROWING = """package test
+swarm event Bid  : std_msgs/Float64
+swarm event Sold : std_msgs/Empty
+struct Offer {
+  way : float64
+  id  : string
+}
+endless statemachine Buy {
+  var offers : Offer[<=8]
+  var best   : Offer
+  initial Wait
+  state Wait {
+    on Bid [len(offers) < 8] / append Offer(way = event.data, id = event.sender) to offers
+    after 2 s -> Choose
+  }
+  choice Choose {
+    [len(offers) > 0] / best = min(o in offers by o.way), send Sold to best.id -> Done
+    else -> Wait
+  }
+  state Done { on Bid -> Done }
+}
+endless statemachine Sell {
+  initial Idle
+  state Idle { after 1 s / send Bid(data = 1.5) -> Sent }
+  state Sent { on Sold -> Glad }
+  state Glad { after 7 s -> Glad }
+}
+member Buyer { behavior Buy }
+member Seller { behavior Sell }
+swarm Market {
+  buyer  : Buyer
+  seller : Seller[3]
+}
+property Sells of Market : buyer in Wait leads to some seller in Glad within 2 s
+property Early of Market : buyer in Wait leads to some seller in Glad within 1 s
+property Two   of Market : never count(seller in Glad) > 1
+"""
+
+
+def test_a_robot_with_too_many_states_has_few_when_time_counts(
+    modelled: Callable[..., Model], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("swarmdsl.execution.verify.model.MOST_STATES", 60)
+    told = {}
+    for exact in (False, True):
+        model = modelled(GROWING, exact=exact, capacity=3)
+        # It could hear as many offers as it can keep, of each seller at any time.
+        assert not model.complete
+        told[exact] = {name: each.outcome for name, each in verdicts_of(model).items()}
+
+    assert told[False] == {"Sells": "unknown", "Early": "unknown", "Two": "up to"}
+    assert told[True] == {"Sells": "holds", "Early": "fails", "Two": "holds"}
+
+
+def test_delays_that_depend_on_data_have_no_clock_in_a_robot_with_too_many_states(
+    modelled: Callable[..., Model], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("swarmdsl.execution.verify.model.MOST_STATES", 60)
+    text = GROWING.replace("var best ", "var rest : duration = 2 s\n  var best ")
+    model = modelled(text.replace("after 2 s", "after rest"), exact=True)
+
+    verdict = verdicts_of(model)["Sells"]
+
+    assert verdict.outcome == "unknown"
+    assert "a `buyer` has too many states" in verdict.reason

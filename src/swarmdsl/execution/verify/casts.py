@@ -49,6 +49,18 @@ def sends(machines: Iterable[ir.StateMachine]) -> Iterator[ir.Send]:
             yield from (each for each in effects if isinstance(each, ir.Send))
 
 
+def delays_of(machines: Iterable[ir.StateMachine]) -> Iterator[ir.Expression]:
+    """Yield the lengths of all delays of some machines."""
+    machines = list(machines)
+    yield from (each.delay for each in sends(machines) if each.delay is not None)
+    for machine in machines:
+        for state in machine.walk():
+            for transition in state.transitions:
+                for trigger in transition.triggers:
+                    if isinstance(trigger, ir.TimeTrigger):
+                        yield trigger.delay
+
+
 def addressed(machines: Iterable[ir.StateMachine]) -> Iterator[str]:
     """Yield the robots that machines name as addressees."""
     for send in sends(machines):

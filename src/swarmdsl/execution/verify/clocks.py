@@ -13,18 +13,30 @@ from swarmdsl.execution.verify.slots import slot_of
 from swarmdsl.execution.verify.tasks import Task
 from swarmdsl.execution.verify.timing import Bounds
 
+MOST_REPLAYS = 20_000
+"""Number of runs of a robot from its start by which the moves of one that grows are found."""
+
 
 class ClockedAutomaton:
     """Automaton of a kind of robot with a clock for each slot, found as a search needs it.
 
     A clock is the number of ticks after which its task can end, and after which it must, if any.
-    `bounds` returns that of a function. Robots are told apart by the facts of `mask`.
+    `bounds` returns that of a function. Robots are told apart by the facts of `mask`. With `grow`,
+    moves without clocks, too, are found as a search needs them, as long as it returns True.
     """
 
     def __init__(
-        self, whole: Automaton, mask: int, tick: int, bounds: Callable[[str], Bounds]
+        self,
+        whole: Automaton,
+        mask: int,
+        tick: int,
+        bounds: Callable[[str], Bounds],
+        *,
+        grow: Callable[[], bool] | None = None,
     ) -> None:
         self.whole = whole
+        self.grows = grow is not None
+        self._grow = grow
         self.mask = mask
         self._tick = tick
         self._bounds = bounds
@@ -59,6 +71,8 @@ class ClockedAutomaton:
     def moves(self, state: int) -> list[Move] | None:
         """Return the moves of a state, without those that come too early."""
         inner, clocks = self._states[state]
+        if self.whole.steps[inner] is None and self._may_grow:
+            self.whole.expand(inner)
         steps = self.whole.steps[inner]
         if steps is None:
             return None
@@ -78,12 +92,14 @@ class ClockedAutomaton:
         key = (state, message)
         if key not in self._heard:
             inner, clocks = self._states[state]
+            self._hear(inner, message)
             moves = self.whole.heard[inner].get(message, ())
             self._heard[key] = [self._timed(move, clocks) for move in moves]
         return self._heard[key]
 
     def is_late(self, state: int, message: int) -> bool:
         """Return True if a message stays on its way: enough of the same kind are deferred."""
+        self._hear(self.state(state), message)
         return message in self.whole.late[self.state(state)]
 
     def follow(self, number: int, move: Move) -> Move:
@@ -115,6 +131,16 @@ class ClockedAutomaton:
 
     # ---- internal
 
+    @property
+    def _may_grow(self) -> bool:
+        return self._grow is not None and self.whole.replays < MOST_REPLAYS and self._grow()
+
+    def _hear(self, inner: int, message: int) -> None:
+        """Find what happens when a message arrives, if that is not known."""
+        heard, late = self.whole.heard[inner], self.whole.late[inner]
+        if message not in heard and message not in late and self._may_grow:
+            self.whole.hear(inner, message)
+
     def _label(self, move: Move) -> object:
         """Return what tells moves of a state apart."""
         shown = tuple(each.holding & self.mask for each in move.moments)
@@ -135,6 +161,7 @@ class ClockedAutomaton:
 
     def _new(self, function: str, length: int | None) -> Bounds:
         if length is not None:
+            assert length % self._tick == 0, "ticks measure all delays"
             return length // self._tick, length // self._tick
         least, most = self._bounds(function)
         return least // self._tick, most // self._tick if most is not None else None

@@ -22,7 +22,7 @@ from swarmdsl.execution.engine import (
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.machine_data import first_data
 from swarmdsl.execution.simulate.table import TableMaker
-from swarmdsl.execution.verify.casts import sends
+from swarmdsl.execution.verify.casts import delays_of, sends
 from swarmdsl.execution.verify.nearness import EITHER
 from swarmdsl.execution.verify.places import is_constant, parts
 from swarmdsl.execution.verify.slice import can_fail
@@ -51,17 +51,7 @@ def can_be_loose(property_: ir.Property, machines: Sequence[ir.StateMachine]) ->
             continue
         if ir.reads_values(fact.guard) or fact.name in ("", *own):
             return False
-    return all(map(is_constant, _delays(machines)))
-
-
-def _delays(machines: Iterable[ir.StateMachine]) -> Iterator[ir.Expression]:
-    yield from (each.delay for each in sends(machines) if each.delay is not None)
-    for machine in machines:
-        for state in machine.walk():
-            for transition in state.transitions:
-                for trigger in transition.triggers:
-                    if isinstance(trigger, ir.TimeTrigger):
-                        yield trigger.delay
+    return all(map(is_constant, delays_of(machines)))
 
 
 def _table(machine: ir.StateMachine, system: ir.System) -> Machine:

@@ -72,6 +72,11 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
         # A longer run, in which robots are far from each other and hear of all, may violate it.
         again = _without_clocks(property_, model, me, budget, lonely=True)
         verdict = again if again.outcome == "fails" else verdict
+    has_clocks = model.options.exact and not model.environment.faults
+    if verdict.outcome == "up to" and has_clocks and not model.complete:
+        # A robot with clocks may have fewer states than one that hears anything at any time.
+        timed = prove_exactly(property_, model, me, budget, verdict)
+        return timed if timed.outcome in ("holds", "fails") else verdict
     if verdict.outcome != "unknown":
         return verdict
     if verdict.place is not None:
@@ -80,7 +85,7 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
         never = _never(property_, model, me, budget)
         if never is not None:
             return never
-    if model.options.exact and not model.environment.faults:
+    if has_clocks:
         return prove_exactly(property_, model, me, budget, verdict)
     way_out = ""
     doubt = not_with_clocks(property_, model, me)

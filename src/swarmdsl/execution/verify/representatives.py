@@ -62,7 +62,7 @@ def combinations(name: str, parts: Iterable[Part], blank: Callable[[], dict[str,
         shown = ".".join((name, *part.path))
         if not is_complete:
             place = getattr(part.exact, "origin", None)
-            way = "compare it with constants only, and compute nothing with it"
+            way = "compare it with constants only, or name its values in a `--scenario`"
             doubts.append(
                 Doubt(f"only some values of `{shown}` were tried: {way}", place, more=True)
             )

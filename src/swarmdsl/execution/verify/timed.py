@@ -5,12 +5,16 @@ First only robots that a property is about have clocks, then all that can influe
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
-from math import gcd
+from collections.abc import Callable, Collection, Iterator, Sequence
+from math import ceil, gcd
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
+from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import SECOND, format_duration
+from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.verify.automaton import Automaton
+from swarmdsl.execution.verify.casts import delays_of
 from swarmdsl.execution.verify.clock_classes import classes_of
 from swarmdsl.execution.verify.clock_table import ClockTable
 from swarmdsl.execution.verify.clocks import ClockedAutomaton
@@ -20,6 +24,7 @@ from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.influence import cone
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.places import is_constant
 from swarmdsl.execution.verify.possible import prove_possible
 from swarmdsl.execution.verify.run import steps_between
 from swarmdsl.execution.verify.sentence import is_about_ends, length_of, table_of
@@ -46,8 +51,11 @@ def prove_exactly(
     if doubt is not None:
         reason = f"{known.reason}; clocks do not decide: {doubt.reason}"
         return replace(known, reason=reason, place=doubt.place)
-    if is_about_ends(property_) or not model.complete:
+    if is_about_ends(property_) or budget.interrupted:
         return known
+    if not model.complete and (property_.kind == "possible" or proof.varies):
+        reason = f"{known.reason}; clocks do not decide: {unfinished(model, budget)}"
+        return replace(known, reason=reason)
     return proof.verdict()
 
 
@@ -67,6 +75,13 @@ class _Proof:
         if mine is not None:
             self._about.add(mine)
         self.cone = cone(model, self._every, self._about) or self._every
+        self._growing: dict[Automaton, Automaton] = {}
+
+    @property
+    def varies(self) -> bool:
+        """True if the lengths of delays depend on data, so that not all of them are known."""
+        machines = self._model.machines.values()
+        return not all(map(is_constant, delays_of(machines)))
 
     def verdict(self) -> Verdict:
         """Return the verdict."""
@@ -145,11 +160,21 @@ class _Proof:
         mask = mask_of(whole.kind.facts, [self._property])
         robot = whole.kind.cast[0].robot
         timing = self._model.options.timing
-        automaton = ClockedAutomaton(whole, mask, tick, lambda name: timing.function(name, robot))
+        grow: Callable[[], bool] | None = None
+        if not whole.is_complete:
+            # Classes of the states that are known are those of no more.
+            whole = self._growing.setdefault(whole, Automaton(whole.kind, whole.alphabet))
+            grow = self._goes_on
+        automaton = ClockedAutomaton(
+            whole, mask, tick, lambda name: timing.function(name, robot), grow=grow
+        )
         return Group(automaton, group.robots)
 
+    def _goes_on(self) -> bool:
+        return self._budget.allows(0)
+
     def _folded(self, group: Group) -> Group:
-        if not isinstance(group.automaton, ClockedAutomaton):
+        if not isinstance(group.automaton, ClockedAutomaton) or group.automaton.grows:
             return group
         forgets = any(map(is_act, facts_of(self._property)))
         classes = classes_of(group.automaton, steps_count=forgets)
@@ -193,13 +218,24 @@ class _Proof:
         for group in clocked:
             whole = group.automaton.whole
             calls = {slot.name for slots in whole.slots for slot in slots if slot.name}
+            if not whole.is_complete:
+                calls = set(whole.kind.ends)
+                yield from self._lengths_of_delays(whole.kind.cast)
             for name in calls:
                 yield from (
                     each for each in timing.function(name, whole.kind.cast[0].robot) if each
                 )
             yield from whole.lengths()
-        if self._model.alphabet.messages:
+        if self._model.alphabet.messages or not self._model.complete:
             yield from (each for each in timing.message(repeats=False) if each)
+
+    def _lengths_of_delays(self, cast: Sequence[Actor]) -> Iterator[int]:
+        """Yield the lengths that all delays of a robot have whatever happens."""
+        for actor in cast:
+            for each in delays_of([self._model.machines[actor.machine.name]]):
+                length = ceil(function_of(each)(actor.data, None))
+                if length > 0:
+                    yield length
 
     def _rounding(self, clocked: Collection[Group]) -> str:
         """Return the tick of the clocks, and the length to round for a longer one."""

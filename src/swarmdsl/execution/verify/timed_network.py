@@ -13,6 +13,9 @@ from swarmdsl.execution.verify.groups import TICK, Clocked, Group, Step
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.timing import Bounds, Timing
 
+_KINDS = 1 << 20
+"""Greater than the number of messages, which may grow."""
+
 
 class TimedNetwork(Network):
     """Steps and ticks of a swarm; a message in a bag has its age in ticks beside its number."""
@@ -30,10 +33,8 @@ class TimedNetwork(Network):
     ) -> None:
         super().__init__(groups, alphabet, capacity, lossy=lossy, base=base, timing=timing)
         self.tick = tick
-        self._kinds = len(alphabet.messages)
-        self._times = [
-            _in_ticks(timing.message(repeats=each.repeats), tick) for each in alphabet.messages
-        ]
+        self._latencies = timing
+        self._times: dict[int, Bounds] = {}
         self._later: dict[int, int | None] = {}
         self._last: tuple[int, list[tuple[int, int]]] = (-1, [])
 
@@ -78,15 +79,15 @@ class TimedNetwork(Network):
             return bag
         found = []
         for each in bag:
-            age, message = divmod(each, self._kinds)
-            least, most = self._times[message]
+            age, message = divmod(each, _KINDS)
+            least, most = self._time(message)
             if automaton.is_late(state, message):
                 found.append(each)
             elif age == most:
                 return None
             else:
                 oldest = least if most is None else most
-                found.append(min(age + 1, oldest) * self._kinds + message)
+                found.append(min(age + 1, oldest) * _KINDS + message)
         return tuple(sorted(found))
 
     # ---- internal
@@ -103,13 +104,21 @@ class TimedNetwork(Network):
             return None
         return self.ones[self.number(group, later, old)] - self.ones[number]
 
+    def _time(self, message: int) -> Bounds:
+        """Return the ticks after which a message can arrive, and after which it must."""
+        if message not in self._times:
+            repeats = self.alphabet.messages[message].repeats
+            bounds = self._latencies.message(repeats=repeats)
+            self._times[message] = _in_ticks(bounds, self.tick)
+        return self._times[message]
+
     def _message(self, each: int) -> int:
-        return each % self._kinds
+        return each % _KINDS
 
     def _arrives(self, group: int, each: int) -> bool:
-        age, message = divmod(each, self._kinds)
+        age, message = divmod(each, _KINDS)
         is_clocked = isinstance(self.groups[group].automaton, Clocked)
-        return not is_clocked or age >= self._times[message][0]
+        return not is_clocked or age >= self._time(message)[0]
 
     def _copy(self, each: int) -> int | None:
         return each
@@ -118,7 +127,7 @@ class TimedNetwork(Network):
         self, group: int, state: int, bag: tuple[int, ...], message: int, sender: int
     ) -> tuple[int, ...]:
         """Return a bag with one more message, if the robot gets it; it is new."""
-        young = tuple(each % self._kinds for each in bag)
+        young = tuple(each % _KINDS for each in bag)
         more = super()._with(group, state, young, message, sender)
         return bag if len(more) == len(bag) else tuple(sorted((*bag, message)))
 
