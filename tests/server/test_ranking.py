@@ -13,6 +13,7 @@ from swarmdsl.syntax.formatter import format_source
 
 from .editor import position
 from .flows import FUNCTIONS, GIVEN, MODEL, flows
+from .patrol import PATROL, lines
 from .suggest import Suggest
 from .test_completion import HEAD, state
 
@@ -155,6 +156,27 @@ async def test_names_are_in_the_list_as_they_are_typed(client, editor, tmp_path)
     editor.type(document, MODEL)
     found = await editor.told(document)
     assert [each.code for each in found if each.severity == lsp.DiagnosticSeverity.Error] == []
+
+
+@pytest.mark.asyncio(loop_scope="module")
+async def test_first_item_completes_the_words_of_a_new_user(client, editor, tmp_path):
+    document = editor.open(tmp_path / "patrol.swarm", "")
+    text = ""
+    others = {}
+    for line, layout in zip(lines(), PATROL.splitlines(), strict=True):
+        text += layout[: len(layout) - len(layout.lstrip())]
+        for piece in line:
+            opened = text.count("{") - text.count("}")
+            suggest = Suggest(client, editor, document, text, "\n}" * opened)
+            found = await suggest.type(piece.typed) if piece.completed else []
+            if piece.completed and (not found or found[0].label != piece.text):
+                others[layout, piece.typed] = [item.label for item in found[:3]]
+            text += piece.text
+        text += "\n"
+    assert others == {}
+    assert text == PATROL
+    editor.type(document, text)
+    assert await editor.told(document) == []
 
 
 @pytest.mark.asyncio(loop_scope="module")

@@ -9,7 +9,7 @@ import * as vscode from "vscode";
 import { showBundledLimit } from "./missing.ts";
 import type { Preview } from "./preview.ts";
 import type { Server } from "./server.ts";
-import type { Simulated, Subject } from "./subject.ts";
+import { type Simulated, type Subject, swarmsFirst } from "./subject.ts";
 import { run } from "./tasks.ts";
 import { Trace } from "./trace.ts";
 
@@ -102,16 +102,17 @@ export async function chooseSubject(
   return (await vscode.window.showQuickPick(items, { title }))?.each;
 }
 
-/** The swarms and state machines of the file. */
+/** The swarms and state machines of the file, in this order. */
 export async function subjectsOf(file: vscode.Uri): Promise<Simulated[]> {
   const outline = await vscode.commands.executeCommand<vscode.DocumentSymbol[] | undefined>(
     "vscode.executeDocumentSymbolProvider",
     file,
   );
-  return (outline ?? []).flatMap(({ name, detail }): Simulated[] => {
+  const found = (outline ?? []).flatMap(({ name, detail }): Simulated[] => {
     const kind = KINDS[detail];
     return kind ? [{ kind, name }] : [];
   });
+  return swarmsFirst(found);
 }
 
 /** Let the user choose a scenario beside the file, if there are any. */

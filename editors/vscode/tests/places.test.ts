@@ -1,4 +1,4 @@
-// Tests of the search for interpreters and of folders for projects.
+// Tests of what is offered: interpreters, folders for projects, subjects of simulations.
 
 import assert from "node:assert/strict";
 import { mkdir, mkdtemp, rm, symlink, writeFile } from "node:fs/promises";
@@ -7,6 +7,7 @@ import { dirname, join } from "node:path";
 import { test } from "node:test";
 
 import { isHidden } from "../src/entries.ts";
+import { swarmsFirst } from "../src/subject.ts";
 import { environmentsIn, unique } from "../src/probe.ts";
 
 async function program(path: string): Promise<string> {
@@ -48,4 +49,10 @@ test("settings of tools leave a folder free for a project", () => {
     ".venv",
     ".git",
   ]);
+});
+
+test("a swarm is offered before its state machines", () => {
+  const machines = ["Idle", "Busy"].map((name) => ({ kind: "machine", name }) as const);
+  const swarm = { kind: "swarm", name: "All" } as const;
+  assert.deepEqual(swarmsFirst([...machines, swarm]), [swarm, ...machines]);
 });

@@ -108,6 +108,8 @@ def _check_outcomes(state: State, transitions: Sequence[Transition], context: Co
     if not unhandled or state.machine is not None or _has_states(state):
         return
     for activity in _activities(state)[:1]:
+        if activity.function.target is None:
+            return
         context.report.report(
             "unhandled-outcome",
             activity.function.span,
