@@ -8,7 +8,7 @@ from typing import Any
 
 import tomli
 
-from swarmdsl.base.read_files import MOST_DATA
+from swarmdsl.base.read_files import MOST_DATA, read_file
 from swarmdsl.driver.config import FILE_NAME
 from swarmdsl.execution.simulate.scenario_keys import TABLES
 
@@ -30,9 +30,7 @@ def _may_be_one(path: Path) -> bool:
     if path.name.endswith(_OTHERS):
         return False
     try:
-        if not path.is_file() or path.stat().st_size > MOST_DATA:
-            return False
-        return is_scenario(tomli.loads(path.read_text(encoding="utf-8")))
+        return is_scenario(tomli.loads(read_file(path, MOST_DATA).decode()))
     except OSError:
         return False
     except (ValueError, RecursionError):

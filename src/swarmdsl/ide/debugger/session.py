@@ -38,6 +38,8 @@ from swarmdsl.ide.debugger.showing import headline, output_of, picture
 
 _INTERVAL = 0.1
 """Least time between two pictures of a run that goes on, in seconds."""
+_LONGEST = 1.0
+"""Time between two pictures of a run in which nothing happens, in seconds."""
 _MOST_TOLD = 200
 """Lines in one message, at most."""
 
@@ -65,7 +67,10 @@ class Session:
         self._goes_on = False
         self._is_configured = self._is_over = False
         self._lines: list[str] = []
-        self._shown = 0.0
+        self._shown = self._went = 0.0
+        """Times of the last picture, and of the last time that the run went on."""
+        self._looks_held = False
+        """True if the run stands still as far as the client knows: a step may take long."""
         self._told: Line | None = None
         """Last step that the client was shown."""
         self._requests = {**courses.REQUESTS, **answers.REQUESTS}
@@ -257,9 +262,9 @@ class Session:
             except Empty:
                 break
             self._handle(message)
-        if self._lines and (
-            len(self._lines) >= _MOST_TOLD or time.monotonic() - self._shown > _INTERVAL
-        ):
+        passed = time.monotonic() - max(self._shown, self._went)
+        is_news = bool(self._lines) or self._looks_held
+        if len(self._lines) >= _MOST_TOLD or passed > (_INTERVAL if is_news else _LONGEST):
             self._show()
 
     def hold(self, reason: str, text: str) -> None:
@@ -278,8 +283,9 @@ class Session:
         while not self._goes_on:
             self._handle(self._messages.get())
         self._forget()
+        self._went = time.monotonic()
         if controls.way == GO_ON:
-            self.event("swarmMoved", self.picture())
+            self._send_picture()
 
     def tell(self, text: str, category: str = "stdout") -> None:
         """Tell the user a line."""
@@ -312,9 +318,13 @@ class Session:
         """Show what has happened, and the active states to those who draw them."""
         self._flush()
         self._shown = time.monotonic()
-        self.event("swarmMoved", self.picture())
+        self._send_picture()
         controls = self.looking()
         self._told = controls.last.get(controls.point.member)
+
+    def _send_picture(self) -> None:
+        self._looks_held = self.is_held
+        self.event("swarmMoved", self.picture())
 
     def picture(self, member: int | None = None) -> dict[str, Any]:
         """Return the run as pages show it: `member` is looked at, by default the one at the stop.

@@ -8,6 +8,7 @@ from pathlib import Path
 from threading import RLock
 from typing import Any
 
+from swarmdsl.base.read_files import is_folder
 from swarmdsl.execution.simulate.scenario_files import scenarios_in
 from swarmdsl.ide.debugger.messages import RequestError
 from swarmdsl.ide.preview.adapter import Adapter
@@ -42,7 +43,7 @@ class Simulation:
         with self._lock:
             self._sources = sources
             self._subjects = {_titled(kind, name): (kind, name) for kind, name in pictures.subjects}
-            folders = [each if each.is_dir() else each.parent for each in sources]
+            folders = [each if is_folder(each) else each.parent for each in sources]
             found = scenarios_in([*folders, folder.absolute()])
             self._scenarios = {os.path.relpath(each, folders[0]): each for each in found}
             return {
@@ -94,7 +95,7 @@ class Simulation:
                 adapter = self._adapter = Adapter(self._hear)
             except OSError as error:
                 raise RequestError(f"no simulation can be started: {error.strerror}") from error
-            self._shown = {"about": title}
+            self._shown = {"about": title, "speed": start.get("speed")}
             self._show(starts=True)
         kind, subject_name = subject
         launch = {
@@ -147,7 +148,11 @@ class Simulation:
                 self._show(**_state(seen))
 
     def _set_speed(self, wish: Mapping[str, Any]) -> None:
-        self._running().request("swarmSpeed", {"speed": wish["speed"]})
+        adapter = self._running()
+        adapter.request("swarmSpeed", {"speed": wish["speed"]})
+        with self._lock:
+            if adapter is self._adapter:
+                self._show(speed=wish["speed"])
 
     _acts: Mapping[str, Callable[[Simulation, Mapping[str, Any]], None]] = {
         "start": _start,
@@ -177,7 +182,7 @@ class Simulation:
                 case "output" if body["category"] == "console":
                     self._told = body["output"].rstrip("\n")
                 case "terminated":
-                    self._show(over=True, held=False, reason=self._told)
+                    self._show(over=True, held=False, events=None, reason=self._told)
                 case "gone":
                     self._end(adapter, f"the simulation has broken off, with code {body['code']}")
 

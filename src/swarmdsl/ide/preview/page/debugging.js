@@ -27,6 +27,7 @@ export class Debugging {
   #act;
   #shown;
   #session; // null for none
+  #lost; // element that had the focus and cannot have it for now
   #subjects; // { NAME: DIAGRAM } of what can be started here; undefined if an editor starts it
   #isChosen = false; // the user has chosen one of them
   #values = {}; // variables by name, as they were
@@ -96,6 +97,21 @@ export class Debugging {
   }
 
   #refresh() {
+    const before = document.activeElement;
+    const focused = this.#bar.contains(before) ? before : before === document.body && this.#lost;
+    this.#update();
+    const isKept = this.#bar.contains(document.activeElement) && isUsable(document.activeElement);
+    if (focused && !isKept) {
+      const others = [this.#steps.get("go"), this.#steps.get("restart"), this.#start];
+      const next = [focused, ...others].find(isUsable);
+      next?.focus();
+      this.#lost = next ? undefined : focused;
+    } else {
+      this.#lost = undefined;
+    }
+  }
+
+  #update() {
     const session = this.#session;
     const isRun = Boolean(session && !session.failed);
     this.#bar.hidden = !isRun && !this.#subject.options.length;
@@ -105,6 +121,9 @@ export class Debugging {
     }
     this.follow();
     this.#speed.hidden = !this.#subjects;
+    if (isRun && session.speed !== undefined) {
+      this.#speed.value = session.speed === null ? "" : String(session.speed);
+    }
     this.#updateSteps(isRun ? session : null);
     this.#updateWhere(isRun ? session : {});
     this.#updateValues(isRun ? session : {});
@@ -196,4 +215,9 @@ export class Debugging {
     this.#said.textContent = text;
     this.#said.classList.toggle("wrong", isWrong);
   }
+}
+
+/** True if an element can have the focus. */
+function isUsable(element) {
+  return element.checkVisibility() && !element.disabled;
 }

@@ -31,6 +31,7 @@ export function fill(element, options) {
   if (JSON.stringify(before) !== JSON.stringify(options)) {
     const chosen = element.value;
     element.replaceChildren(...options.map(([value, text]) => new Option(text, value)));
-    element.value = options.some(([value]) => value === chosen) ? chosen : options[0]?.[0];
+    const isThere = before.length && options.some(([value]) => value === chosen);
+    element.value = isThere ? chosen : options[0]?.[0];
   }
 }

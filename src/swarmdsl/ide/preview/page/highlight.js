@@ -40,6 +40,12 @@ export class Highlight {
     this.#isDeserted ||= !this.#active.size;
   }
 
+  /** Forget all members. */
+  forget() {
+    this.#active.clear();
+    this.#isDeserted = true;
+  }
+
   /** True once when the first members appear and their machines are known. */
   arrive() {
     const isFirst = this.#isDeserted && this.#active.size > 0 && Object.keys(this.#runs).length > 0;

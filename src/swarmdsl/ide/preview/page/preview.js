@@ -186,6 +186,14 @@ function follow({ cursor: elements, moved }) {
   }
 }
 
+/** The server has gone: what it told of a run is over; it tells all again when it is back. */
+function ended() {
+  status.end();
+  debugging.show(null);
+  highlight.forget();
+  update();
+}
+
 // ---- user actions
 
 function click(target) {
@@ -291,7 +299,7 @@ saveButtons(
 
 // ---- messages of the host
 
-host.listen(receive, () => status.end(), draw);
+host.listen(receive, ended, draw);
 if (host.isInEditor) {
   want();
 }
