@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import re
+
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.types import Typing, assignable, item_of
-from swarmdsl.base.diagnostics.advice import Advice, write
+from swarmdsl.base.diagnostics.advice import Advice, edits, write
 from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.base.naming import fresh
 from swarmdsl.syntax.ast import (
     Append,
     Clear,
     Expression,
     FieldUse,
     IndexUse,
+    NameUse,
     Param,
     Query,
     Remove,
@@ -114,7 +118,7 @@ def check_element_names(machine: StateMachine, context: Context) -> None:
                 name=name,
                 hidden=f"{kind_name(hidden)} `{hidden.name}`",
                 related=(Label(hidden.name.span, "declared here"),),
-                help="give the item another name",
+                help=_renamed(query, machine),
             )
         for part in (query.condition, query.key):
             for inner in walk(part) if part is not None else ():
@@ -125,5 +129,18 @@ def check_element_names(machine: StateMachine, context: Context) -> None:
                         name=name,
                         hidden=f"the item `{name}`",
                         related=(Label(name.span, "declared here"),),
-                        help="give the item another name",
+                        help=_renamed(inner, machine),
                     )
+
+
+def _renamed(query: Query, machine: StateMachine) -> str:
+    """Return the help for an item whose name something else has."""
+    name = query.element.name
+    new = fresh(str(name), re.findall(r"\w+", machine.span.text), gap="")
+    uses = [
+        each.span
+        for each in walk(query)
+        if isinstance(each, NameUse) and each.target is query.element
+    ]
+    changes = [(span, new) for span in (name.span, *uses)]
+    return edits("give the item another name", f"Rename the item to `{new}`", *changes)

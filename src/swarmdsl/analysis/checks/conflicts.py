@@ -10,6 +10,7 @@ from swarmdsl.analysis.checks.guard_satisfiability import condition_of
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.event_topics import event_of, received_topic
 from swarmdsl.analysis.resolve.states import regions
+from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
@@ -161,5 +162,9 @@ def _check_exits(
                     event=_describe(event),
                     state=parallel.name,
                     related=(Label(first.span, "this one is taken"),),
-                    help=f"move the transition to state `{parallel.name}`",
+                    help=Advice(
+                        f"move the transition to state `{parallel.name}`",
+                        "move into",
+                        parallel.name.span,
+                    ),
                 )

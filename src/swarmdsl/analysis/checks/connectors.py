@@ -6,7 +6,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.port_groups import PortGroup, PortKey, PortTopic, port_groups
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.types import fits
-from swarmdsl.base.diagnostics.advice import Advice, write
+from swarmdsl.base.diagnostics.advice import Advice, behind, edits, write
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.naming import snake_case
 from swarmdsl.syntax.ast import Connector, Member, Part, Port, PortRef
@@ -42,7 +42,11 @@ def _check_connected(member: Member, connectors: list[Connector], context: Conte
                     part.name.span,
                     port=f"{part.name}.{port.name}",
                     related=(Label(port.name.span, "declared here"),),
-                    help=f"add `connect ... -> {part.name}.{port.name}`, or give the port a topic",
+                    help=edits(
+                        f"add `connect ... -> {part.name}.{port.name}`, or give the port a topic",
+                        f'Add `on "{port.name}"` to the port',
+                        behind(port.span, f' on "{port.name}"'),
+                    ),
                 )
 
 
@@ -117,9 +121,20 @@ def _check_topics(member: Member, connectors: list[Connector], context: Context)
                     topic=group.topic,
                     own=topics[key].topic,
                     related=(Label(declared[key].name.span, "declared here"),),
-                    help="connected ports share one topic: give it at one of the ports, or at a "
-                    "port of the member",
+                    help=_leave_out_topic(declared[key]),
                 )
+
+
+def _leave_out_topic(port: Port) -> str:
+    """Return the help for a port whose topic is not used."""
+    text = (
+        "connected ports share one topic: give it at one of the ports, or at a port of the member"
+    )
+    type_, topic = port.type.span, port.topic
+    if topic is None:
+        return text
+    place = type_._replace(start=type_.end, end=topic.span.end)
+    return edits(text, f"Remove `on {topic.span.text}`", (place, ""))
 
 
 def _topic(key: PortKey, port: Port) -> PortTopic:

@@ -9,7 +9,7 @@ from itertools import pairwise
 from swarmdsl.analysis.called_interface import called_interface
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.contract_answers import Answer, Answers
-from swarmdsl.analysis.checks.safe_paths import SafePaths, is_left_at_once
+from swarmdsl.analysis.checks.safe_paths import SafePaths, also_safe, is_left_at_once
 from swarmdsl.analysis.checks.state_places import Place, inside, places_of
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.sentences import machines_of_member
@@ -323,7 +323,7 @@ class _MachineCheck:
                 contract=self._contract.name,
                 state=place.name,
                 related=(Label(transition.span, "by this transition"),),
-                help="let it wait for an event, or name the state that it leads to as safe, too",
+                help=also_safe(self._contract, transition),
             )
 
     def _targets(self) -> str:

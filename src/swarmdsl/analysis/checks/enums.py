@@ -5,7 +5,8 @@ from __future__ import annotations
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.types import range_of
 from swarmdsl.analysis.types.enum_values import numbers, underlying
-from swarmdsl.base.diagnostics.advice import Advice
+from swarmdsl.base.diagnostics.advice import Advice, edits
+from swarmdsl.base.naming import fresh
 from swarmdsl.syntax.ast import EnumType, Variable
 from swarmdsl.syntax.types import INTEGERS, Array, Named, Primitive
 
@@ -42,6 +43,7 @@ def check_enum(enum: EnumType, context: Context) -> None:
     possible = range_of(type_)
     assert possible is not None
     known = numbers(enum)
+    taken = set(known.values())
     seen: dict[int, str] = {}
     # A repeated name is reported elsewhere.
     first = {str(value.name): value for value in reversed(enum.values)}
@@ -54,6 +56,13 @@ def check_enum(enum: EnumType, context: Context) -> None:
         elif seen.get(number, value.name) != value.name:
             fault = f"is {number}, like `{seen[number]}`"
             help_ = "give each value a number of its own"
+            free = next(
+                (each for each in range(len(taken) + 1) if each in possible and each not in taken),
+                None,
+            )
+            if free is not None:
+                new = f"{value.name} = {free}"
+                help_ = edits(help_, f"Change to `{new}`", (value.span, new))
         if fault:
             context.report.report(
                 "enum-value",
@@ -82,7 +91,12 @@ def check_first_value(variable: Variable, context: Context) -> None:
         variable.name.span,
         name=variable.name,
         enum=enum.name,
-        help=f"give `{enum.name}` a value that is 0"
+        help=Advice(
+            f"give `{enum.name}` a value that is 0",
+            "insert",
+            f"{fresh('NONE', {str(each.name) for each in enum.values})} = 0",
+            enum.name.span,
+        )
         if several
         else Advice(
             f"give it an initial value: `= {written}.{enum.values[0].name}`",

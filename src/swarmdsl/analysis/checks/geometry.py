@@ -16,7 +16,7 @@ from swarmdsl.analysis.space_shapes import (
     size_of,
 )
 from swarmdsl.analysis.types.space_types import ANGLE, LENGTH, SPEED
-from swarmdsl.base.diagnostics.advice import Advice, write
+from swarmdsl.base.diagnostics.advice import Advice, behind, edits, write
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.numerals import integer
 from swarmdsl.base.source import Span
@@ -38,6 +38,7 @@ from swarmdsl.syntax.types import DURATION
 
 _MOST_TARGETS = 10_000
 """Of one declaration; simulations have arrays and names of all of them."""
+_RADIUS = Advice("give it a radius", "propose", "1 m")
 
 
 def check_geometry(environment: Environment, context: Context) -> None:
@@ -69,7 +70,7 @@ def _check_shape(item: Area | Zone | Obstacle, context: Context) -> None:
     if isinstance(item, Obstacle) and item.radius is not None:
         context.check_constant(item.radius, LENGTH)
         if isinstance(shape, Circle) and shape.radius <= 0:
-            _report(what, "has no room", item.radius.span, context, "give it a radius")
+            _report(what, "has no room", item.radius.span, context, _RADIUS)
     if isinstance(shape, Rectangle) and high is not None:
         at = Span(low.span.source, low.span.start, high.span.end)
         if shape.right < shape.left or shape.top < shape.bottom:
@@ -78,9 +79,16 @@ def _check_shape(item: Area | Zone | Obstacle, context: Context) -> None:
             )
             _report(what, "ends before it begins", at, context, order)
         elif shape.right == shape.left or shape.top == shape.bottom:
-            help_ = "a thin obstacle is a `wall`" if isinstance(item, Obstacle) else None
+            help_ = _as_wall(item, low, high) if isinstance(item, Obstacle) else None
             _report(what, "has no room", at, context, help_)
     _check_height(item.height, what_is(item), context)
+
+
+def _as_wall(obstacle: Obstacle, low: Point, high: Point) -> str:
+    """Return the help for an obstacle without width."""
+    height = f" {obstacle.height.span.text}" if obstacle.height is not None else ""
+    wall = f"wall : {low.span.text} -> {high.span.text}{height}"
+    return edits("a thin obstacle is a `wall`", f"Write `{wall}`", (obstacle.span, wall))
 
 
 def _check_height(height: Height | None, what: str, context: Context) -> None:
@@ -114,7 +122,12 @@ def _check_targets(item: Targets, context: Context) -> None:
             "impossible-setting", item.name.span, name=f"{item.name}[{item.count}]", least=1
         )
     elif item.count and integer(item.count) > _MOST_TARGETS:
-        help_ = f"leave some out: there are {_MOST_TARGETS} at most"
+        help_ = Advice(
+            f"leave some out: there are {_MOST_TARGETS} at most",
+            "write instead",
+            f"[{item.count}]",
+            f"[{_MOST_TARGETS}]",
+        )
         _report(f"target `{item.name}`", "has too many of its kind", item.name.span, context, help_)
     elif item.count and item.places and integer(item.count) != len(item.places):
         count, places = integer(item.count), len(item.places)
@@ -134,7 +147,11 @@ def _check_weather(item: Wind | Rain, context: Context) -> None:
         context.check_constant(item.angle, ANGLE)
         speed = number_of(item.speed, folding)
         if speed is not None and speed < 0:
-            help_ = "turn its direction by `180 deg` instead"
+            forwards = (item.speed.span, item.speed.span.text.removeprefix("-").strip())
+            turned = behind(item.angle.span, " + 180 deg")
+            help_ = edits(
+                "turn its direction by `180 deg` instead", "Turn the direction", forwards, turned
+            )
             _report("this wind", "has a negative speed", item.speed.span, context, help_)
     for time in filter(None, (item.start, item.end)):
         context.check_constant(time, DURATION)

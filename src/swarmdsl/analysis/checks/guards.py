@@ -6,14 +6,17 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import guard_value
 from swarmdsl.analysis.checks.livelock import EventlessSteps
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
-from swarmdsl.base.diagnostics.advice import Advice
+from swarmdsl.base.diagnostics.advice import Advice, before, edits
+from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
     NEIGHBORS,
     Branch,
     Call,
     Choice,
     Elapsed,
+    Expression,
     InState,
+    OperatorUse,
     Parallel,
     State,
     StateMachine,
@@ -91,10 +94,28 @@ def _check_time(transition: Transition, context: Context) -> None:
         context.report.report(
             "unnoticed-time",
             time.span,
-            help="look now and then, `after 1 s [...]`, or name an event with `on`"
-            if near
-            else "write `after` and the time in its place, or name an event with `on`",
+            help=_instead_of_time(transition, guard)
+            if not near
+            else edits(
+                "look now and then, `after 1 s [...]`, or name an event with `on`",
+                "Write `after 1 s [...]`",
+                before(transition.span, "after 1 s "),
+            ),
         )
+
+
+def _instead_of_time(transition: Transition, guard: Expression) -> str:
+    """Return the help for a guard on the time in a state; if that is all, a delay is the same."""
+    text = "write `after` and the time in its place, or name an event with `on`"
+    tree, (source, start, end) = guard.tree, guard.span
+    if not isinstance(tree, OperatorUse) or tree.operator not in (">", ">="):
+        return text
+    measured, limit = tree.operands
+    if not isinstance(measured, Elapsed) or measured.state is not None:
+        return text
+    start, end = source.text.rindex("[", 0, start), source.text.index("]", end) + 1
+    new = f"after {limit.span.text}"
+    return edits(text, f"Write `{new}`", (Span(source, start, end), new))
 
 
 def _hint(

@@ -76,7 +76,10 @@ def _report(comparison: Comparison, running: Sequence[Crew], context: Context) -
                 f"this is a role; its robots are `{role}[0]` and so on", "rename", f"{role}[0]"
             )
         elif role in roles:
+            most = max(greatest(crew.roles[role]) or 0 for crew in running if role in crew.roles)
             help_ = "robots are counted from 0"
+            if most:
+                help_ = Advice(help_, "last robot", f"{role}[{most - 1}]")
         elif number is not None and (close := closest(role, roles)):
             help_ = meant(f"{close}[{number}]")
         else:

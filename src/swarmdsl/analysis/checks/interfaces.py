@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.event_topics import received_topic, topic_of
 from swarmdsl.analysis.node_kinds import kind_of
-from swarmdsl.base.diagnostics.advice import Advice, meant
+from swarmdsl.base.diagnostics.advice import Advice, behind, edits, meant
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.graphs import cycles
+from swarmdsl.base.naming import snake_case
 from swarmdsl.project.loader import Project
 from swarmdsl.project.rosidl import standard
 from swarmdsl.syntax.ast import (
@@ -121,7 +122,10 @@ def check_standard(declared: Interface, context: Context) -> None:
         "other-than-standard",
         declared.name.span,
         name=declared.name,
-        help=f"that has {shown or 'no field'}: leave this out, or give it another name",
+        help=Advice(
+            f"that has {shown or 'no field'}: leave this out, or give it another name",
+            "remove declaration",
+        ),
     )
 
 
@@ -157,8 +161,25 @@ def check_graph_name(name: Word, what: str, context: Context) -> None:
             name.span,
             name=name,
             what=what,
-            help="use letters, digits and `_`; parts are separated by `/` and start with a letter",
+            help=_valid(name),
         )
+
+
+def _valid(name: str) -> str:
+    """Return the help for an invalid name, with the next valid one."""
+    text = "use letters, digits and `_`; parts are separated by `/` and start with a letter"
+    parts = [re.sub(r"[^A-Za-z0-9_]", "_", each) for each in name.split("/") if each]
+    new = "/".join(each if each[0].isalpha() else f"n{each}" for each in parts)
+    return Advice(text, "propose", f'"{new}"') if new else text
+
+
+def _other_topic(event: Event) -> str:
+    """Return the help for an event on a topic of another type."""
+    text, name = 'give one of the events another topic: `on "name"`', snake_case(event.name)
+    new = f'"{name if name != topic_of(event) else name + "_2"}"'
+    if event.topic is not None:
+        return edits(text, f"Change to `{new}`", (event.topic.span, new))
+    return edits(text, f"Add `on {new}`", behind(event.type.span, f" on {new}"))
 
 
 def check_topics(project: Project, context: Context) -> None:
@@ -195,7 +216,7 @@ def check_topics(project: Project, context: Context) -> None:
                 str(known.type.type),
             )
             if isinstance(source, MonitorTrigger)
-            else 'give one of the events another topic: `on "name"`',
+            else _other_topic(source),
         )
 
 

@@ -6,7 +6,9 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.properties import check_facts
 from swarmdsl.analysis.resolve.sentences import facts_in
 from swarmdsl.analysis.types.space_types import LENGTH
+from swarmdsl.base.diagnostics.advice import edits
 from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import Fitness, FitnessInput, FitnessUse, Measure, Swarm
 from swarmdsl.syntax.types import DURATION, FLOAT, INT, Type, with_unit
 from swarmdsl.syntax.units import UNITS
@@ -55,6 +57,16 @@ def _type(measure: Measure) -> Type:
     return FLOAT if "mean" in (measure.aggregate, measure.over) else INT
 
 
+def _totalled(measure: Measure) -> str:
+    """Return the help for a measure of what only happens."""
+    text = "count how often it happens with `total(...)`, or name a state with `in`"
+    source, start, _ = measure.span
+    if measure.kind != "count" or measure.over:
+        return text
+    at = source.text.index("count", start)
+    return edits(text, "Write `total(...)`", (Span(source, at, at + len("count")), "total"))
+
+
 def _check_lasting(measure: Measure, context: Context) -> None:
     """Report what only happens where the measure is about what is."""
     if measure.kind == "total" or measure.until:
@@ -65,5 +77,5 @@ def _check_lasting(measure: Measure, context: Context) -> None:
                 "momentary-fact",
                 fact.span,
                 kind=measure.kind,
-                help="count how often it happens with `total(...)`, or name a state with `in`",
+                help=_totalled(measure),
             )

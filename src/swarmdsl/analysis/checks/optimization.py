@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.types import is_number
-from swarmdsl.base.diagnostics.advice import Advice
+from swarmdsl.base.diagnostics.advice import Advice, edits
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.project.loader import Project
@@ -85,7 +85,11 @@ def _check_worth(optimization: Optimization, context: Context) -> None:
             "empty-optimization",
             at,
             name=swarm.name,
-            help="add `role.param in 1.0 .. 5.0` or `count of role in 1 .. 5`",
+            help=Advice(
+                "add `role.param in 1.0 .. 5.0` or `count of role in 1 .. 5`",
+                "vary",
+                str(swarm.name),
+            ),
         )
 
 
@@ -173,15 +177,18 @@ def _check_default_inside(item: ParamRange, context: Context) -> None:
     default = _number(value, context)
     if default is None or low is None or high is None or low > high or low <= default <= high:
         return
+    end = item.lower if default < low else item.upper
+    bounds = [value if each is end else each for each in (item.lower, item.upper)]
+    range_ = " .. ".join(each.span.text for each in bounds)
     context.report.report(
         "default-outside",
         Span(item.span.source, item.lower.span.start, item.upper.span.end),
         name=f"{item.role.name}.{item.param.name}",
         related=(Label(value.span, "this is the default"),),
-        help=Advice(
+        help=edits(
             f"let the range include {value.span.text}, or change the default",
-            "extend range",
-            value.span.text,
+            f"Change to `{range_}`",
+            (end.span, value.span.text),
         ),
     )
 

@@ -19,7 +19,7 @@ from swarmdsl.analysis.resolve.sentences import (
     role_of_fact,
     subjects_of,
 )
-from swarmdsl.base.diagnostics.advice import Advice, last_robot, write
+from swarmdsl.base.diagnostics.advice import Advice, before, edits, last_robot, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.records import replace
 from swarmdsl.project.loader import Project
@@ -35,6 +35,7 @@ from swarmdsl.syntax.ast import (
     MonitorTrigger,
     Node,
     Property,
+    Role,
     Send,
     SpaceMeasure,
     State,
@@ -133,8 +134,7 @@ def _check_robots(fact: Fact, owner: Sentence, context: Context) -> None:
                 "unnamed-robot",
                 fact.span,
                 which="which robot it is about",
-                help=f"begin the {_kind(owner)} with `each ROLE :`, or write `all ROLE`, "
-                "`some ROLE` or `no ROLE` here",
+                help=_about_each(owner),
             )
         return
     who, role = fact.who, fact.who.role.target
@@ -164,6 +164,21 @@ def _check_robots(fact: Fact, owner: Sentence, context: Context) -> None:
             if owner.each is not None and owner.each.role.target is role
             else write(*(f"{word} {role.name}" for word in _QUANTIFIERS), f"{role.name}[0]"),
         )
+
+
+def _about_each(owner: Sentence) -> str:
+    """Return the help for a fact that no robot is named in; a single role can be meant."""
+    text = (
+        f"begin the {_kind(owner)} with `each ROLE :`, or write `all ROLE`, "
+        "`some ROLE` or `no ROLE` here"
+    )
+    swarm = owner.about if isinstance(owner, Property) else None
+    roles = [each for each in swarm.items if isinstance(each, Role)] if swarm is not None else []
+    if not isinstance(owner, Property) or len(roles) != 1:
+        return text
+    words = f"each {roles[0].name} :"
+    beginning = owner.scope or owner.body
+    return edits(text, f"Add `{words}`", before(beginning.span, f"{words} "))
 
 
 def _kind(sentence: Sentence) -> str:

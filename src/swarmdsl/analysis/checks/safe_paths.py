@@ -13,9 +13,11 @@ from itertools import count
 
 from swarmdsl.analysis.checks.state_places import Place
 from swarmdsl.analysis.types.constant_folding import Folding
+from swarmdsl.base.diagnostics.advice import behind, edits
 from swarmdsl.syntax.ast import (
     Activity,
     Choice,
+    Contract,
     DoneTrigger,
     Event,
     EventTrigger,
@@ -203,3 +205,12 @@ def _ends(trigger: Trigger, owner: Place, place: Place) -> bool:
         return False
     is_region = place.around is not None and isinstance(place.around.node, Region)
     return not is_region or trigger.region is not None
+
+
+def also_safe(contract: Contract, transition: Transition) -> str:
+    """Return the help for a transition that leaves the safe states by itself."""
+    text = "let it wait for an event, or name the state that it leads to as safe, too"
+    if transition.target is None or "." in transition.target.name:
+        return text
+    name, last = transition.target.name, contract.states[-1].span
+    return edits(text, f"Add `{name}` to the safe states", behind(last, f", {name}"))

@@ -99,7 +99,11 @@ def _check_immediate(
                 Label(first.span, "this transition leaves the state as soon as it is entered"),
                 *(Label(other.span, "this one can never fire either") for other in dead[1:]),
             ),
-            help=f"let `{state.name}` wait before it is left, or remove the other transitions",
+            help=Advice(
+                f"let `{state.name}` wait before it is left, or remove the other transitions",
+                "remove all",
+                *(each.span for each in dead),
+            ),
         )
     return set(dead)
 
@@ -165,7 +169,7 @@ def _check_branches(choice: Choice, context: Context) -> None:
                 "transition-never-fires",
                 branch.span,
                 related=(Label(last.span, "this one is always taken first"),),
-                help="`else` comes last",
+                help=Advice("`else` comes last", "move behind"),
             )
             continue
         blockers = earlier.covering(branch, context)

@@ -116,7 +116,9 @@ def _check_levels(hierarchy: StateHierarchy, context: Context) -> None:
                     item.target.span,
                     state=state.name,
                     target=target.name,
-                    help="its target is inside its source, or it has no target",
+                    help=Advice(
+                        "its target is inside its source, or it has no target", "make external"
+                    ),
                 )
 
 

@@ -276,5 +276,5 @@ def report_type(
 
 def report_part_as_port(ref: Ref[Port], kind: str, report: Diagnostics) -> None:
     """Report a part at the end of a connector, without one of its ports."""
-    help_ = f"it is a part: name one of its ports, `{ref.name}.port`"
+    help_ = Advice(f"it is a part: name one of its ports, `{ref.name}.port`", "name port", ref.name)
     report.report("unresolved-name", ref.span, kind=kind, name=ref.name, help=help_)

@@ -88,7 +88,7 @@ def report_state_outside(
         kind=f"state in `{container.name}`",
         name=target.name,
         related=(Label(outside.name.span, "this state is not inside"),),
-        help=f"{what} a state inside `{container.name}`",
+        help=Advice(f"{what} a state inside `{container.name}`", "state inside"),
     )
 
 

@@ -11,7 +11,7 @@ from swarmdsl.analysis.types.built_ins import BUILT_INS
 from swarmdsl.analysis.types.constant_folding import Folding
 from swarmdsl.analysis.types.fitting import is_number
 from swarmdsl.analysis.types.unit_rules import of_field
-from swarmdsl.base.diagnostics.advice import Advice
+from swarmdsl.base.diagnostics.advice import Advice, edits
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import (
@@ -135,7 +135,7 @@ def type_of_query(query: Query, typing: Inference) -> Type | None:
     name = query.element.name
     if not kind.takes_key:
         if query.key is not None:
-            _report(query, "`by`", "only `min` and `max` compare items", typing)
+            _report(query, "`by`", _without_key(query), typing)
         elif query.condition is None:
             help_ = Advice(
                 f"write `{word}({name} in {query.element.array.span.text} where ...)`",
@@ -211,4 +211,14 @@ def type_of_construction(made: Construction, typing: Inference) -> Type | None:
 def _report(query: Query, operands: str, help_: str, typing: Inference) -> None:
     typing.report.report(
         "bad-operand", query.span, operator=query.function, operands=operands, help=help_
+    )
+
+
+def _without_key(query: Query) -> str:
+    """Return the help for `by` where nothing is compared."""
+    last = query.condition or query.element.array
+    assert query.key is not None  # it is reported
+    place = last.span._replace(start=last.span.end, end=query.key.span.end)
+    return edits(
+        "only `min` and `max` compare items", f"Remove `{place.text.strip()}`", (place, "")
     )

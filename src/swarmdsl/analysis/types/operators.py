@@ -10,7 +10,7 @@ from swarmdsl.analysis.types.fitting import fits, is_float, is_number, is_text
 from swarmdsl.analysis.types.positions import Position
 from swarmdsl.analysis.types.unit_checks import check_operands
 from swarmdsl.analysis.types.unit_rules import in_seconds, result_unit, taken_unit
-from swarmdsl.base.diagnostics.advice import Advice
+from swarmdsl.base.diagnostics.advice import Advice, edits
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.syntax.ast import Call, EnumType, OperatorUse, RoleUse, Value
@@ -128,7 +128,21 @@ class Application:
         if None in found:
             self._report_operands("a position is a message with the numbers `x` and `y`")
         elif len({place.coordinates for place in found if place and place.coordinates}) > 1:
-            self._report_operands("one has no `z`: `hypot(a.x - b.x, a.y - b.y)` leaves it out")
+            self._report_operands(self._without_height(found))
+
+    def _without_height(self, found: list[Position | None]) -> str:
+        """Return the help for the distance of positions of which one has no height."""
+        text = "one has no `z`: `hypot(a.x - b.x, a.y - b.y)` leaves it out"
+        operands = self.tree.arguments if isinstance(self.tree, Call) else ()
+        if len(operands) != 2 or len(found) != 2:
+            return text
+        names = [
+            ".".join((each.span.text, *place.path)) if place is not None else ""
+            for each, place in zip(operands, found, strict=True)
+        ]
+        differences = ", ".join(f"{names[0]}.{each} - {names[1]}.{each}" for each in "xy")
+        new = f"hypot({differences})"
+        return edits(text, f"Write `{new}`", (self.tree.span, new))
 
     def _sign(self, operator: str, operand: Type | None) -> Type | None:
         if operator == "not":
@@ -200,7 +214,8 @@ class Application:
     def _order_hint(self) -> str | None:
         """Hint for a comparison of unordered values."""
         enums = any(isinstance(known, Named) and self._is_enum(known) for known in self.types)
-        return "values of enums have no order: use `==` or `!=`" if enums else self._unit_hint()
+        text = "values of enums have no order: use `==` or `!=`"
+        return Advice(text, "compare") if enums else self._unit_hint()
 
     def _unit_hint(self) -> str | None:
         """Hint for a number beside a duration."""
@@ -220,7 +235,16 @@ class Application:
 
     def _duration_hint(self) -> str | None:
         """Hint for a function of numbers of which an argument is a duration."""
-        return "`seconds(d)` is a number" if DURATION in self.types else None
+        text = "`seconds(d)` is a number"
+        if not isinstance(self.tree, Call) or self.tree.function == "div":
+            return text if DURATION in self.types else None
+        durations = [
+            each.span
+            for each, known in zip(self.tree.arguments, self.types, strict=True)
+            if known == DURATION
+        ]
+        changes = [(span, f"seconds({span.text})") for span in durations]
+        return edits(text, "Write `seconds(...)`", *changes) if changes else None
 
     def _division_hint(self) -> str | None:
         """Hint for a division of integers with other numbers."""

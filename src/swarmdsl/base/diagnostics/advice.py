@@ -77,3 +77,18 @@ def last_robot(role: str, most: int) -> Advice:
 def insert(line: str, *names: Span, to: str) -> Advice:
     """Name a line to add to the declarations or states with these names."""
     return Advice(f"add `{line}` to {to}", "insert", line, *names)
+
+
+def edits(text: str, title: str, *changes: tuple[Span, str]) -> Advice:
+    """Name changes of the text, each of a span; `title` says in short what they do."""
+    return Advice(text, "edit", title, *(part for change in changes for part in change))
+
+
+def before(span: Span, text: str) -> tuple[Span, str]:
+    """Return the insertion of a text before a span."""
+    return span._replace(end=span.start), text
+
+
+def behind(span: Span, text: str) -> tuple[Span, str]:
+    """Return the insertion of a text behind a span."""
+    return span._replace(start=span.end), text

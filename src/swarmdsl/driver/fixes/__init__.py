@@ -12,7 +12,14 @@ from swarmdsl.base.diagnostics.advice import Advice
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Fix
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
-from swarmdsl.driver.fixes import insertions, missing_values, new_names, removals, replacements
+from swarmdsl.driver.fixes import (
+    edits,
+    insertions,
+    missing_values,
+    new_names,
+    removals,
+    replacements,
+)
 from swarmdsl.driver.fixes.problem import Problem, Rules
 from swarmdsl.driver.workspace import Workspace
 
@@ -20,6 +27,7 @@ SLOW = "naming-style"
 """Diagnostic whose fix is tried on the whole model, since a new name may mean something else."""
 
 RULES: Rules = {
+    **edits.RULES,
     **insertions.RULES,
     **missing_values.RULES,
     **new_names.RULES,

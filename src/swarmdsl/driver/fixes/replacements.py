@@ -106,17 +106,6 @@ def _last_robot(problem: Problem, text: str) -> Iterator[Fix]:
         yield replacing(problem.part(start, index.end() if index is not None else end), text)
 
 
-def _range(problem: Problem, text: str) -> Iterator[Fix]:
-    """Extend a range so that it includes a value."""
-    lower, dots, upper = problem.span.text.partition(" .. ")
-    numbers = [_NUMBER.fullmatch(each.strip()) for each in (lower, upper, text)]
-    low, high, value = (float(each[1]) if each else None for each in numbers)
-    if not dots or low is None or high is None or value is None:
-        return
-    wide = (text, upper) if value < low else (lower, text)
-    yield replacing(problem.span, " .. ".join(wide))
-
-
 def _timeout(problem: Problem, text: str) -> Iterator[Fix]:
     """`on Timeout` becomes a delay."""
     if problem.text.endswith("on ", 0, problem.span.start):
@@ -192,6 +181,13 @@ def _left_out(problem: Problem, text: str) -> Iterator[Fix]:
     if at >= 0:
         edit = (problem.part(at, at + len(text)), "")
         yield Fix(f"Remove `{text}`", (edit,))
+
+
+def _instead(problem: Problem, text: str, new: str) -> Iterator[Fix]:
+    """Replace a text behind the place."""
+    at = problem.text.find(text, problem.span.start)
+    if at >= 0:
+        yield replacing(problem.part(at, at + len(text)), new)
 
 
 def _no_address(problem: Problem) -> Iterator[Fix]:
@@ -277,7 +273,6 @@ RULES: Rules = {
     "close block": _closing_brace,
     "delay": _timeout,
     "escape": _escape,
-    "extend range": _range,
     "join lines": _joined_line,
     "last robot": _last_robot,
     "leave out": _left_out,
@@ -294,5 +289,6 @@ RULES: Rules = {
     "sort corners": _corners,
     "state around": _states_around,
     "write": _written,
+    "write instead": _instead,
     "write import": _statement,
 }

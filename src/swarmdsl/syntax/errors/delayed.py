@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from swarmdsl.base.diagnostics.advice import write
+from swarmdsl.base.diagnostics.advice import Advice, write
+from swarmdsl.base.naming import fresh
 from swarmdsl.syntax.units import UNITS
 
 
@@ -81,7 +82,11 @@ def find_delayed_error(text: str, at: int, before: int) -> DelayedError | None:
                 return _delayed(found, message, f"write two: `{one}` and `{other}`")
     for found in _NAMELESS.finditer(text, near, at + 2):
         if found.end() == at:
-            help_ = "name it before the `:`, as in `contract Stops : on Stop within 2 s reach Home`"
+            help_ = Advice(
+                "name it before the `:`, as in `contract Stops : on Stop within 2 s reach Home`",
+                "append",
+                f" {fresh('Reacts', re.findall(r'[A-Za-z_]+[0-9]*', text), gap='')}",
+            )
             return _delayed(found, "expected a name after `contract`", help_)
     if (found := _TWO_WORDS.match(text, line)) and found.end("token") > before:
         message = f"expected the end of the line, found `{found['token']}`"

@@ -79,10 +79,17 @@ class _OperatorStack:
         """Add an operator between two operands."""
         self.reduce(operator[0])
         if self._waiting and self._waiting[-1][0] == operator[0] == _COMPARISON:
-            self._blame(
-                operator[1], "comparisons cannot be chained", "join them: `a < b and b < c`"
-            )
+            self._blame(operator[1], "comparisons cannot be chained", self._joined(operator[1]))
         self._waiting.append(operator)
+
+    def _joined(self, word: Word) -> str:
+        """Return the help for a second comparison of one operand."""
+        from swarmdsl.base.diagnostics.advice import before, edits
+
+        _, start, end = self.values[-1]
+        operand = word.span.source.text[start:end]
+        change = before(word.span, f"and {operand} ")
+        return edits("join them: `a < b and b < c`", f"Insert `and {operand}`", change)
 
     def reduce(self, binding: int) -> None:
         """Reduce operators of higher precedence, and of the same unless they do not chain."""
