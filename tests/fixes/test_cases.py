@@ -25,7 +25,7 @@ NAMES = {entry.code: name for name, entry in CODES.items()}
 CASES = sorted(path.name for path in FOLDER.glob("SW*") if path.is_dir() or path.suffix != ".txt")
 # Help that says what to write.
 WRITES = re.compile(
-    r"did you mean|\b(?:write|add|declare|bind|begin|remove it|remove the|leave|give it)\b"
+    r"did you mean|\b(?:write|join|move|add|declare|bind|begin|remove (?:it|the)|leave|give it)\b"
 )
 # Help whose code has holes that only the author can fill, by its beginning.
 HOLES = {
@@ -33,15 +33,10 @@ HOLES = {
     "write `history Back` in a region": "it is one of two designs",
     "a parameter is `in` or `out`": "the second name is unknown",
     "add `maximize ...`": "what is better is unknown",
-    "add `role.param in": "what varies is unknown",
     "add `fitness Name`": "the model has no fitness",
     "add `behavior` with": "which machine it runs is unknown",
-    "add `connect ...": "the source is unknown",
     "add `on ": "where to react, and what comes then, is a decision",
-    "let `Here` wait": "for what is a decision",
     "give it a duration": "how long is a decision",
-    "write `after` and the time": "it takes the condition apart",
-    "that has ": "the message belongs to ROS",
     "declare it in the model, or `import ros": "the definition is elsewhere",
     "declare both in": "it says which unit two declarations share",
     "only arrays have items": "the guard is meant, or another variable",
@@ -68,6 +63,7 @@ FURTHER = {
     ("SW0406_equipment", "rang"): "that one is there already",
     ("SW0546_indented", "after 20 s"): "a transition follows on the line",
     ("SW0610_folder", "stds_msgs/Header"): "the text is in a file of ROS",
+    ("SW0702_operands", "round(3 s)"): "a number is no duration, which is wanted",
     ("SW0709_no_sender", "sender"): "a monitored topic is no event",
     ("SW1601_unclear_fitness", "Pace"): "it is measured in both swarms",
 }

@@ -99,7 +99,7 @@ def test_a_fix_that_shows_a_hidden_mistake(fixed):
     assert text == MODEL.replace("[n < 3]", '[n < "3"]')
     assert fixed(("behavior Patrol", "behavior Patrl"), ("reach Home", "reach Hoem"))[0] == MODEL
     text, _ = fixed(("behavior", "behaviour"), ("contract Stops", "contract"))
-    assert text == MODEL.replace("contract Stops", "contract")
+    assert text == MODEL.replace("contract Stops", "contract Reacts")
 
 
 def test_a_refused_fix_has_a_reason(fixed):

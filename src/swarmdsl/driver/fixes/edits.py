@@ -96,10 +96,10 @@ def _port_of(problem: Problem, name: str) -> Iterator[Fix]:
 def _state_inside(problem: Problem) -> Iterator[Fix]:
     """Name the first state of the container, where a state of another one is named."""
     container = problem.around(State, Region, StateMachine)
-    for state in vertices(container) if container is not None else ():
-        if isinstance(state, (State, Parallel)):
+    if isinstance(container, (State, Region, StateMachine)):
+        states = [each for each in vertices(container) if isinstance(each, (State, Parallel))]
+        for state in states[:1]:
             yield replacing(problem.span, str(state.name))
-            return
 
 
 def _equality(problem: Problem) -> Iterator[Fix]:
