@@ -15,7 +15,7 @@ from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Segment, Ve
 from swarmdsl.tools.diagram.layout.simplex import Constraint
 
 NODE_GAP, LINE_GAP, LABEL_GAP = 26, 12, 12
-_PATIENCE = 8
+_PATIENCE = 4
 """Number of rounds after which twice as many parts bend."""
 _BROAD = 1.3
 """Breadth of a level, relative to its broadest layer, above which straight parts may bend."""
@@ -33,57 +33,60 @@ class Chains:
         self.number: dict[int, int] = {}
         self.offset: dict[int, int] = {}
         self._parts: list[dict[int, Segment]] = []
+        number, offset = self.number, self.offset
         for segment in straight:
             upper, lower = upper_and_lower(segment)
-            if id(upper.vertex) not in self.number:
-                self._add(upper.vertex)
-            number = self.number[id(lower.vertex)] = self.number[id(upper.vertex)]
-            shift = (upper.at or 0) - (lower.at or 0)
-            self.offset[id(lower.vertex)] = self.offset[id(upper.vertex)] + shift
-            self._parts[number][segment.gap] = segment
+            above, below = id(upper.vertex), id(lower.vertex)
+            if above not in number:
+                number[above], offset[above] = len(self._parts), 0
+                self._parts.append({})
+            number[below] = number[above]
+            offset[below] = offset[above] + (upper.at or 0) - (lower.at or 0)
+            self._parts[number[above]][segment.gap] = segment
         for layer in layers.layers:
             for vertex in layer:
-                if id(vertex) not in self.number:
-                    self._add(vertex)
+                if id(vertex) not in number:
+                    number[id(vertex)], offset[id(vertex)] = len(self._parts), 0
+                    self._parts.append({})
         self.constraints: list[Constraint] = []
         self.places = [0] * len(self._parts)
         # For each number: the one before it that determines its place, if any, in a layer.
         self._before = [(-1, 0)] * len(self._parts)
-        self.breadth = self._pack()
+        self.after: list[list[tuple[int, int, int]]] = [[] for _ in self._parts]
+        self.order = self._pack()
+        self.breadth = max((self._stop(layer) for layer in layers.layers if layer), default=0)
 
-    def _add(self, vertex: Vertex) -> None:
-        self.number[id(vertex)] = len(self._parts)
-        self.offset[id(vertex)] = 0
-        self._parts.append({})
-
-    def _pack(self) -> int:
-        """Place everything as far to the start as possible; return the breadth."""
-        after: list[list[tuple[int, int, int]]] = [[] for _ in self.places]
-        waits = [0] * len(self.places)
+    def _pack(self) -> list[int]:
+        """Place everything as far to the start as possible; return the order of the numbers."""
+        number, offset, places, after = self.number, self.offset, self.places, self.after
+        waits = [0] * len(places)
         for at, layer in enumerate(self.layers.layers):
-            for one, other in pairwise(layer):
-                room = one.breadth + _gap(one, other) + self.offset[id(one)]
-                room -= self.offset[id(other)]
-                tail, head = self.number[id(one)], self.number[id(other)]
+            if not layer:
+                continue
+            one = layer[0]
+            tail = number[id(one)]
+            if -offset[id(one)] >= places[tail]:
+                places[tail] = -offset[id(one)]
+                self._before[tail] = -1, at
+            for other in layer[1:]:
+                head = number[id(other)]
+                room = one.breadth + _gap(one, other) + offset[id(one)] - offset[id(other)]
                 self.constraints.append((tail, head, room, 0))
                 after[tail].append((head, room, at))
                 waits[head] += 1
-            if layer:
-                first = self.number[id(layer[0])]
-                if -self.offset[id(layer[0])] >= self.places[first]:
-                    self.places[first] = -self.offset[id(layer[0])]
-                    self._before[first] = -1, at
-        ready = [number for number, count in enumerate(waits) if not count]
-        for number in ready:
-            for head, room, at in after[number]:
-                if self.places[number] + room > self.places[head]:
-                    self.places[head] = self.places[number] + room
-                    self._before[head] = number, at
+                one, tail = other, head
+        order = [each for each, count in enumerate(waits) if not count]
+        for tail in order:
+            place = places[tail]
+            for head, room, at in after[tail]:
+                if place + room > places[head]:
+                    places[head] = place + room
+                    self._before[head] = tail, at
                 waits[head] -= 1
                 if not waits[head]:
-                    ready.append(head)
-        assert len(ready) == len(self.places), "straight parts cross"
-        return max((self._stop(layer) for layer in self.layers.layers if layer), default=0)
+                    order.append(head)
+        assert len(order) == len(places), "straight parts cross"
+        return order
 
     def _stop(self, layer: Sequence[Vertex]) -> int:
         last = layer[-1]
@@ -149,10 +152,11 @@ def takes_space(vertex: Vertex) -> bool:
 
 
 def _gap(one: Vertex, other: Vertex) -> int:
-    nodes = takes_space(one) + takes_space(other)
-    if nodes == 2:
+    if not (one.breadth or other.breadth):
+        return LINE_GAP
+    if takes_space(one) and takes_space(other):
         return NODE_GAP
-    return LABEL_GAP if nodes or one.is_label or other.is_label else LINE_GAP
+    return LABEL_GAP
 
 
 def _straight(layers: Layers) -> Iterator[Segment]:

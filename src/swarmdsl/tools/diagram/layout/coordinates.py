@@ -30,6 +30,8 @@ def assign_coordinates(
 
 def _place_lanes(layers: Layers) -> None:
     """Place lanes beside everything else; lanes that are far apart share a position."""
+    if not layers.lanes:
+        return
     across = max((v.across + v.breadth for layer in layers.layers for v in layer), default=0)
     taken: list[tuple[int, int]] = []  # heap of (last layer, place)
     free: list[int] = []

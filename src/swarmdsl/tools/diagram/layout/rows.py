@@ -8,6 +8,7 @@ Graphs, Diagrams 2018.
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from itertools import groupby, pairwise
 
@@ -34,10 +35,12 @@ def starts_of_rows(lengths: Sequence[int], crossed: Sequence[int], rows: int) ->
     row = ends[-1] / rows
     starts = [0]
     for number in range(1, rows):
+        first = bisect_left(ends, row * (number - 0.5))
+        last = bisect_left(ends, row * (number + 0.5))
         choices = [
             (abs(ends[at] - row * number) + LANE_COST * crossed[at], at)
-            for at in range(starts[-1] + 1, len(lengths))
-            if abs(ends[at] - row * number) < row / 2 and crossed[at] <= MAX_LANES
+            for at in range(max(first, starts[-1] + 1), min(last, len(lengths)))
+            if crossed[at] <= MAX_LANES
         ]
         if choices:
             starts.append(min(choices)[1])

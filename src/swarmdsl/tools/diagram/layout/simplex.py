@@ -17,67 +17,68 @@ _MAX_STEPS = 500_000
 _MAX_CANDIDATES = 30
 
 
-def minimize(
-    count: int, constraints: Sequence[Constraint], start: Sequence[int] | None = None
-) -> list[int]:
+def minimize(count: int, constraints: Sequence[Constraint]) -> list[int]:
     """Find `count` numbers that satisfy the constraints at minimum cost.
 
-    The smallest is 0. The constraints (tail, head, length, weight) have no cycles, unless `start`
-    has numbers that satisfy them.
+    The smallest is 0. The constraints (tail, head, length, weight) have no cycles.
     """
     if count == 0:
         return []
-    merged: dict[tuple[int, int], tuple[int, int]] = {}
-    for tail, head, length, weight in constraints:
-        known = merged.get((tail, head), (length, 0))
-        merged[tail, head] = (max(length, known[0]), weight + known[1])
-    heads = {head for _, head in merged}
-    root = count
-    for node in range(count):
+    network = Network(count, constraints)
+    network.solve()
+    network.balance()
+    return network.numbers()
+
+
+class Network:
+    """A feasible spanning tree of tight edges that is improved edge by edge.
+
+    Constraints may have cycles if `start` has numbers that satisfy them. The first edges are the
+    constraints; `solve` goes on from the numbers found after a change of a `weight`.
+    """
+
+    def __init__(
+        self, count: int, constraints: Sequence[Constraint], start: Sequence[int] | None = None
+    ) -> None:
+        heads = {head for _, head, _, _ in constraints}
         # The root connects separate components at no cost.
-        if node not in heads:
-            merged[root, node] = (0, 0)
-    edges = [(tail, head, *about) for (tail, head), about in merged.items()]
-    solver = _Solver(count + 1, edges)
-    if start is None:
-        solver.longest_paths()
-    else:
-        solver.rank = [*start, min(start)]
-    solver.solve()
-    least = min(solver.rank[:count])
-    return [value - least for value in solver.rank[:count]]
-
-
-class _Solver:
-    """A feasible spanning tree of tight edges that is improved edge by edge."""
-
-    def __init__(self, count: int, edges: list[tuple[int, int, int, int]]) -> None:
-        self.count = count
+        loose = [(count, node, 0, 0) for node in range(count) if node not in heads]
+        self.count = count + 1
+        edges = [*constraints, *loose]
         self.tail = [edge[0] for edge in edges]
         self.head = [edge[1] for edge in edges]
-        self.both = [edge[0] + edge[1] for edge in edges]
         self.length = [edge[2] for edge in edges]
         self.weight = [edge[3] for edge in edges]
-        self.incident: list[list[int]] = [[] for _ in range(count)]
-        for number, (tail, head, _, _) in enumerate(edges):
-            self.incident[tail].append(number)
-            self.incident[head].append(number)
-        self.rank = [0] * count
-        self.in_tree = [False] * len(edges)
-        self.tree: list[list[int]] = [[] for _ in range(count)]
-        self.cut = [0] * len(edges)
+        self.both = [tail + head for tail, head in zip(self.tail, self.head, strict=True)]
+        self.incident: list[list[int]] = [[] for _ in range(self.count)]
+        for edge, (tail, head) in enumerate(zip(self.tail, self.head, strict=True)):
+            self.incident[tail].append(edge)
+            self.incident[head].append(edge)
+        self.rank = [0] * self.count
+        self.in_tree = [False] * len(self.tail)
+        self.tree: list[list[int]] = [[] for _ in range(self.count)]
+        self.cut = [0] * len(self.tail)
         # For each node of the rooted tree: the edge to its parent, and its depth.
-        self.parent = [-1] * count
-        self.depth = [0] * count
+        self.parent = [-1] * self.count
+        self.depth = [0] * self.count
         # The nodes below the edge that leaves the tree have the latest mark.
-        self.mark = [0] * count
+        self.mark = [0] * self.count
         self.marks = 0
+        if start is None:
+            self.longest_paths()
+        else:
+            self.rank = [*start, min(start)]
+        self.span()
+
+    def numbers(self) -> list[int]:
+        """Return the numbers found; the smallest is 0."""
+        least = min(self.rank[:-1])
+        return [value - least for value in self.rank[:-1]]
 
     def solve(self) -> None:
-        """Improve numbers that satisfy the constraints."""
-        self.span()
+        """Improve the numbers."""
         self.cut_values(self.root())
-        members = [edge for edge, inside in enumerate(self.in_tree) if inside]
+        members = self.members()
         work, at = _MAX_STEPS, 0
         while work > 0:
             leaving, at = self.leaving(members, at)
@@ -90,9 +91,13 @@ class _Solver:
             self.exchange(members[leaving], entering, moved)
             work -= 2 * len(moved) + len(members) // 4
             members[leaving] = entering
-        self.balance(members)
+
+    def members(self) -> list[int]:
+        """Return the edges of the tree."""
+        return [edge for edge, inside in enumerate(self.in_tree) if inside]
 
     def slack(self, edge: int) -> int:
+        """Return the amount by which an edge is longer than it must be."""
         return self.rank[self.head[edge]] - self.rank[self.tail[edge]] - self.length[edge]
 
     def longest_paths(self) -> None:
@@ -291,10 +296,10 @@ class _Solver:
                 self.cut[edge] += -cut if self.tail[edge] == other else cut
                 other = self.both[edge] - other
 
-    def balance(self, members: list[int]) -> None:
-        """Center nodes that can move at no cost."""
+    def balance(self) -> None:
+        """Center nodes that can move at no cost, at last: the tree is not tight any more."""
         work = _MAX_STEPS // 4
-        for edge in members:
+        for edge in self.members():
             if work <= 0:
                 return
             if self.cut[edge] == 0 and self.weight[edge] + self.length[edge]:

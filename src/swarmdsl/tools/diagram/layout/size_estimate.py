@@ -130,8 +130,10 @@ class Sizes:
                 least_length = max(least_length, size[along])
                 layer_breadth += size[across]
             layers_.append((least_length + more_length, layer_breadth))
-        crossed = [0, *(layer.segments for layer in self._layers[node.id])]
-        length, breadth = wrapped_size(layers_, crossed, rows)
+        length, breadth = sum([size[0] for size in layers_]), max([size[1] for size in layers_])
+        if rows > 1:
+            crossed = [0, *(layer.segments for layer in self._layers[node.id])]
+            length, breadth = wrapped_size(layers_, crossed, rows)
         if direction != around:
             length += self._turning.get(node.id, 0) * TRACK
         wide, high = along_across(direction, length, breadth)
@@ -186,7 +188,7 @@ class Sizes:
 
 def wrapped_size(layers: Sequence[Size], crossed: Sequence[int], rows: int) -> Size:
     """Length and breadth of layers of these sizes in a number of rows."""
-    starts = starts_of_rows([length for length, _ in layers], crossed, rows) if rows > 1 else [0]
+    starts = starts_of_rows([length for length, _ in layers], crossed, rows)
     lengths: list[int] = []
     breadth = NODE_GAP * (len(starts) - 1)
     for start, stop in zip(starts, (*starts[1:], len(layers)), strict=True):
