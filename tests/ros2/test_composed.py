@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import signal
 import subprocess
+import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -100,12 +101,19 @@ def test_launch_starts_one_process(launch: Launch) -> None:
     assert container["respawn"] is True
 
 
-def test_the_command_of_a_process_with_many_robots(launch: Launch) -> None:
+def test_the_command_of_a_process_with_many_robots(
+    launch: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """It is as short as that of one; Linux has a limit of 2 MB, with all of the environment."""
     container = next(each for each in launch() if each["executable"] == "container")
     assert sum(len(_text(each)) for each in container["arguments"]) < 200
     nodes = json.loads(Path(container["arguments"][0]).read_text(encoding="utf-8"))
     assert [each[1] for each in nodes] == [f"uav_{number}" for number in range(5)]
+
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "missing"))
+    with pytest.raises(Exception, match="the nodes of a process cannot be written: ") as error:
+        launch()
+    assert type(error.value).__name__ == "RobotError"
 
 
 def test_launch_of_no_robots(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

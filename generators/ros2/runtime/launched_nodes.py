@@ -113,16 +113,13 @@ class LaunchedNodes:
             for role, number in self._robots
             for node in self._swarm.roles[role].nodes
         ]
-        # A file, since a command is too short for hundreds of robots. It stays for a respawn.
-        with NamedTemporaryFile('w', prefix='swarm_nodes_', suffix='.json', delete=False) as file:
-            json.dump(nodes, file)
         common = self._common()
         container = Node(
             package=self._swarm.package,
             executable='container',
             respawn=self._is_on('respawn'),
             respawn_delay=self._delay,
-            **{**common, 'arguments': [*respawn, file.name, *common['arguments']]},
+            **{**common, 'arguments': [*respawn, _written(nodes), *common['arguments']]},
         )
         return GroupAction([PushRosNamespace(LaunchConfiguration('namespace')), container])
 
@@ -290,6 +287,20 @@ class LaunchedNodes:
         if text not in ('true', '1', 'false', '0'):
             raise RobotError(f'{argument} must be true or false, not `{text}`')
         return text in ('true', '1')
+
+
+def _written(nodes):
+    """
+    Write the nodes of a process to a file, and return its path.
+
+    A command is too short for those of hundreds of robots. The file stays for a respawn.
+    """
+    try:
+        with NamedTemporaryFile('w', prefix='swarm_nodes_', suffix='.json', delete=False) as file:
+            json.dump(nodes, file)
+    except OSError as error:
+        raise RobotError(f'the nodes of a process cannot be written: {error}') from None
+    return file.name
 
 
 def folder_of(package):
