@@ -16,7 +16,8 @@ pytest.importorskip("playwright", reason="no playwright: `make vscode`")
 from playwright.sync_api import Locator, expect
 
 from ...server.flows import FUNCTIONS, GIVEN, MODEL
-from .typing import fill
+from ...server.patrol import PATROL
+from .typing import fill, write_patrol
 from .window import Window
 
 pytestmark = pytest.mark.timeout(900)  # on a busy machine, each step may take two minutes
@@ -73,6 +74,19 @@ seeds = 10000
 steps = [{ send = "MissionStart" }, { pass = "30 min" }]
 """
 LAMPS = Path(__file__).resolve().parents[2] / "debugger" / "lamps.swarm"
+# The project of the example has another swarm, too.
+PATROLLED = """swarm = "Patrols"
+
+[[test]]
+name  = "a round that fails ends at home"
+steps = [
+  { send = "Start" },
+  { all = "rover", in = "Round" },
+  { end = "go_round", of = "rover[0]", as = "aborted" },
+  { who = "rover[0]", in = "Home" },
+  { who = "rover[1]", in = "Round" },
+]
+"""
 PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
 
 
@@ -155,6 +169,35 @@ def test_names_are_in_the_list_while_one_types(window: Window) -> None:
     fill(window)
     window.saved("patrol.swarm", lambda now: now == MODEL)
     assert text(window, "patrol.swarm") == MODEL
+
+
+@pytest.mark.thorough
+def test_patrol_is_written_with_the_keyboard(
+    window: Window, tmp_path: Path, pytestconfig: pytest.Config
+) -> None:
+    (window.folder / "patrol.swarm").write_text("", encoding="utf-8")
+    window.open("patrol.swarm")
+    write_patrol(window)
+    window.saved("patrol.swarm", lambda now: now == PATROL)
+    page = window.page
+    for kind in ("error", "warning"):
+        expect(page.locator(f".squiggly-{kind}")).to_have_count(0)
+    expect(page.locator(".notification-toast")).to_have_count(0)
+
+    window.place("patrol.swarm", "aborted")
+    suggested = page.locator(".suggest-widget.visible .monaco-list-row.focused")
+    window.again(lambda: window.press("Control+Space"), suggested)
+    expect(suggested).to_contain_text("aborted")
+    photograph(window, pytestconfig, tmp_path, "patrol")
+    window.press("Escape")
+
+    (window.folder / "patrol.swarmtest.toml").write_text(PATROLLED, encoding="utf-8")
+    window.command("Testing: Focus on Test Explorer View")
+    row = page.locator(".test-explorer .monaco-list-row", has_text="patrol.swarmtest.toml")
+    expect(row).to_have_count(1)
+    window.command("Test: Run All Tests")
+    expect(row.locator(".codicon-testing-passed-icon")).to_have_count(1)
+    window.command("View: Show Explorer")
 
 
 def test_file_without_a_name_has_diagnostics_and_colours_of_the_user(window: Window) -> None:

@@ -1,16 +1,20 @@
-"""Flows of a user who types at human pace and chooses from the lists that appear."""
+"""Users who type at human pace and choose from the lists that appear."""
 
 from __future__ import annotations
 
 import re
+from itertools import zip_longest
 
 from playwright.sync_api import expect
 
 from ...server.flows import flows
+from ...server.patrol import Piece, lines
 from .window import Window
 
 # Milliseconds between two keys of a good typist.
 _PACE = 90
+# Milliseconds to wait for a list that opens by itself.
+_SOON = 10_000
 
 
 def fill(window: Window) -> None:
@@ -27,6 +31,43 @@ def fill(window: Window) -> None:
         if flow.then:
             window.page.keyboard.insert_text(flow.then)
         window.press("Escape")
+
+
+def write_patrol(window: Window) -> None:
+    """Write the model of the README in an empty file, with the first items of the lists."""
+    texts = lines()
+    for line, following in zip_longest(texts, texts[1:]):
+        if _ends_block(line):  # the editor has closed it
+            window.press("ArrowDown")
+            window.press("End")
+        else:
+            for piece in line:
+                window.page.keyboard.type(piece.typed, delay=_PACE)
+                if piece.completed:
+                    _accept(window, piece.text)
+        if following is None or not _ends_block(following):
+            window.press("Enter")
+
+
+def _ends_block(line: list[Piece]) -> bool:
+    return line == [Piece("}")]
+
+
+def _accept(window: Window, wanted: str) -> None:
+    """Take the first item of the list when it is the wanted one.
+
+    A busy window may open no list for a word that was typed meanwhile; then the user asks for it.
+    """
+    label = window.page.locator(".label-name", has_text=re.compile(f"^{re.escape(wanted)}$"))
+    rows = window.page.locator(".suggest-widget.visible .monaco-list-row")
+    first = rows.and_(window.page.locator(".focused[data-index='0']"))
+    right = first.filter(has=label)
+    try:
+        expect(right).to_be_visible(timeout=_SOON)
+    except AssertionError:
+        window.again(lambda: window.press("Control+Space"), right)
+    window.press("Tab")
+    expect(rows).to_have_count(0)
 
 
 def _choose(window: Window, wanted: str) -> None:
