@@ -182,7 +182,7 @@ def test_a_machine_has_the_params_of_its_members_that_it_uses(compiled: Compiled
     member = "behavior M; param theirs : int32 = 2; param unused : int32 = 3"
     (machine,) = compiled(f"{BEHAVING} member R {{ {member} }}").machines
 
-    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore
+    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore[union-attr]
         ("own", 1),
         ("theirs", 2),
     ]
@@ -211,7 +211,7 @@ def test_members_that_disagree_leave_no_default(compiled: Compiled) -> None:
         "member Q { behavior M; param theirs : int32 = 3; param own : int32 = 5 }"
     ).machines
 
-    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore
+    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore[union-attr]
         ("own", 5),
         ("theirs", None),
     ]
@@ -244,7 +244,7 @@ def test_a_machine_of_a_component_has_the_values_of_the_parts(
 ) -> None:
     (machine,) = compiled(f"{BEACON}{members}").machines
 
-    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore
+    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore[union-attr]
         ("period", period)
     ]
 
