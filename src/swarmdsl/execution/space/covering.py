@@ -79,19 +79,18 @@ class Covering:
         rows = self._rows[part]
         dx, dy = stage.x[rows] - self._noted_x[rows], stage.y[rows] - self._noted_y[rows]
         dz = stage.z[rows] - self._noted_z[rows]
-        enough = np.maximum(self._reaches(rows), self._side) / _NOTES_OF_REACH
-        rows = rows[stage.alive[rows] & (dx * dx + dy * dy + dz * dz >= enough * enough)]
+        reaches = self._reaches(rows)
+        enough = np.maximum(reaches, self._side) / _NOTES_OF_REACH
+        now = stage.alive[rows] & (dx * dx + dy * dy + dz * dz >= enough * enough)
+        rows, reaches = rows[now], reaches[now]
         if not len(rows):
             return
         self._noted_x[rows], self._noted_y[rows] = stage.x[rows], stage.y[rows]
         self._noted_z[rows] = stage.z[rows]
-        for row in self._by_reach(rows):
-            self._mark(*row)
-
-    def _by_reach(self, rows: Whole) -> list[tuple[float, Whole]]:
-        """Return the rows with each reach, rounded to a quarter of a cell."""
-        reaches = np.rint(self._reaches(rows) / self._side * 4) * self._side / 4
-        return [(reach, rows[reaches == reach]) for reach in sorted(set(reaches.tolist()))]
+        # Rounded to a quarter of a cell.
+        reaches = np.rint(reaches / self._side * 4) * self._side / 4
+        for reach in sorted(set(reaches.tolist())):
+            self._mark(reach, rows[reaches == reach])
 
     def _reaches(self, rows: Whole) -> Floats:
         """Return the distance up to which robots cover the ground now."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from operator import is_
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -92,10 +93,11 @@ class Running:
             raise ModelError(self.name, "it ends the process with `SystemExit`") from error
         except Exception as error:
             raise ModelError(self.name, error) from error
-        now = vars(self._stage)
-        for name, array in self._arrays.items():
-            if now.get(name) is not array:
-                self._check_replaced(name, now.get(name), array)
+        now = vars(self._stage).get
+        if not all(map(is_, map(now, self._arrays), self._arrays.values())):
+            for name, array in self._arrays.items():
+                if now(name) is not array:
+                    self._check_replaced(name, now(name), array)
         return found
 
     def _check_replaced(self, name: str, new: Any, old: Any) -> None:
