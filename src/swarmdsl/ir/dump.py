@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import MISSING, fields, is_dataclass
 from enum import Enum
+from functools import cache
 from typing import Any, get_args
 
 from swarmdsl.base.records import replace
@@ -47,26 +48,29 @@ def _node(node: Any) -> Iterator[str]:
 
 def _values(node: Any) -> Iterator[tuple[str, Any]]:
     """Yield the fields to show: plain ones as strings, others as sequences of nodes."""
-    for field in fields(node):
-        value = getattr(node, field.name)
-        if (
-            not (field.compare or field.metadata.get("derived"))
-            or value in ((), None, "")
-            or value == _default(field)
-        ):
+    kind: Any = type(node)
+    for name, default in _shown_fields(kind):
+        value = getattr(node, name)
+        if value in ((), None, "") or value == default:
             continue
         if isinstance(value, _PLAIN):
-            yield field.name, _plain(value)
+            yield name, _plain(value)
         elif is_dataclass(value):
-            yield field.name, (value,)
+            yield name, (value,)
         elif all(isinstance(item, _PLAIN) for item in value):
-            yield field.name, " ".join(map(_plain, value))
+            yield name, " ".join(map(_plain, value))
         else:
-            yield field.name, value
+            yield name, value
 
 
-def _default(field: Any) -> Any:
-    return None if field.default is MISSING else field.default
+@cache
+def _shown_fields(cls: Any) -> tuple[tuple[str, Any], ...]:
+    """Return the fields of a class of nodes that may be shown, with their defaults."""
+    return tuple(
+        (field.name, None if field.default is MISSING else field.default)
+        for field in fields(cls)
+        if field.compare or field.metadata.get("derived")
+    )
 
 
 def _item(item: Any) -> Iterator[str]:
