@@ -6,6 +6,7 @@ import { join } from "node:path";
 import * as vscode from "vscode";
 import { LanguageClient, State, TransportKind } from "vscode-languageclient/node";
 
+import { DataFiles } from "./data.ts";
 import { find, type Found, type Launch, type Places } from "./launch.ts";
 import { interpreterIn, onPath, probe } from "./probe.ts";
 import { selectedInterpreter } from "./python.ts";
@@ -24,6 +25,7 @@ export class Server implements vscode.Disposable {
   private readonly filesChanged = new vscode.EventEmitter<void>();
   /** Fires when the client reports changes of files on disk. */
   readonly onFiles = this.filesChanged.event;
+  private readonly data = new DataFiles();
   private client: LanguageClient | undefined;
   private launch: Launch | undefined;
   // Starts and stops run one at a time, in order.
@@ -80,6 +82,7 @@ export class Server implements vscode.Disposable {
   }
 
   dispose(): void {
+    this.data.dispose();
     this.changed.dispose();
     this.filesChanged.dispose();
   }
@@ -140,6 +143,7 @@ export class Server implements vscode.Disposable {
           ],
         },
         middleware: {
+          handleDiagnostics: (uri, found, next) => next(uri, this.data.shown(uri, found)),
           workspace: {
             didChangeWatchedFile: async (event, next) => {
               await next(event);
@@ -161,6 +165,7 @@ export class Server implements vscode.Disposable {
     this.client = client;
     try {
       await client.start();
+      this.data.follow(client);
     } catch (error) {
       this.log.error(String(error));
       const why = `The swarmc of ${launch.origin} did not start.`;
@@ -176,6 +181,7 @@ export class Server implements vscode.Disposable {
 
   private async end(): Promise<void> {
     const { client } = this;
+    this.data.follow(undefined);
     this.client = undefined;
     this.launch = undefined;
     try {

@@ -326,6 +326,13 @@ def test_preview_follows_the_text_and_opens_places(
     expect(picture).to_contain_text("1..6")
 
 
+def test_names_in_tests_are_checked(window: Window) -> None:
+    wrong = WRONG.replace("Rescue.Bid", "Rescue.Bud")
+    (window.folder / "names.swarmtest.toml").write_text(wrong, encoding="utf-8")
+    window.open("names.swarmtest.toml")
+    expect(window.problems().filter(has_text="no state called").first).to_be_visible()
+
+
 def test_tests_run_in_the_test_view(window: Window) -> None:
     wrong = window.folder / "wrong.swarmtest.toml"
     wrong.write_text(WRONG, encoding="utf-8")
