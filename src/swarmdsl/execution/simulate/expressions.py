@@ -34,6 +34,10 @@ PRESENT = "present()"
 """Key of a function in the data of a machine: the number of robots of a role that are there."""
 NEIGHBORS = "neighbors()"
 """Key of a function in the data of a machine: the number of other robots within a distance."""
+CHOICE = "choice()"
+"""Key of a function in the data of a machine, for proofs: any number less than its argument."""
+ONE_OF, ATTEMPT = "one of", "attempt"
+"""Names of functions for proofs: one has any of its arguments as its value, the other may fail."""
 SELF = "self"
 """Key of the identity of the robot in the data of a machine; no variable has this name."""
 
@@ -83,6 +87,11 @@ def function_of(expression: Expression) -> Value:
         case Call(function="neighbors", arguments=(distance,)):
             reach = function_of(distance)
             return lambda data, event: _neighbors(data, reach(data, event))
+        case Call(function=name, arguments=choices) if name == ONE_OF:
+            values = [function_of(each) for each in choices]
+            return lambda data, event: values[data[CHOICE](len(values))](data, event)
+        case Call(function=name) if name == ATTEMPT:
+            return lambda data, event: _attempt(data)
         case Call(function="empty"):
             return lambda data, event: []
         case Call(function=name, arguments=arguments):
@@ -113,6 +122,12 @@ def _neighbors(data: Mapping[str, Any], distance: float) -> int:
     if found is None:
         raise ExecutionError("robots have no places here: `neighbors within` has no value")
     return found
+
+
+def _attempt(data: Mapping[str, Any]) -> bool:
+    if data[CHOICE](2):
+        raise ExecutionError("a value that is not known may be none")
+    return True
 
 
 def applied(name: str, values: Sequence[Value]) -> Value:

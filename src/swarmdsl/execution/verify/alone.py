@@ -5,13 +5,13 @@ from __future__ import annotations
 from swarmdsl import ir
 from swarmdsl.execution.verify.groups import Group, Local
 from swarmdsl.execution.verify.limits import Budget
-from swarmdsl.execution.verify.loose import can_be_loose
 from swarmdsl.execution.verify.model import Model
 from swarmdsl.execution.verify.moves import Move
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.sentence import table_of
 from swarmdsl.execution.verify.terms import Terms, arriving, facts_of
 from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.execution.verify.wider import robot_alone
 
 _COVERED = ("never", "always", "only", "times", "leads")
 """Patterns that a finite run violates, and what may be answered at once."""
@@ -30,19 +30,19 @@ def without_others(
     """Prove a property of one robot of which not all is known, whatever the others send.
 
     Return None if it may be violated so. First the robot is looked at for all such properties at
-    once, then, if it has too many states, for one, and then without its data.
+    once, then, if it has too many states, for one, and then with open variables.
     """
     like = [each for each in model.properties if each.each == property_.each and is_alone(each)]
-    for properties, loose in ((like, False), ([property_], False), ([property_], True)):
-        if loose and not can_be_loose(property_, model.machines_of(me)):
+    for properties, is_open in ((like, False), ([property_], False), ([property_], True)):
+        alone = robot_alone(model, properties, me, budget, is_open=is_open)
+        if alone is None:
             continue
-        alone = model.alone(properties, me, budget, loose=loose)
         (own,) = alone.groups([property_], me=me)
         if alone.complete and not alone.doubts([own]):
             states = hearing_all(property_, own.automaton)
             if states is not None:
-                return Verdict(property_, "holds", states, robot=me, alone=True, loose=loose)
-            if not loose:
+                return Verdict(property_, "holds", states, robot=me, alone=True, open=alone.open)
+            if not is_open:
                 # It has all its data: without them, more would be possible.
                 return None
     return None

@@ -19,7 +19,13 @@ from swarmdsl.codegen.shared.default_values import (
 from swarmdsl.execution.simulate.members import DEPARTED, JOINED
 from swarmdsl.execution.verify.doubt import Doubt
 from swarmdsl.execution.verify.places import Node
-from swarmdsl.execution.verify.representatives import Part, Path, Values, combinations
+from swarmdsl.execution.verify.representatives import (
+    Part,
+    Path,
+    Values,
+    combinations,
+    is_covered,
+)
 from swarmdsl.execution.verify.slice import Slice
 
 _HEADERS = {
@@ -34,7 +40,7 @@ class Demands:
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
     conditions of properties, each with the machine and the events that it is about. With `lengths`,
-    those of delays count. If the machines are `loose`, only the conditions count.
+    those of delays count.
     """
 
     def __init__(
@@ -44,10 +50,9 @@ class Demands:
         extra: Iterable[tuple[str, ir.Expression, tuple[str, ...]]] = (),
         *,
         lengths: bool = False,
-        loose: bool = False,
     ) -> None:
         self._system = system
-        self._slice = Slice(system, data, extra, lengths=lengths, loose=loose)
+        self._slice = Slice(system, data, extra, lengths=lengths)
         self._demanded = frozenset(self._slice.demanded)
         self._variables = {name for kind, name, _ in self._demanded if kind == "var"}
         self._fields: dict[str, set[Path]] = {}
@@ -109,19 +114,29 @@ class Demands:
     def results(self, function: str) -> Values:
         """Return representatives of the results of a function."""
         call = self._system.function(function).communication
-        types = {each.name: each.type for each in result_fields(call, self._system) or ()}
-
-        def type_of(path: Path) -> ir.Type | None:
-            return field_type(types.get(path[0]), path[1:], self._system) if path else None
-
-        parts = self._parts("result", function, type_of)
+        parts = self._parts("result", function)
         return combinations(function, parts, lambda: default_result(call, self._system))
 
     def messages(self, event: str) -> Values:
         """Return representatives of the messages of an event from outside."""
         type_ = self._system.event(event).type
-        parts = self._parts("event", event, lambda path: field_type(type_, path, self._system))
+        parts = self._parts("event", event)
         return combinations(event, parts, lambda: default_value(type_, self._system))
+
+    def uncovered(self, events: Iterable[str]) -> set[Node]:
+        """Return places of results, and of some events from outside, of which some values are tried."""
+        sources = [("event", name) for name in events]
+        sources += [(kind, name) for kind, name, _ in self._demanded if kind == "result"]
+        return {
+            (kind, name, part.path)
+            for kind, name in dict.fromkeys(sources)
+            for part in self._parts(kind, name)
+            if not is_covered(part)
+        }
+
+    def reached_from(self, places: Iterable[Node]) -> set[Node]:
+        """Return some places, and all that hold what is copied or computed from them."""
+        return self._slice.reached_from(places)
 
     # ---- internal
 
@@ -129,15 +144,23 @@ class Demands:
         """Return the place of the first expression that reads some data."""
         return getattr(self._slice.read.get(node), "origin", None)
 
-    def _parts(
-        self, kind: str, name: str, type_of: Callable[[Path], ir.Type | None]
-    ) -> Iterator[Part]:
-        """Yield the parts of a message or result that decide on anything."""
+    def _parts(self, kind: str, name: str) -> Iterator[Part]:
+        """Yield the parts of an event or result that decide on anything."""
+        type_of = self._result_type(name) if kind == "result" else self._event_type(name)
         for node in sorted(self._demanded):
             if node[:2] == (kind, name):
                 type_, cuts = type_of(node[2]), frozenset(self._slice.cuts.get(node, ()))
                 default = default_value(type_, self._system) if type_ is not None else 0
                 yield Part(node[2], type_, default, cuts, self._slice.exact.get(node))
+
+    def _result_type(self, function: str) -> Callable[[Path], ir.Type | None]:
+        call = self._system.function(function).communication
+        types = {each.name: each.type for each in result_fields(call, self._system) or ()}
+        return lambda path: field_type(types.get(path[0]), path[1:], self._system) if path else None
+
+    def _event_type(self, event: str) -> Callable[[Path], ir.Type | None]:
+        type_ = self._system.event(event).type
+        return lambda path: field_type(type_, path, self._system)
 
     def _reads_header(self, field: str, node: Node) -> bool:
         """Return True if a place is a field of a header of an event, or has such a header in it."""

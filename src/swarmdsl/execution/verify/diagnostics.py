@@ -159,14 +159,21 @@ def rows(verdicts: Sequence[Verdict], faults: int = 0) -> Iterator[tuple[str, st
         outcome = f"holds up to {states}" if open_ else each.outcome
         if each.place is not None:
             reason += f" ({each.place.source.name}:{each.place.line})"
-        if each.outcome == "holds" and each.alone:
-            reason = "whatever the other robots do"
-            reason += ", and whatever conditions on data hold" if each.loose else ""
+        if each.outcome in ("holds", "up to"):
+            reason = "; ".join(filter(None, (reason, _whatever(each))))
         if each.outcome == "fails" and each.robot is not None:
             reason = f"for {each.robot}" + (f", {reason}" if reason else "")
         if faults and each.outcome in ("holds", "up to"):
             reason = ", ".join(filter(None, (reason, with_losses(faults))))
         yield each.property.name, outcome, reason
+
+
+def _whatever(verdict: Verdict) -> str:
+    """Describe what a proof does not look at."""
+    found = ["whatever the other robots do"] if verdict.alone else []
+    if verdict.open:
+        found.append(f"whatever the values of {' and '.join(verdict.open)} are")
+    return ", and ".join(found)
 
 
 def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str]:

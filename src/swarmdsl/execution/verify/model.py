@@ -25,7 +25,6 @@ from swarmdsl.execution.verify.groups import Group
 from swarmdsl.execution.verify.kind import Kind
 from swarmdsl.execution.verify.kinship import activities, key_of
 from swarmdsl.execution.verify.limits import Budget
-from swarmdsl.execution.verify.loose import loosened
 from swarmdsl.execution.verify.network import Network
 from swarmdsl.execution.verify.quotient import Quotient
 from swarmdsl.execution.verify.strangers import messages_to
@@ -39,8 +38,8 @@ MOST_STATES, MOST_MOVES = 500, 5_000
 class Model:
     """Automata of the robots of a subject, for given numbers of members.
 
-    If it is of `only` one robot, all others may send it anything at any time. If it is `loose`,
-    its data are left open.
+    If it is of `only` one robot, all others may send it anything at any time. Conditions on the
+    data that are `open` hold or not, each time.
     """
 
     def __init__(
@@ -52,8 +51,7 @@ class Model:
         budget: Budget,
         report: Diagnostics,
         only: str | None = None,
-        *,
-        loose: bool = False,
+        open_: tuple[str, ...] = (),
     ) -> None:
         assert subject.system is not None
         self.subject = subject
@@ -66,8 +64,7 @@ class Model:
         everybody = actors(subject, robots, scenario, report)
         self.cast = [each for each in everybody if only in (None, each.robot.name)]
         self._strangers = [each for each in everybody if each not in self.cast]
-        if loose:
-            self.cast = loosened(self.cast, self.system)
+        self.open = open_
         self.kinds: list[Automaton] = []
         if report.has_errors:
             return
@@ -84,7 +81,7 @@ class Model:
         for actor in self.cast:
             data.setdefault(actor.machine.name, []).append({**actor.params, **actor.data})
         extra = conditions(self.cast, facts)
-        self.demands = Demands(self.system, data, extra, lengths=options.exact, loose=loose)
+        self.demands = Demands(self.system, data, extra, lengths=options.exact)
         self.alphabet = Alphabet(self.system, self.demands)
         robots = list(dict.fromkeys(actor.robot for actor in everybody))
         self.environment = Environment(
@@ -102,8 +99,8 @@ class Model:
         self._robots: list[list[str | None]] = []
         self._gather(facts)
         self._quotients: dict[tuple[int, int, bool, bool], Quotient] = {}
-        self._alone: dict[Any, Model] = {}
-        """Models of one robot, by its name and the names of properties."""
+        self.wider: dict[Any, Model | None] = {}
+        """Models with more runs, by what they leave open."""
         self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
         self._unfinished = [each for each in self.kinds if not each.is_complete]
 
@@ -134,35 +131,6 @@ class Model:
             and each.robots is not None
             and each.robots.quantifier == "index"
         }
-
-    def alone(
-        self,
-        properties: Sequence[ir.Property],
-        robot: str | None,
-        budget: Budget,
-        *,
-        loose: bool = False,
-    ) -> Model:
-        """Return the automaton of one robot, to which others may send anything at any time.
-
-        Only what decides on this robot and some properties counts, without its data if `loose`.
-        """
-        key = (robot, tuple(each.name for each in properties), loose)
-        if key in self._alone:
-            return self._alone[key]
-        found = Diagnostics()
-        made = self._alone[key] = Model(
-            self.subject,
-            self.counts,
-            properties,
-            self.options,
-            budget,
-            found,
-            robot,
-            loose=loose,
-        )
-        assert not found.has_errors, "the swarm has been made before"
-        return made
 
     def network(
         self,
@@ -250,10 +218,6 @@ class Model:
             number = self.kinds.index(group.automaton.whole)
             found.update(dict.fromkeys(self._doubts[number]))
         return list(found)
-
-    def machines_of(self, robot: str | None) -> list[ir.StateMachine]:
-        """Return the machines of a robot."""
-        return [self.machines[actor.machine.name] for actor in self._by_robot[robot]]
 
     def may_send(self, group: Group) -> set[str]:
         """Return the events that a group may send other robots, beyond those that it was seen to.

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from swarmdsl.execution.simulate.expressions import NEIGHBORS
+from swarmdsl.execution.simulate.expressions import CHOICE, NEIGHBORS
 
-EITHER = "either()"
-"""Key of the data of a machine at which a function makes a free choice."""
 _MOST_FREE = 8
 """Maximum number of free choices in a step that are followed."""
 
@@ -32,7 +30,7 @@ class Nearness:
     @property
     def functions(self) -> dict[str, Any]:
         """Functions that machines ask, as their data have them."""
-        return {NEIGHBORS: self.count, EITHER: self.either}
+        return {NEIGHBORS: self.count, CHOICE: self.choice}
 
     @property
     def is_asked(self) -> bool:
@@ -55,21 +53,15 @@ class Nearness:
             known = self._known.items()
             least = max((n for d, n in known if d < distance), default=0)
             most = min((n for d, n in known if d > distance), default=self._others)
-            at = len(self._asked)
-            answer = self._chosen[at] if at < len(self._chosen) else least
-            self._asked.append((answer, most))
-            self._known[distance] = answer
+            self._known[distance] = self._answer(least, most)
         return self._known[distance]
 
-    def either(self) -> bool:
-        """Return a free choice, which no other one binds."""
-        at = len(self._asked)
-        if at >= _MOST_FREE:
+    def choice(self, number: int) -> int:
+        """Return any number less than the given one: a free choice, which no other one binds."""
+        if len(self._asked) >= _MOST_FREE:
             self.has_too_many = True
-            return False
-        answer = self._chosen[at] if at < len(self._chosen) else 0
-        self._asked.append((answer, 1))
-        return bool(answer)
+            return 0
+        return self._answer(0, number - 1)
 
     def others(self) -> Iterator[tuple[int, ...]]:
         """Yield the beginnings of answers that the step leaves out, and no other step tries."""
@@ -78,3 +70,9 @@ class Nearness:
             answer, most = self._asked[at]
             for more in range(answer + 1, most + 1):
                 yield (*answers[:at], more)
+
+    def _answer(self, least: int, most: int) -> int:
+        at = len(self._asked)
+        answer = self._chosen[at] if at < len(self._chosen) else least
+        self._asked.append((answer, most))
+        return answer

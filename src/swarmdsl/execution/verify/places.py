@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl import ir
+from swarmdsl.execution.simulate.expressions import ATTEMPT, ONE_OF
 from swarmdsl.execution.verify.representatives import Path
 
 Node = tuple[str, str, Path]
 """Place of data: `var`, `event`, `sender` or `result`, its name, and fields in it."""
+
+_VARYING = ("neighbors", "present", ONE_OF, ATTEMPT)
+"""Functions that have another value at another time."""
 
 SELF: Node = ("robot", "self", ())
 SENT: Node = ("time", "sent", ())
@@ -53,7 +57,7 @@ def is_constant(expression: ir.Expression) -> bool:
     return not any(
         isinstance(part, varies)
         or (isinstance(part, ir.SelfField) and part.field in ("id", "index"))
-        or (isinstance(part, ir.Call) and part.function in ("neighbors", "present"))
+        or (isinstance(part, ir.Call) and part.function in _VARYING)
         for part in ir.subexpressions(expression)
     )
 
@@ -68,3 +72,13 @@ def parts(expression: ir.Expression) -> Iterator[ir.Expression]:
 
     ir.mapped(expression, keep)
     yield from found
+
+
+def behind(node: Node, target: Node, source: Node) -> Node | None:
+    """Return the place in the source of a copy that becomes a place in its target."""
+    if node[:2] != target[:2]:
+        return None
+    inner, outer = node[2], target[2]
+    if inner[: len(outer)] == outer:
+        return (*source[:2], (*source[2], *inner[len(outer) :]))
+    return source if outer[: len(inner)] == inner else None

@@ -39,6 +39,7 @@ from swarmdsl.execution.verify.verdict import (
     unfinished,
     violated,
 )
+from swarmdsl.execution.verify.wider import with_open_data
 
 _MOST_LASSOS = 60
 """Number of loops that are tried on the engine."""
@@ -101,6 +102,25 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     return replace(verdict, reason=verdict.reason + way_out)
 
 
+def _loosely(
+    property_: ir.Property, model: Model, me: str | None, budget: Budget
+) -> Verdict | None:
+    """Return the verdict if a property holds whatever the data are that are not all covered.
+
+    It may hold up to a number of states only.
+    """
+    if property_.kind == "possible" or property_.chance is not None or model.open:
+        return None
+    looser = with_open_data(model, budget)
+    if looser is None or property_ not in looser.properties:
+        return None
+    found = _without_clocks(property_, looser, me, budget)
+    if found.outcome != "holds" and property_.within is not None and model.options.exact:
+        found = prove_exactly(property_, looser, me, budget, found)
+    open_ = found.open or looser.open
+    return replace(found, open=open_) if found.outcome in ("holds", "up to") else None
+
+
 def _never(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict | None:
     """Return a verdict if what must happen in time need not happen at all: a loop shows it."""
     endless = replace(property_, within=None, chance=None)
@@ -130,18 +150,39 @@ def _without_clocks(
     if mine is not None:
         seen.add(mine)
     groups = cone(model, every, seen) or every
+    is_sure = model.complete and not model.doubts(groups)
     if mine is not None and is_alone(property_):
-        if model.complete and not model.doubts(groups):
+        if is_sure:
             states = hearing_all(property_, every[mine].automaton)
             if states is not None:
                 return Verdict(property_, "holds", states, robot=me, alone=True)
         elif (found := without_others(property_, model, me, budget)) is not None:
             return found
+    loose = _loosely(property_, model, me, budget) if not is_sure else None
+    if loose is not None and loose.outcome == "holds":
+        return loose
     if is_about_ends(property_):
-        return _in_the_end(property_, model, me, budget, lonely=lonely)
-    if property_.kind == "possible":
+        found = _in_the_end(property_, model, me, budget, lonely=lonely)
+    elif property_.kind == "possible":
         place = groups.index(every[mine]) if mine is not None else None
-        return prove_possible(property_, model, model.network(groups, spared=me), place, me, budget)
+        network = model.network(groups, spared=me)
+        found = prove_possible(property_, model, network, place, me, budget)
+    else:
+        found = _searched(property_, model, groups, every, me, budget, lonely=lonely)
+    return loose if loose is not None and found.outcome == "unknown" else found
+
+
+def _searched(
+    property_: ir.Property,
+    model: Model,
+    groups: Sequence[Group],
+    every: Sequence[Group],
+    me: str | None,
+    budget: Budget,
+    *,
+    lonely: bool,
+) -> Verdict:
+    """Look for a finite run of some groups that violates a property, or of all robots."""
     observer = observer_of(
         property_, model, groups, me, lonely=lonely, others=len(groups) < len(every)
     )

@@ -83,6 +83,11 @@ def combinations(name: str, parts: Iterable[Part], blank: Callable[[], dict[str,
     return Values(tuple(made), tuple(doubts), tuple(conditions))
 
 
+def is_covered(part: Part) -> bool:
+    """Return True if there are representatives for all values of a part."""
+    return _values(part)[1]
+
+
 def _values(part: Part) -> tuple[list[Any], bool]:
     """Return representatives of a value, and True if they stand for all values."""
     cuts = part.cuts

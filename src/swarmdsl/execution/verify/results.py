@@ -60,6 +60,7 @@ def _property(verdict: Verdict, runs: Mapping[str, Path]) -> dict[str, Any]:
         **({"member": verdict.robot} if fails and verdict.robot is not None else {}),
         **({"size": dict(verdict.size)} if fails and verdict.size is not None else {}),
         **({"reason": verdict.reason} if verdict.reason else {}),
+        **({"open": list(verdict.open)} if verdict.open else {}),
         **_written(verdict.property.name, runs),
         **_loop(verdict),
     }

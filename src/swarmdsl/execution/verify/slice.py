@@ -16,7 +16,7 @@ from swarmdsl.codegen.shared.default_values import (
 )
 from swarmdsl.execution.engine import ExecutionError
 from swarmdsl.execution.simulate.expressions import function_of
-from swarmdsl.execution.verify.places import Node, is_constant, parts, places, places_in
+from swarmdsl.execution.verify.places import Node, behind, is_constant, parts, places, places_in
 from swarmdsl.execution.verify.representatives import Cut
 from swarmdsl.ir.integer_ranges import bound_of
 
@@ -35,7 +35,7 @@ class Slice:
 
     `data` are the first data of the instances of each machine, by its name. `extra` are the
     conditions of properties, each with the machine and the events that it is about. With `lengths`,
-    those of delays count, else only if they are positive. If `loose`, only the conditions count.
+    those of delays count, else only if they are positive.
     """
 
     def __init__(
@@ -45,7 +45,6 @@ class Slice:
         extra: Iterable[tuple[str, ir.Expression, tuple[str, ...]]] = (),
         *,
         lengths: bool = False,
-        loose: bool = False,
     ) -> None:
         self._system = system
         self._has_lengths = lengths
@@ -60,7 +59,7 @@ class Slice:
         """True if a machine computes an address."""
         self.read: dict[Node, ir.Expression] = {}
         """Places of data with the first expressions that compare or need them."""
-        for name in () if loose else data:
+        for name in data:
             self._machine(system.machines_by_name[name])
         for name, expression, events in extra:
             self._decide(expression, name, events)
@@ -93,6 +92,24 @@ class Slice:
             if target[0] == "var" and target in _reached(read, sources)
         }
 
+    def reached_from(self, sources: Iterable[Node]) -> set[Node]:
+        """Return some places, and all that hold what is copied or computed from them."""
+        found = set(sources)
+        todo = list(found)
+        while todo:
+            node = todo.pop()
+            new = {behind(node, source, target) for target, source in self._flows}
+            new |= {
+                target
+                for target, expression, machine, events in self._computed
+                for read in places_in(expression, machine, events)
+                if behind(node, read, read) is not None
+            }
+            fresh = {each for each in new if each is not None} - found
+            found |= fresh
+            todo += fresh
+        return found
+
     # ---- internal
 
     def _spread(self) -> None:
@@ -102,7 +119,7 @@ class Slice:
             changed = False
             for target, source in self._flows:
                 for node in sorted(self.demanded):
-                    origin = _behind(node, target, source)
+                    origin = behind(node, target, source)
                     if origin is None:
                         continue
                     if node in self.cuts:
@@ -113,7 +130,7 @@ class Slice:
                         self.exact[origin] = self.exact[node]
                         changed = True
             for target, expression, machine, events in self._computed:
-                if any(_overlap(node, target) for node in self.demanded):
+                if any(behind(node, target, target) is not None for node in self.demanded):
                     before = len(self.exact)
                     self._need(expression, machine, events)
                     changed |= len(self.exact) != before
@@ -299,16 +316,6 @@ def _is_unsure(part: ir.Expression) -> bool:
     return False
 
 
-def _behind(node: Node, target: Node, source: Node) -> Node | None:
-    """Return the place in the source of a copy that becomes a place in its target."""
-    if node[:2] != target[:2]:
-        return None
-    inner, outer = node[2], target[2]
-    if inner[: len(outer)] == outer:
-        return (*source[:2], (*source[2], *inner[len(outer) :]))
-    return source if outer[: len(inner)] == inner else None
-
-
 def _reached(
     first: Iterable[tuple[str, str]],
     following: Mapping[tuple[str, str], Iterable[tuple[str, str]]],
@@ -321,7 +328,3 @@ def _reached(
         found |= new
         todo += new
     return found
-
-
-def _overlap(node: Node, target: Node) -> bool:
-    return _behind(node, target, target) is not None

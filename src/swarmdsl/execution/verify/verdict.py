@@ -45,8 +45,8 @@ class Verdict:
     """Events of which messages were lost because there were too many."""
     alone: bool = False
     """True if the proof is about one robot, whatever the others do."""
-    loose: bool = False
-    """True if the proof leaves the data of the robot open."""
+    open: tuple[str, ...] = ()
+    """Data that the proof leaves open: conditions on them may hold or not, each time."""
     size: Mapping[str, int] | None = None
     """Numbers of members of a violation, of roles of which it is about every number."""
 
