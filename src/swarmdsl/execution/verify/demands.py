@@ -124,7 +124,7 @@ class Demands:
         return combinations(event, parts, lambda: default_value(type_, self._system))
 
     def uncovered(self, events: Iterable[str]) -> set[Node]:
-        """Return places of results, and of some events from outside, of which some values are tried."""
+        """Return places of results and events from outside of which only some values are tried."""
         sources = [("event", name) for name in events]
         sources += [(kind, name) for kind, name, _ in self._demanded if kind == "result"]
         return {

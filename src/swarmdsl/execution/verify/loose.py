@@ -23,7 +23,7 @@ _ATTEMPT = ir.Call(ATTEMPT, (), BOOL)
 _NOBODY = ""
 
 
-class _IsNeeded(Exception):
+class _NeededError(Exception):
     """Data decide on more than on conditions and addresses."""
 
 
@@ -47,7 +47,7 @@ def loosened(
             each.name: _Machine(subject.system, each, left_open, ir.Address(id=anybody)).loosened()
             for each in machines
         }
-    except _IsNeeded:
+    except _NeededError:
         return None
     made = tuple(changed.get(each.name, each) for each in subject.system.machines)
     machine = subject.machine
@@ -190,7 +190,7 @@ class _Machine:
 
     def _require_known(self, expression: ir.Expression, events: tuple[str, ...]) -> None:
         if self._is_open(expression, events):
-            raise _IsNeeded
+            raise _NeededError
 
     def _is_open(self, expression: ir.Expression, events: tuple[str, ...]) -> bool:
         return is_read(expression, self._machine.name, events, self._open)
