@@ -89,7 +89,7 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
     if has_clocks:
         return prove_exactly(property_, model, me, budget, verdict)
     way_out = ""
-    doubt = not_with_clocks(property_, model, me)
+    doubt = not_with_clocks(property_, _wider(property_, model, budget) or model, me)
     if doubt is not None and property_.within is not None:
         way_out = f"; clocks do not decide: {doubt.reason}"
         verdict = replace(verdict, place=doubt.place)
@@ -109,16 +109,22 @@ def _loosely(
 
     It may hold up to a number of states only.
     """
-    if property_.kind == "possible" or property_.chance is not None or model.open:
-        return None
-    looser = with_open_data(model, budget)
-    if looser is None or property_ not in looser.properties:
+    looser = _wider(property_, model, budget)
+    if looser is None:
         return None
     found = _without_clocks(property_, looser, me, budget)
     if found.outcome != "holds" and property_.within is not None and model.options.exact:
         found = prove_exactly(property_, looser, me, budget, found)
     open_ = found.open or looser.open
     return replace(found, open=open_) if found.outcome in ("holds", "up to") else None
+
+
+def _wider(property_: ir.Property, model: Model, budget: Budget) -> Model | None:
+    """Return the model with open data that may decide on a property, if there is one."""
+    if property_.kind == "possible" or property_.chance is not None or model.open:
+        return None
+    found = with_open_data(model, budget)
+    return found if found is not None and property_ in found.properties else None
 
 
 def _never(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict | None:
