@@ -6,6 +6,7 @@ import { dirname, join } from "node:path";
 
 import * as vscode from "vscode";
 
+import { scenarioFolders } from "./entries.ts";
 import { showBundledLimit } from "./missing.ts";
 import type { Preview } from "./preview.ts";
 import type { Server } from "./server.ts";
@@ -115,15 +116,20 @@ export async function subjectsOf(file: vscode.Uri): Promise<Simulated[]> {
   return swarmsFirst(found);
 }
 
-/** Let the user choose a scenario beside the file, if there are any. */
+/** Let the user choose a scenario beside the file or in `scenarios`, if there are any. */
 export async function chooseScenario(file: vscode.Uri): Promise<Scenario | undefined> {
   const none: Scenario = {
     label: "No scenario",
     description: "every function succeeds after a second",
     uri: undefined,
   };
-  const pattern = new vscode.RelativePattern(dirname(file.fsPath), "*.toml");
-  const found = (await vscode.workspace.findFiles(pattern))
+  const lists = await Promise.all(
+    scenarioFolders(file.fsPath)
+      .filter((folder) => vscode.workspace.getWorkspaceFolder(vscode.Uri.file(folder)))
+      .map((folder) => vscode.workspace.findFiles(new vscode.RelativePattern(folder, "*.toml"))),
+  );
+  const found = lists
+    .flat()
     .filter(({ path }) => !/(^|\/)swarm\.toml$|\.swarmtest\.toml$/.test(path))
     .map((uri): Scenario => ({ label: vscode.workspace.asRelativePath(uri), uri }));
   return found.length

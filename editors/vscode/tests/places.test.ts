@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
 
-import { isHidden } from "../src/entries.ts";
+import { isHidden, scenarioFolders } from "../src/entries.ts";
 import { swarmsFirst } from "../src/subject.ts";
 import { environmentsIn, unique } from "../src/probe.ts";
 
@@ -55,4 +55,12 @@ test("a swarm is offered before its state machines", () => {
   const machines = ["Idle", "Busy"].map((name) => ({ kind: "machine", name }) as const);
   const swarm = { kind: "swarm", name: "All" } as const;
   assert.deepEqual(swarmsFirst([...machines, swarm]), [swarm, ...machines]);
+});
+
+test("scenarios are those beside a model and those of its project", () => {
+  assert.deepEqual(scenarioFolders(join("rescue", "models", "rescue.swarm")), [
+    join("rescue", "models"),
+    join("rescue", "models", "scenarios"),
+    join("rescue", "scenarios"),
+  ]);
 });
