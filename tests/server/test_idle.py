@@ -71,8 +71,8 @@ def test_new_objects_are_counted_without_automatic_collection():
     gc.disable()
     try:
         gc.collect()
-        before = server._new_objects()
         kept = [[] for _ in range(1000)]
-        assert server._new_objects() - before >= len(kept)
+        # Some of those that were counted may be free by now, but not these.
+        assert server._new_objects() >= len(kept)
     finally:
         gc.enable()

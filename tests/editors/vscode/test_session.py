@@ -244,6 +244,7 @@ def test_rename_across_files(window: Window) -> None:
     )
 
 
+@pytest.mark.thorough
 def test_formatting(window: Window) -> None:
     before = text(window, "sar.swarm")
     file = window.folder / "sar.swarm"
@@ -433,6 +434,7 @@ def test_tests_run_on_save_until_they_are_cancelled(window: Window) -> None:
     window.command("View: Show Explorer")
 
 
+@pytest.mark.thorough
 def test_a_simulation_is_debugged(window: Window) -> None:
     window.command("View: Show Explorer")
     shutil.copy(LAMPS, window.folder)
@@ -529,6 +531,7 @@ def test_invalid_server_path_is_reported(window: Window) -> None:
     window.command("View: Show Explorer")
 
 
+@pytest.mark.thorough
 def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> None:
     """The interpreter is the one that runs these tests."""
     pair = window.folder / "pair.swarm"
