@@ -103,6 +103,8 @@ class Window:
 
         self.again(ask, row)
         row.click()
+        # The next item to choose is not in this list, which stays for a moment.
+        expect(row).to_be_hidden()
 
     def focus(self) -> None:
         """Return to the text."""
@@ -218,12 +220,20 @@ class Window:
         """Return the visible lines with a text."""
         return self.page.locator(".editor-instance .view-line", has_text=_spaced(text))
 
-    def saved(self, name: str, right: Callable[[str], bool]) -> None:
-        """Save all files until one has the expected content; edits may arrive late."""
+    def saved(
+        self, name: str, right: Callable[[str], bool], again: Callable[[], object] | None = None
+    ) -> None:
+        """Save all files until one has the expected content; edits may arrive late.
+
+        VS Code drops edits if something moves in the editor before they arrive: `again` asks for
+        them anew.
+        """
         file = self.folder / name
         deadline = time.monotonic() + PATIENCE / 1000
         while not right(file.read_text(encoding="utf-8")):
             assert time.monotonic() < deadline, file.read_text(encoding="utf-8")
+            if again is not None:
+                again()
             self.command("File: Save All Files")
             self.page.wait_for_timeout(100)
 
