@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -239,6 +240,45 @@ swarm Pair {
     assert "SW1706" in out
     assert "not written as a test, which cannot show it: lost-Tell" in out
     assert not path.exists()
+
+
+def test_runs_to_one_state_have_names_of_their_own(
+    saved: Saved, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = saved(
+        """package model
+event Go : std_msgs/Empty
+statemachine Fly {
+  var late : bool = false
+  var free : bool = false
+  initial Rest
+  state Rest {
+    on Go -> Trap
+    after 1 s / late = true -> Rest
+  }
+  state Trap { on Go [late and free] -> Rest }
+  final End
+}
+member Drone { behavior Fly }
+swarm Field {
+  drone : Drone[1..2]
+  other : Drone
+}
+""",
+        *("--size", "drone=1..2", "-o", "runs", "--results", "results.json"),
+    )
+    names = ["drone[0] goes on from Trap", "other[0] goes on from Trap"]
+    assert re.findall(r'^name = "(.*)"$', text, re.MULTILINE) == names
+    capsys.readouterr()
+    assert run(["test", "it.swarmtest.toml"]) == 1
+    assert re.findall("  FAILED  (.*)", capsys.readouterr().out) == names
+
+    found = json.loads(Path("results.json").read_text(encoding="utf-8"))["findings"]
+    runs = {each["role"]: Path(each["run"]) for each in found if "run" in each}
+    assert [each.name for each in runs.values()] == ["waits-Trap.jsonl", "waits-Trap-2.jsonl"]
+    for role, path in runs.items():
+        last = json.loads(path.read_text(encoding="utf-8").splitlines()[-1])
+        assert last["member"] == f"{role}[0]"
 
 
 @pytest.mark.parametrize(

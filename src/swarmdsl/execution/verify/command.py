@@ -11,10 +11,9 @@ from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import render
 from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.naming import fresh
 from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import COMMAND_LINE, Source, Span
-from swarmdsl.base.suggest import suggest
 from swarmdsl.base.write_stream import write_stream
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
@@ -26,7 +25,8 @@ from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject, choose
 from swarmdsl.execution.verify import diagnostics
 from swarmdsl.execution.verify.any_size import enough, prove_any
-from swarmdsl.execution.verify.environment import Options
+from swarmdsl.execution.verify.environment import Options, check_silent
+from swarmdsl.execution.verify.finding import Finding
 from swarmdsl.execution.verify.findings import Survey, survey
 from swarmdsl.execution.verify.limits import Budget, Limits
 from swarmdsl.execution.verify.model import Model
@@ -99,6 +99,8 @@ class _Session:
         self._budget = Budget(request.limits, self._progress.tell)
         self._models: list[Path] = []
         self._written: dict[str, Path] = {}
+        self._findings: dict[str, Finding] = {}
+        """Findings by the names of their runs, each of the smallest swarm that has it."""
         self._found: Results | None = None
         self._shown: list[Shown | str] = []
         """Findings that tests can show, and names of those that they cannot."""
@@ -115,7 +117,8 @@ class _Session:
         self._scenario = self._scenario_of(subject)
         known = self._scenario.counts if self._scenario is not None else {}
         every = sizes(subject, self._request.sizes, self._report, known)
-        self._check_functions(subject)
+        assert subject.system is not None
+        check_silent(self._request.silent, subject.system, self._report)
         if self._report.has_errors:
             return False
         surveys: list[Survey] = []
@@ -147,13 +150,12 @@ class _Session:
         self._silent = tuple(model.silent)
         fair = any(is_about_ends(each.property) for each in verdicts.values())
         told = tuple(diagnostics.conditions(model, sorted(full), fair=fair))
-        findings = tuple(finding for found in surveys for finding in found.findings)
         self._found = Results(
             subject.name,
             tuple(whole(subject, counts) for counts in looked),
             told,
             tuple(verdicts.values()),
-            findings,
+            self._findings,
             self._written,
             tuple(bounds(subject, self._request.sizes)),
             model.environment.faults,
@@ -185,10 +187,8 @@ class _Session:
             found = survey(model, self._budget)
             surveys.append(found)
             for finding in found.findings:
-                self._write(finding.title, finding.run)
-                if finding.run is not None:
-                    self._shown.append(shown_by_finding(finding, counts) or finding.title)
-                diagnostics.report_finding(finding, size, self._report)
+                if all(each.about != finding.about for each in self._findings.values()):
+                    self._tell(finding, counts, size)
         for property_ in properties:
             known = verdicts.get(property_.name)
             if known is not None and known.outcome == "fails":
@@ -204,6 +204,14 @@ class _Session:
             if verdict.outcome == "fails":
                 self._shown.append(shown_by_verdict(verdict, of) or property_.name)
             diagnostics.report_verdict(verdict, shown(model.subject, [of]), self._report)
+
+    def _tell(self, finding: Finding, counts: Mapping[str, int], size: str) -> None:
+        name = fresh(finding.title, self._findings, gap="-")
+        self._findings[name] = finding
+        self._write(name, finding.run)
+        if finding.run is not None:
+            self._shown.append(shown_by_finding(finding, counts) or name)
+        diagnostics.report_finding(finding, size, self._report)
 
     def _prover(
         self, model: Model, counts: Mapping[str, int], properties: Sequence[ir.Property]
@@ -269,19 +277,6 @@ class _Session:
     def _scenario_of(self, subject: Subject) -> Scenario | None:
         path = self._request.scenario
         return None if path is None else load_scenario(path, subject, self._report)
-
-    def _check_functions(self, subject: Subject) -> None:
-        """Report names that are none of a function."""
-        assert subject.system is not None
-        known = [each.name for each in subject.system.functions]
-        for name in self._request.silent:
-            if name not in known:
-                text = f"--never {name}"
-                place = Span(Source(COMMAND_LINE, text), len(text) - len(name), len(text))
-                help_ = suggest(name, known, "functions")
-                self._report.report(
-                    "unresolved-name", place, kind="function", name=name, help=help_
-                )
 
     def _properties(self, subject: Subject) -> list[ir.Property]:
         """Return the properties to prove."""

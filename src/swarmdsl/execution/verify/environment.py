@@ -6,7 +6,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from swarmdsl import ir
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import COMMAND_LINE, Source, Span
+from swarmdsl.base.suggest import suggest
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.scenario import (
     EVERY_FUNCTION,
@@ -48,6 +51,17 @@ class Options:
     def timing(self) -> Timing:
         """Times that runs must fit where time counts."""
         return Timing(self.times or self.scenario or Scenario(), self.lossy, self.silent)
+
+
+def check_silent(functions: Iterable[str], system: ir.System, report: Diagnostics) -> None:
+    """Report names of functions that may never answer, but are not there."""
+    known = [each.name for each in system.functions]
+    for name in functions:
+        if name not in known:
+            text = f"--never {name}"
+            place = Span(Source(COMMAND_LINE, text), len(text) - len(name), len(text))
+            help_ = suggest(name, known, "functions")
+            report.report("unresolved-name", place, kind="function", name=name, help=help_)
 
 
 class Ends(NamedTuple):

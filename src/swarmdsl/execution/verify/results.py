@@ -19,7 +19,7 @@ _REFUTED = "refuted-property"
 
 @dataclass(frozen=True)
 class Results:
-    """Results of the command; `runs` has the written files by the names of their runs.
+    """Results of the command; `findings` and `runs`, the written files, by the names of runs.
 
     Properties are proved for any number of members of the roles `free`, with at most
     so many `faults`: robots that are lost. `open` says what may be wrong, though no run shows it.
@@ -29,7 +29,7 @@ class Results:
     sizes: tuple[Mapping[str, int], ...]
     conditions: tuple[str, ...]
     verdicts: tuple[Verdict, ...]
-    findings: tuple[Finding, ...]
+    findings: Mapping[str, Finding]
     runs: Mapping[str, Path]
     free: tuple[str, ...] = ()
     faults: int = 0
@@ -45,7 +45,7 @@ def as_document(results: Results) -> str:
         **({"lost": results.faults} if results.faults else {}),
         "conditions": list(results.conditions),
         "properties": [_property(each, results.runs) for each in results.verdicts],
-        "findings": [_finding(each, results.runs) for each in results.findings],
+        "findings": [_finding(*each, results.runs) for each in results.findings.items()],
         **({"open": list(results.open)} if results.open else {}),
     }
     return f"{json.dumps(values, indent=2)}\n"
@@ -71,11 +71,11 @@ def _loop(verdict: Verdict) -> dict[str, int]:
     return {"loop": loop} if loop is not None else {}
 
 
-def _finding(finding: Finding, runs: Mapping[str, Path]) -> dict[str, Any]:
+def _finding(name: str, finding: Finding, runs: Mapping[str, Path]) -> dict[str, Any]:
     values = {"code": code_of(finding), "name": finding.name}
     if finding.role:
         values["role"] = finding.role
-    return {**values, **_written(finding.title, runs)}
+    return {**values, **_written(name, runs)}
 
 
 def _written(name: str, runs: Mapping[str, Path]) -> dict[str, str]:

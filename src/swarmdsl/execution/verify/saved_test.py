@@ -13,7 +13,8 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.naming import fresh
+from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.shared.default_values import default_result, default_value
 from swarmdsl.execution.simulate.choose_space import has_geometry
@@ -119,7 +120,11 @@ def tests_of(
     """
     chosen: list[str] = []
     left: list[str] = []
+    names: list[str] = []
     for each in shown:
+        # Robots may wait in one state for several reasons.
+        names.append(fresh(each.name, names, gap=" "))
+        each = replace(each, name=names[-1])
         variants = (
             "".join(f"{line}\n" for line in _Test(subject, each, setting, early).lines())
             for early in (0, MICROSECOND)
