@@ -18,10 +18,10 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.verify.explore import explore
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model, Options
-from swarmdsl.execution.verify.network import Network
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.search.explore import explore
+from swarmdsl.execution.verify.swarm.model import Model, Options
+from swarmdsl.execution.verify.swarm.network import Network
 
 
 def main() -> None:

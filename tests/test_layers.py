@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 from swarmdsl.base.graphs import cycles
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -27,6 +29,25 @@ LAYERS = (
     {"ide"},
     {"cli"},
 )
+
+# Steps of a pipeline, in packages of one package: from the first to the last.
+STEPS = {
+    "execution.verify": (
+        "abstraction",
+        "robot",
+        "automata",
+        "swarm",
+        "properties",
+        "search",
+        "replay",
+        "proofs",
+        "any_size",
+        "findings",
+        "report",
+        "composition",
+        "command",
+    ),
+}
 
 
 def module_name(path: Path) -> str:
@@ -95,6 +116,26 @@ def test_no_package_imports_one_above_it() -> None:
         and layer_of(target) >= layer_of(module)
     ]
     assert upwards == []
+
+
+@pytest.mark.parametrize("package", STEPS)
+def test_no_step_imports_a_later_one(package: str) -> None:
+    steps = STEPS[package]
+    parts = {module: module.split(".")[1:] for module in graph()}
+    inner = package.split(".")
+    step = {module: part[2] for module, part in parts.items() if part[:2] == inner and part[2:]}
+    assert set(step.values()) == set(steps)
+    later = [
+        f"{module} imports {target}"
+        for module, of_module in step.items()
+        for target in graph()[module]
+        if target in step and steps.index(step[target]) > steps.index(of_module)
+    ]
+    assert later == []
+    readme = (SOURCES / package.replace(".", "/") / "README.md").read_text(encoding="utf-8")
+    places = [readme.find(f"\n| `{each}") for each in steps]
+    assert -1 not in places
+    assert places == sorted(places)
 
 
 def test_no_file_imports_itself() -> None:

@@ -7,17 +7,19 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.codegen import Diagnostics, FreshNames, suggest
 from swarmdsl.codegen.python import source_place
-from swarmdsl.execution.verify.compose import Network, compose, subjects
 from swarmdsl.execution.verify.composition import (
     SETTLED,
     VIOLATED,
     Combined,
     Composition,
     Local,
+    Network,
     Reading,
     Rule,
     Team,
     Turn,
+    compose,
+    subjects,
 )
 from swarmdsl.ir import System
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.execution.verify.environment import Options
+from swarmdsl.execution.verify.robot.environment import Options
 
 from ..verify.random_swarms import random_swarm, ranges
 from .witnesses import MISSING, Case, Compared, compare

@@ -19,14 +19,14 @@ from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.verify.compose import subjects
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.explore import Graph, explore
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.network import Network
-from swarmdsl.execution.verify.prove import prove
-from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.composition import subjects
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.proofs.verdict import Verdict
+from swarmdsl.execution.verify.robot.environment import Options
+from swarmdsl.execution.verify.search.explore import Graph, explore
+from swarmdsl.execution.verify.swarm.model import Model
+from swarmdsl.execution.verify.swarm.network import Network
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -11,7 +11,7 @@ from swarmdsl.codegen.api import Support
 from swarmdsl.codegen.emit import Request
 from swarmdsl.codegen.registry import load
 from swarmdsl.driver import pipeline
-from swarmdsl.execution.verify import model as models
+from swarmdsl.execution.verify.swarm import model as models
 
 from ..agreement.witnesses import MISSING, check
 

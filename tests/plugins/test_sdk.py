@@ -26,11 +26,16 @@ PUBLIC = {
     "swarmdsl.codegen.shared",
     "swarmdsl.codegen.xml",
     "swarmdsl.codegen.xml_tree",
-    "swarmdsl.execution.verify.compose",
     "swarmdsl.execution.verify.composition",
     "swarmdsl.ir",
 }
-LAZY = ["swarmdsl.codegen", "swarmdsl.codegen.ros", "swarmdsl.codegen.shared", "swarmdsl.ir"]
+LAZY = [
+    "swarmdsl.codegen",
+    "swarmdsl.codegen.ros",
+    "swarmdsl.codegen.shared",
+    "swarmdsl.execution.verify.composition",
+    "swarmdsl.ir",
+]
 MOVED = {
     "generator": ("codegen.api", "Generator OutputFile option Feature Support Mapped emit_of fits"),
     "naming": ("base.naming", "snake_case camel_case fresh is_python_name incoming_topic"),

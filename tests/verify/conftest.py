@@ -12,11 +12,11 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.prove import prove
-from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.proofs.verdict import Verdict
+from swarmdsl.execution.verify.robot.environment import Options
+from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.ir import System
 
 from .random_swarms import ranges

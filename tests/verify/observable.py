@@ -13,10 +13,10 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.verify.automaton import Automaton
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model, Options
-from swarmdsl.execution.verify.moves import Move
+from swarmdsl.execution.verify.automata.automaton import Automaton
+from swarmdsl.execution.verify.automata.labels import Move
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.swarm.model import Model, Options
 from swarmdsl.ir import Swarm, System
 
 

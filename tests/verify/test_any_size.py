@@ -13,14 +13,14 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.verify import any_size
-from swarmdsl.execution.verify import model as models
-from swarmdsl.execution.verify.any_size import enough, prove_any
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.prove import prove
-from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.execution.verify.any_size import prove as any_size
+from swarmdsl.execution.verify.any_size.prove import enough, prove_any
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.proofs.verdict import Verdict
+from swarmdsl.execution.verify.robot.environment import Options
+from swarmdsl.execution.verify.swarm import model as models
+from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.ir import Property
 
 from .conftest import at_least, system_of

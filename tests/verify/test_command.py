@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify import limits
+from swarmdsl.execution.verify.automata import limits
 
 from .conftest import MODELS
 

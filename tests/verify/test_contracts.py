@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.verify.diagnostics import report_verdict
-from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.report.diagnostics import report_verdict
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import verdicts_of
 

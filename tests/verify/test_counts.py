@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.execution.verify.explore import explore
-from swarmdsl.execution.verify.findings import survey
-from swarmdsl.execution.verify.groups import Group
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.network import Network
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.findings.findings import survey
+from swarmdsl.execution.verify.search.explore import explore
+from swarmdsl.execution.verify.swarm.groups import Group
+from swarmdsl.execution.verify.swarm.network import Network
 
 from .conftest import model_of
 

@@ -8,8 +8,15 @@ from random import Random
 
 import pytest
 
-from swarmdsl.execution.verify.cover import Cover, Population, Rule, Token, Tokens, cover
-from swarmdsl.execution.verify.limits import Budget, Limits
+from swarmdsl.execution.verify.any_size.coverability import (
+    Cover,
+    Population,
+    Rule,
+    Token,
+    Tokens,
+    cover,
+)
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
 
 STATES, MESSAGES = 3, 2
 MOST_ROBOTS = 3

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import verdicts_of
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.run import written
+from swarmdsl.execution.verify.search.run import written
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import verdicts_of
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify.findings import survey
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.findings.findings import survey
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import lines_of, verdicts_of
 

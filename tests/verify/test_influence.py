@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import pytest
 
-from swarmdsl.execution.verify.findings import survey
-from swarmdsl.execution.verify.influence import cone
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.findings.findings import survey
+from swarmdsl.execution.verify.swarm.influence import cone
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import verdicts_of
 

@@ -7,11 +7,11 @@ from collections.abc import Callable
 import pytest
 
 from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.verify import model as models
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.prove import prove
-from swarmdsl.execution.verify.verdict import unfinished
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.proofs.verdict import unfinished
+from swarmdsl.execution.verify.swarm import model as models
+from swarmdsl.execution.verify.swarm.model import Model
 
 COUNTING = """package test
 message Job { number : uint32 }

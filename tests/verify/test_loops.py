@@ -11,8 +11,8 @@ import pytest
 
 from swarmdsl.cli import run
 from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.verify.lap_times import lap_times
-from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.replay.lasso_times import lap_times
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import verdicts_of
 

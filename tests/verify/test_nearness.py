@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify.any_size import prove_any
-from swarmdsl.execution.verify.findings import survey
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.nearness import Nearness
-from swarmdsl.execution.verify.prove import prove
+from swarmdsl.execution.verify.any_size.prove import prove_any
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.findings.findings import survey
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.robot.choices import Nearness
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import verdicts_of
 

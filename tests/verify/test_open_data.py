@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.loose import is_about, loosened
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.places import Node
-from swarmdsl.execution.verify.prove import prove
+from swarmdsl.execution.verify.abstraction.places import Node
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.proofs.open_data import is_about, loosened
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.robot.environment import Options
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import model_of, verdicts_of
 from .random_swarms import random_swarm

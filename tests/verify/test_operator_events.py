@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import verdicts_of
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.execution.verify.environment import Options
+from swarmdsl.execution.verify.robot.environment import Options
 
 from .conftest import at_least, model_of, system_of, verdicts_of
 from .random_swarms import random_swarm

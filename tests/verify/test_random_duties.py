@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.groups import Group
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.run import written
+from swarmdsl.execution.verify.robot.environment import Options
+from swarmdsl.execution.verify.search.run import written
+from swarmdsl.execution.verify.swarm.groups import Group
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import at_least, model_of, system_of, verdicts_of
 from .random_duties import random_duties

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.verify.model import Model
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import verdicts_of
 
@@ -203,7 +203,7 @@ def test_what_a_run_refutes_does_not_hold(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     text, events, outcome = REFUTED[name]
-    monkeypatch.setattr("swarmdsl.execution.verify.model.MOST_STATES", 20)
+    monkeypatch.setattr("swarmdsl.execution.verify.swarm.model.MOST_STATES", 20)
     model = modelled(_PRELUDE + text)
     path = tmp_path / "events.jsonl"
     path.write_text("".join(f"{json.dumps({'after': 10, **each})}\n" for each in events))

@@ -21,13 +21,13 @@ from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Message,
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.play import play
-from swarmdsl.execution.verify.prove import prove
-from swarmdsl.execution.verify.run import written
-from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.proofs.verdict import Verdict
+from swarmdsl.execution.verify.replay.play import play
+from swarmdsl.execution.verify.robot.environment import Options
+from swarmdsl.execution.verify.search.run import written
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import at_least, model_of, system_of, verdicts_of
 from .random_swarms import random_swarm

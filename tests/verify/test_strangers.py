@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.execution.verify import model as made
-from swarmdsl.execution.verify.alone import hearing_all
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.prove import prove
-from swarmdsl.execution.verify.wider import robot_alone
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.proofs.overapproximation import robot_alone
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.proofs.single_robot import hearing_all
+from swarmdsl.execution.verify.robot.environment import Options
+from swarmdsl.execution.verify.swarm import model as made
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import model_of, verdicts_of
 from .random_swarms import random_swarm

@@ -26,10 +26,10 @@ from swarmdsl.execution.simulate.properties import plan, watch, watchable
 from swarmdsl.execution.simulate.run import run as simulate
 from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Scenario
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.run import written
-from swarmdsl.execution.verify.verdict import UNSURE
+from swarmdsl.execution.verify.proofs.verdict import UNSURE
+from swarmdsl.execution.verify.robot.environment import Options
+from swarmdsl.execution.verify.search.run import written
+from swarmdsl.execution.verify.swarm.model import Model
 
 from .conftest import model_of, verdicts_of
 from .random_timed import random_timed_swarm
@@ -521,7 +521,7 @@ property Two   of Market : never count(seller in Glad) > 1
 def test_a_robot_with_too_many_states_has_few_when_time_counts(
     modelled: Callable[..., Model], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("swarmdsl.execution.verify.model.MOST_STATES", 60)
+    monkeypatch.setattr("swarmdsl.execution.verify.swarm.model.MOST_STATES", 60)
     told = {}
     for exact in (False, True):
         model = modelled(GROWING, exact=exact, capacity=3)
@@ -536,7 +536,7 @@ def test_a_robot_with_too_many_states_has_few_when_time_counts(
 def test_delays_that_depend_on_data_have_no_clock_in_a_robot_with_too_many_states(
     modelled: Callable[..., Model], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("swarmdsl.execution.verify.model.MOST_STATES", 60)
+    monkeypatch.setattr("swarmdsl.execution.verify.swarm.model.MOST_STATES", 60)
     text = GROWING.replace("var best ", "var rest : duration = 2 s\n  var best ")
     model = modelled(text.replace("after 2 s", "after rest"), exact=True)
 

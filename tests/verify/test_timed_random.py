@@ -10,9 +10,9 @@ import pytest
 
 from swarmdsl.execution.simulate.durations import SECOND, Fixed, Uniform
 from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
-from swarmdsl.execution.verify import clock_classes
-from swarmdsl.execution.verify.environment import Options
-from swarmdsl.execution.verify.verdict import Verdict
+from swarmdsl.execution.verify.automata import clock_classes
+from swarmdsl.execution.verify.proofs.verdict import Verdict
+from swarmdsl.execution.verify.robot.environment import Options
 
 from .conftest import at_least, model_of, system_of, verdicts_of
 from .random_timed import STATES, random_timed_swarm

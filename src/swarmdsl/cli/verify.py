@@ -14,8 +14,8 @@ from swarmdsl.cli import options
 from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 
 if TYPE_CHECKING:
-    from swarmdsl.execution.verify.limits import Limits
-    from swarmdsl.execution.verify.sizes import Size
+    from swarmdsl.execution.verify.automata.limits import Limits
+    from swarmdsl.execution.verify.swarm.sizes import Size
 
 _NUMBER = re.compile(r"([0-9]+(?:\.[0-9]+)?) ?(k|M|MB|GB)?")
 _UNITS = {None: 1, "k": 10**3, "M": 10**6, "MB": 10**6, "GB": 10**9}
@@ -27,7 +27,7 @@ def _sizes(
     _context: click.Context, _param: click.Parameter, texts: tuple[str, ...]
 ) -> tuple[Size, ...]:
     """Parse numbers of members: `robot=2..5` or `robot=any`."""
-    from swarmdsl.execution.verify.sizes import read_size
+    from swarmdsl.execution.verify.swarm.sizes import read_size
 
     found: list[Size] = []
     for text in texts:
@@ -46,7 +46,7 @@ def _limits(_context: click.Context, _param: click.Parameter, texts: tuple[str, 
     """Parse limits: numbers of states, durations, or sizes of memory."""
     from swarmdsl.base.records import replace
     from swarmdsl.execution.simulate.durations import SECOND, duration
-    from swarmdsl.execution.verify.limits import Limits
+    from swarmdsl.execution.verify.automata.limits import Limits
 
     limits = Limits()
     for text in texts:

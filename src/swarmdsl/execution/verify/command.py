@@ -23,28 +23,28 @@ from swarmdsl.execution.simulate.load_scenario import load_scenario
 from swarmdsl.execution.simulate.properties import watchable
 from swarmdsl.execution.simulate.scenario import Scenario
 from swarmdsl.execution.simulate.subject import Subject, choose
-from swarmdsl.execution.verify import diagnostics
-from swarmdsl.execution.verify.any_size import enough, prove_any
-from swarmdsl.execution.verify.environment import Options, check_silent
-from swarmdsl.execution.verify.finding import Finding
-from swarmdsl.execution.verify.findings import Survey, survey
-from swarmdsl.execution.verify.limits import Budget, Limits
-from swarmdsl.execution.verify.model import Model
-from swarmdsl.execution.verify.progress import Progress
-from swarmdsl.execution.verify.prove import prove
-from swarmdsl.execution.verify.results import Results, as_document, junit
-from swarmdsl.execution.verify.run import Run, written
-from swarmdsl.execution.verify.saved_test import (
+from swarmdsl.execution.verify.any_size.prove import enough, prove_any
+from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.findings.finding import Finding
+from swarmdsl.execution.verify.findings.findings import Survey, survey
+from swarmdsl.execution.verify.proofs.prove import prove
+from swarmdsl.execution.verify.proofs.verdict import INTERRUPTED, Verdict
+from swarmdsl.execution.verify.properties.sentence import is_about_ends
+from swarmdsl.execution.verify.report import diagnostics
+from swarmdsl.execution.verify.report.progress import Progress
+from swarmdsl.execution.verify.report.results import Results, as_document, junit
+from swarmdsl.execution.verify.report.saved_test import (
     Setting,
     Shown,
     shown_by_finding,
     shown_by_verdict,
     tests_of,
 )
-from swarmdsl.execution.verify.sentence import is_about_ends
-from swarmdsl.execution.verify.sizes import Size, bounds, shown, sizes, whole
-from swarmdsl.execution.verify.summary import Search, summary
-from swarmdsl.execution.verify.verdict import INTERRUPTED, Verdict
+from swarmdsl.execution.verify.report.summary import Search, summary
+from swarmdsl.execution.verify.robot.environment import Options, check_silent
+from swarmdsl.execution.verify.search.run import Run, written
+from swarmdsl.execution.verify.swarm.model import Model
+from swarmdsl.execution.verify.swarm.sizes import Size, bounds, shown, sizes, whole
 from swarmdsl.project.read_source import read_source
 
 _WORST = ("fails", "unknown", "up to", "holds")

@@ -19,7 +19,7 @@ from swarmdsl.execution.simulate.scenario import FunctionBehavior, Robot, Scenar
 from swarmdsl.execution.simulate.space import ABSTRACT
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.world import World
-from swarmdsl.execution.verify.toml_text import toml_text
+from swarmdsl.execution.verify.report.toml_text import toml_text
 from swarmdsl.ir import System
 from swarmdsl.syntax.types import DURATION, Named, Primitive
 from swarmdsl.tools.player.engine_table import written_machine

@@ -1,0 +1,322 @@
+"""Findings about a swarm without any property: what gets stuck, or never happens."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Hashable, Iterable, Iterator
+from typing import Any
+
+from swarmdsl.base.records import dataclass, replace
+from swarmdsl.base.source import Span
+from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.verify.automata.labels import Move
+from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.findings.failures import MOST_RUNS, Failures, failures
+from swarmdsl.execution.verify.findings.finding import Finding
+from swarmdsl.execution.verify.findings.livelock import livelock
+from swarmdsl.execution.verify.findings.reached import Reached, place_of_taken
+from swarmdsl.execution.verify.proofs.verdict import unfinished
+from swarmdsl.execution.verify.replay.play import play
+from swarmdsl.execution.verify.replay.spurious import OPEN
+from swarmdsl.execution.verify.search.explore import Graph, explore
+from swarmdsl.execution.verify.search.run import Run, steps_between
+from swarmdsl.execution.verify.swarm.groups import Group, Local, Step
+from swarmdsl.execution.verify.swarm.influence import apart
+from swarmdsl.execution.verify.swarm.model import Model
+
+
+@dataclass(frozen=True)
+class Survey:
+    """States of a swarm that were looked at, and what was found.
+
+    `missing` is the reason why not all states were looked at, or "". Findings are `open` if no run
+    to them could be played, each with the flaw of one.
+    """
+
+    states: int
+    transitions: int
+    missing: str
+    findings: tuple[Finding, ...]
+    full: tuple[str, ...] = ()
+    open: tuple[tuple[Finding, str], ...] = ()
+
+
+def survey(model: Model, budget: Budget) -> Survey:
+    """Look at all states of a swarm; groups that do not exchange messages are looked at apart."""
+    states = transitions = 0
+    complete = True
+    findings: list[Finding] = []
+    full: set[str] = set()
+    open_: list[tuple[Finding, str]] = []
+    reached: dict[str, Reached] = {}
+    for groups in apart(model, model.groups(thorough=True)):
+        network = model.network(groups)
+        graph = explore(network, budget)
+        states += len(graph.seen)
+        transitions += graph.transitions
+        sure = graph.complete and not model.doubts(groups) and not model.awaits_members(groups)
+        complete &= graph.complete
+        full |= network.full
+        part = _Part(model, graph)
+        failed = part.failures()
+        if any(flaw in OPEN for _, flaw in failed.flaws.values()):
+            # A longer run, in which robots are far from each other and hear of all, may show it.
+            lonely = explore(model.network(groups, lonely=True), budget)
+            failed.add(_Part(model, lonely).failures())
+        found = [*failed.found.values(), *part.findings(sure=sure, budget=budget)]
+        findings += found
+        open_ += [*failed.flaws.values(), *part.open.values()]
+        # What ends or waits too early explains what does not happen after it.
+        early = any(each.fault in ("loops", "waits", "stuck") for each in found)
+        part.reach(reached, sure=sure and not early)
+    ignored = {each.name for each in findings if each.fault == "lost"}
+    for machine in reached.values():
+        findings += machine.missing(ignored)
+    missing = "" if complete else unfinished(model, budget)
+    return Survey(
+        states,
+        transitions,
+        missing,
+        tuple(findings),
+        tuple(sorted(full)),
+        tuple(_not_shown(open_, findings)),
+    )
+
+
+def _not_shown(
+    open_: Iterable[tuple[Finding, str]], shown: Iterable[Finding]
+) -> Iterator[tuple[Finding, str]]:
+    """Yield what is open, once, unless it is shown with other values or in another part."""
+    told = {each.about for each in shown}
+    for finding, flaw in open_:
+        if finding.about not in told:
+            told.add(finding.about)
+            yield finding, flaw
+
+
+class _Part:
+    """One search, of groups that exchange messages."""
+
+    def __init__(self, model: Model, graph: Graph) -> None:
+        self._model = model
+        self._graph = graph
+        self._network = graph.network
+        self._sent = {
+            message
+            for steps in self._network.steps
+            for step in steps or ()
+            if step.move is not None
+            for message in step.move.sends
+        }
+        for group in self._network.groups:
+            self._sent.update(group.automaton.first.sends)
+        self.open: dict[Hashable, tuple[Finding, str]] = {}
+        """Findings without a run that could be played, with the flaw of the first one."""
+
+    def failures(self) -> Failures:
+        """Find guards and effects without a value, and machines that do not come to rest."""
+        return failures(self._graph, self._run)
+
+    def findings(self, *, sure: bool, budget: Budget) -> Iterator[Finding]:
+        """Yield what else is wrong; what is missing only if the search has seen all."""
+        yield from self._answers(budget)
+        trapped = list(self._trapped()) if sure else []
+        yield from (finding for _, finding in trapped)
+        if sure:
+            yield from self._stuck({place for place, _ in trapped})
+            yield from self._lost()
+
+    def reach(self, reached: dict[str, Reached], *, sure: bool) -> None:
+        """Note the states and transitions of each machine that occur."""
+        for group in self._network.groups:
+            for actor in group.automaton.whole.kind.cast:
+                name = actor.machine.name
+                if name not in reached:
+                    machine = self._model.machines[name]
+                    reached[name] = Reached(machine, actor.machine)
+                reached[name].roles[group.role] = None
+                reached[name].sure &= sure
+        for number in range(len(self._network.places)):
+            if number not in self._graph.first:
+                continue
+            place = self._network.places[number]
+            group = self._network.groups[place.group]
+            cast = group.automaton.whole.kind.cast
+            for actor_number, state in group.automaton.look(place.state).innermost:
+                reached[cast[actor_number].machine.name].states.add(state)
+            moves = [step.move for step in self._network.row(number) if step.move is not None]
+            for move in (group.automaton.first, *moves):
+                for moment in move.moments:
+                    reached[cast[moment.actor].machine.name].taken.update(moment.taken)
+
+    def _answers(self, budget: Budget) -> Iterator[Finding]:
+        """Find robots that answer each other without end."""
+        if self._model.doubts(self._network.groups):
+            # What is not covered may end the loop.
+            return
+        found = livelock(self._graph, budget)
+        if found is None:
+            return
+        run, step = found
+        assert step.move is not None
+        group = self._network.groups[self._network.places[step.place].group]
+        place = None
+        for moment in step.move.moments:
+            machine = group.automaton.whole.kind.cast[moment.actor].machine
+            place = place or place_of_taken(machine, moment.taken)
+        yield Finding("answers", step.move.given.name, group.role, place, run=run)
+
+    def _trapped(self) -> Iterator[tuple[tuple[int, int], Finding]]:
+        """Find states that nothing leads on from, whatever comes."""
+        told: dict[tuple[int, int], None] = {}
+        tried: Counter[tuple[int, int]] = Counter()
+        for number in sorted(self._graph.first, key=self._graph.first.__getitem__):
+            group_number, state, _ = self._network.places[number]
+            group = self._network.groups[group_number]
+            key = (group_number, state)
+            if key in told or tried[key] == MOST_RUNS or not self._is_trap(group, state):
+                continue
+            tried[key] += 1
+            run = self._run(number)
+            cast = group.automaton.whole.kind.cast
+            actor, name = group.automaton.look(state).innermost[0]
+            found = Finding("waits", name, group.role, self._origin(cast[actor].machine, name))
+            if run.flaw:
+                self.open.setdefault(key, (found, run.flaw))
+                continue
+            told[key] = None
+            self.open.pop(key, None)
+            yield key, replace(found, run=run)
+
+    def _is_trap(self, group: Group, state: int) -> bool:
+        automaton = group.automaton
+        look = automaton.look(state)
+        if look.ended or not look.quiet or self._waits_outside(group, state):
+            return False
+        moves = automaton.moves(state)
+        if moves is None or not all(_keeps(automaton, move, state) for move in moves):
+            return False
+        return all(
+            _keeps(automaton, move, state)
+            for message in self._sent
+            if automaton.whole.listens(message)
+            for move in automaton.moves_on(state, message)
+        )
+
+    def _waits_outside(self, group: Group, state: int) -> bool:
+        """Return True if a robot handles events of a scenario, which may all have come."""
+        if self._model.options.scenario is None:
+            return False
+        cast = group.automaton.whole.kind.cast
+        return any(
+            edge.matches(event)
+            for actor, name in group.automaton.look(state).innermost
+            for edge in _edges(cast[actor].machine, name)
+            for event in self._model.outside
+        )
+
+    def _stuck(self, trapped: set[tuple[int, int]]) -> Iterator[Finding]:
+        """Find a state of the swarm in which nothing can happen, though not all have ended."""
+        for number in self._graph.stuck:
+            waiting = self._waiting(self._graph.way(number)[-1])
+            if not waiting or set(waiting) & trapped:
+                continue
+            run = play(self._network, self._steps(number), is_whole=True)
+            group, local = waiting[0]
+            whole = self._network.groups[group].automaton
+            actor, name = whole.look(local).innermost[0]
+            machine = whole.whole.kind.cast[actor].machine
+            found = Finding("stuck", name, whole.whole.kind.role, self._origin(machine, name))
+            if run.flaw:
+                if self.open.keys().isdisjoint(waiting):
+                    self.open.setdefault("stuck", (found, run.flaw))
+                continue
+            self.open.pop("stuck", None)
+            yield replace(found, run=run)
+            return
+
+    def _waiting(self, state: int) -> list[tuple[int, int]]:
+        """Return the groups and states of robots that wait in a state, if nothing can happen.
+
+        A robot whose machines are `endless` may wait when another one has ended.
+        """
+        waiting: list[tuple[int, int]] = []
+        patient: list[tuple[int, int]] = []
+        somebody_ended = False
+        for place, _ in self._network.present(state):
+            group, local, _ = self._network.places[place]
+            automaton = self._network.groups[group].automaton
+            steps = self._network.row(place)
+            if any(step.move is not None and not step.move.idle for step in steps):
+                return []
+            if automaton.ended(local):
+                somebody_ended = True
+                continue
+            if self._waits_outside(self._network.groups[group], local):
+                continue
+            names = [actor.machine.name for actor in automaton.whole.kind.cast]
+            endless = all(self._model.machines[name].endless for name in names)
+            (patient if endless else waiting).append((group, local))
+        return waiting if somebody_ended else waiting + patient
+
+    def _lost(self) -> Iterator[Finding]:
+        """Find events that are sent, but that no robot ever handles."""
+        messages = self._model.alphabet.messages
+        handled: set[str] = set()
+        heard: set[str] = set()
+        for number in self._graph.first:
+            for step in self._network.row(number):
+                move = step.move
+                if move is not None and move.given.kind == "hear":
+                    heard.add(move.given.name)
+                    if not move.idle:
+                        handled.add(move.given.name)
+        for name in sorted({messages[m].event.name for m in self._sent} & heard - handled):
+            sends = self._model.sends(self._model.machines)
+            place = next((send.origin for send in sends if send.event == name), None)
+            first = next(
+                (
+                    (number, step.move)
+                    for number in sorted(self._graph.first, key=self._graph.first.__getitem__)
+                    for step in self._network.row(number)
+                    if step.move is not None
+                    and any(messages[m].event.name == name for m in step.move.sends)
+                ),
+                None,
+            )
+            run = self._run(*first) if first is not None else None
+            found = Finding("lost", name, "", place)
+            if run is not None and run.flaw:
+                self.open[name] = (found, run.flaw)
+            else:
+                yield replace(found, run=run)
+
+    # ---- runs and places
+
+    def _run(self, place: int, move: Move | None = None) -> Run:
+        """Return a shortest run to a robot at a place, and its move there."""
+        steps = self._steps(self._graph.first[place])
+        if move is not None:
+            steps.append(next(s for s in self._network.row(place) if s.move is move))
+        return play(self._network, steps)
+
+    def _steps(self, number: int) -> list[Step]:
+        way = self._graph.way(number)
+        return steps_between(way, lambda state: list(self._network.followers(state)))
+
+    def _origin(self, machine: Machine, state: str) -> Span | None:
+        return self._model.subject.place(machine.states[machine.numbers[state]].origin)
+
+
+def _edges(machine: Machine, state: str) -> Iterator[Any]:
+    """Yield the edges of a state and those around it."""
+    names = state.split(".")
+    for end in range(1, len(names) + 1):
+        number = machine.numbers.get(".".join(names[:end]))
+        if number is not None:
+            yield from machine.edges[number]
+
+
+def _keeps(automaton: Local, move: Move, state: int) -> bool:
+    """Return True if a move changes nothing that can be seen."""
+    return move.idle and move.target == state

@@ -1,0 +1,89 @@
+"""States and transitions of machines that occur in a swarm, and those that never do."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from swarmdsl import ir
+from swarmdsl.base.source import Span
+from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.verify.findings.finding import Finding
+
+
+def transitions_of(machine: Machine) -> dict[str, ir.Transition]:
+    """Return the transitions of the model by their names in traces."""
+    found = {}
+    for state in machine.states:
+        for each in state.transitions:
+            if isinstance(each.origin, ir.Transition) and (each.origin.triggers or each.guard):
+                found[machine.called(each)] = each.origin
+    return found
+
+
+def place_of_taken(machine: Machine, taken: Collection[str]) -> Span | None:
+    """Return the place of the first of some transitions, by their names in traces."""
+    for name, transition in transitions_of(machine).items():
+        if name in taken:
+            return transition.origin
+    return None
+
+
+class Reached:
+    """States and transitions of a machine that occur in a swarm."""
+
+    def __init__(self, machine: ir.StateMachine, table: Machine) -> None:
+        self._machine = machine
+        self._table = table
+        self.roles: dict[str, None] = {}
+        self.states: set[str] = set()
+        self.taken: set[str] = set()
+        self.sure = True
+
+    def missing(self, ignored: Collection[str]) -> Iterator[Finding]:
+        """Yield what never happens: states first, then transitions between states that occur.
+
+        Transitions on `ignored` events have been reported with these.
+        """
+        if not self.sure:
+            return
+        role = " or ".join(self.roles)
+        every = transitions_of(self._table)
+        entered = self._entered(every)
+        absent: set[str] = set()
+        for state in self._machine.walk():
+            is_place = state.kind not in (ir.StateKind.HISTORY, ir.StateKind.REGION)
+            around = state.id.rpartition(".")[0]
+            if state.id not in entered and is_place:
+                absent.add(state.id)
+                if not any(around == a or around.startswith(f"{a}.") for a in absent):
+                    yield Finding("unreachable", state.id, role, state.origin)
+        for name, transition in every.items():
+            source = name.rpartition("->")[0]
+            if name in self.taken or source not in entered or transition.target in absent:
+                continue
+            triggers = transition.triggers
+            if triggers and all(_is_told(each, ignored) for each in triggers):
+                continue
+            yield Finding("untaken", transition.target or source, role, transition.origin)
+
+    def _entered(self, every: dict[str, ir.Transition]) -> set[str]:
+        """Return the states that occur, with the states around them."""
+        found = set(self.states)
+        for name in self.taken:
+            found.add(name.rpartition("->")[0])
+            if name in every and every[name].target is not None:
+                found.add(str(every[name].target))
+        for state in list(found):
+            names = state.split(".")
+            found.update(".".join(names[:end]) for end in range(1, len(names)))
+        return found
+
+
+def _is_told(trigger: ir.Trigger, ignored: Collection[str]) -> bool:
+    """Return True for events that are told elsewhere, and for what only servers can cause."""
+    match trigger:
+        case ir.EventTrigger(event=event):
+            return event in ignored
+        case ir.OutcomeTrigger(outcome=outcome):
+            return outcome == "preempted"
+    return False

@@ -1,0 +1,334 @@
+"""Proofs of properties: a search for a run that violates one, in the product with its monitor."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import islice
+
+from swarmdsl import ir
+from swarmdsl.base.records import replace
+from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.proofs.overapproximation import with_open_data
+from swarmdsl.execution.verify.proofs.possible import prove_possible
+from swarmdsl.execution.verify.proofs.single_robot import hearing_all, is_alone, without_others
+from swarmdsl.execution.verify.proofs.timed import not_with_clocks, prove_exactly
+from swarmdsl.execution.verify.proofs.verdict import (
+    ESTIMATE,
+    UNSURE,
+    Outcome,
+    Verdict,
+    not_run,
+    unfinished,
+    violated,
+)
+from swarmdsl.execution.verify.properties.observer import Observer
+from swarmdsl.execution.verify.properties.sentence import (
+    is_about_ends,
+    length_of,
+    not_shown,
+    table_of,
+)
+from swarmdsl.execution.verify.properties.timed_observer import LateObserver
+from swarmdsl.execution.verify.replay.lasso_replay import endless
+from swarmdsl.execution.verify.replay.late_runs import late
+from swarmdsl.execution.verify.replay.play import play
+from swarmdsl.execution.verify.replay.spurious import OPEN
+from swarmdsl.execution.verify.search.explore import Graph, observe
+from swarmdsl.execution.verify.search.lassos import Lassos
+from swarmdsl.execution.verify.search.run import Run, steps_between
+from swarmdsl.execution.verify.swarm.groups import Group
+from swarmdsl.execution.verify.swarm.influence import cone
+from swarmdsl.execution.verify.swarm.model import Model
+from swarmdsl.execution.verify.swarm.subjects import about, place_of
+
+_MOST_LASSOS = 60
+"""Number of loops that are tried on the engine."""
+_MOST_NEAR = 2_000
+"""Number of states among which a loop is looked for if a property is about time."""
+
+
+def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
+    """Look for a run that violates a property."""
+    if property_.chance is not None and property_.chance.bound == "most":
+        return Verdict(
+            property_, "unknown", reason=f"a greatest probability is not covered: {ESTIMATE}"
+        )
+    reason = not_shown(property_)
+    if reason:
+        return Verdict(property_, "unknown", reason=reason)
+    if property_.each is None:
+        return _one(property_, model, None, budget)
+    found = [_one(property_, model, robot, budget) for robot in model.one_of_each(property_)]
+    rank: dict[Outcome, int] = {"fails": 0, "unknown": 1, "up to": 2, "holds": 3}
+    worst = min(found, key=lambda each: rank[each.outcome], default=None)
+    if worst is None:
+        return Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
+    return replace(worst, full=tuple(sorted({name for each in found for name in each.full})))
+
+
+def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
+    """Decide on a property, of one robot if it is about each."""
+    verdict = _without_clocks(property_, model, me, budget)
+    if verdict.reason in map(not_run, OPEN) and property_.kind != "possible":
+        # A longer run, in which robots are far from each other and hear of all, may violate it.
+        again = _without_clocks(property_, model, me, budget, lonely=True)
+        verdict = again if again.outcome == "fails" else verdict
+    has_clocks = model.options.exact and not model.environment.faults
+    if verdict.outcome == "up to" and has_clocks and not model.complete:
+        # A robot with clocks may have fewer states than one that hears anything at any time.
+        timed = prove_exactly(property_, model, me, budget, verdict)
+        return timed if timed.outcome in ("holds", "fails") else verdict
+    if verdict.outcome != "unknown":
+        return verdict
+    if verdict.place is not None:
+        return verdict
+    if property_.within is not None:
+        never = _never(property_, model, me, budget)
+        if never is not None:
+            return never
+    if has_clocks:
+        return prove_exactly(property_, model, me, budget, verdict)
+    way_out = ""
+    doubt = not_with_clocks(property_, _wider(property_, model, budget) or model, me)
+    if doubt is not None and property_.within is not None:
+        way_out = f"; clocks do not decide: {doubt.reason}"
+        verdict = replace(verdict, place=doubt.place)
+    elif model.options.exact:
+        way_out = "; clocks are for robots that are not lost: try `--faults 0`"
+    elif property_.within is not None and model.environment.faults:
+        way_out = "; without losses, try `--time exact --faults 0`"
+    elif property_.within is not None:
+        way_out = "; try `--time exact`"
+    return replace(verdict, reason=verdict.reason + way_out)
+
+
+def _loosely(
+    property_: ir.Property, model: Model, me: str | None, budget: Budget
+) -> Verdict | None:
+    """Return the verdict if a property holds whatever the data are that are not all covered.
+
+    It may hold up to a number of states only.
+    """
+    looser = _wider(property_, model, budget)
+    if looser is None:
+        return None
+    found = _without_clocks(property_, looser, me, budget)
+    if found.outcome != "holds" and property_.within is not None and model.options.exact:
+        found = prove_exactly(property_, looser, me, budget, found)
+    open_ = found.open or looser.open
+    return replace(found, open=open_) if found.outcome in ("holds", "up to") else None
+
+
+def _wider(property_: ir.Property, model: Model, budget: Budget) -> Model | None:
+    """Return the model with open data that may decide on a property, if there is one."""
+    if property_.kind == "possible" or property_.chance is not None or model.open:
+        return None
+    found = with_open_data(model, budget)
+    return found if found is not None and property_ in found.properties else None
+
+
+def _never(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict | None:
+    """Return a verdict if what must happen in time need not happen at all: a loop shows it."""
+    endless = replace(property_, within=None, chance=None)
+    if not is_about_ends(endless):
+        return None
+    some = budget.some(_MOST_NEAR)
+    found = _in_the_end(endless, model, me, some, lonely=False, timed=True)
+    budget.interrupted |= some.interrupted
+    if found.run is None:
+        return None
+    if property_.chance is not None:
+        return Verdict(property_, "unknown", found.states, UNSURE, robot=me)
+    return replace(found, property=property_)
+
+
+def _without_clocks(
+    property_: ir.Property, model: Model, me: str | None, budget: Budget, *, lonely: bool = False
+) -> Verdict:
+    """Decide on a property for functions and delays that take any time.
+
+    With `lonely`, only runs are looked at in which nobody is near another robot, or takes one for
+    lost that it could hear.
+    """
+    every = model.groups([property_], me=me)
+    mine = place_of(me, every)
+    seen = set(about(property_, model, every))
+    if mine is not None:
+        seen.add(mine)
+    groups = cone(model, every, seen) or every
+    is_sure = model.complete and not model.doubts(groups)
+    if mine is not None and is_alone(property_):
+        if is_sure:
+            states = hearing_all(property_, every[mine].automaton)
+            if states is not None:
+                return Verdict(property_, "holds", states, robot=me, alone=True)
+        elif (found := without_others(property_, model, me, budget)) is not None:
+            return found
+    loose = _loosely(property_, model, me, budget) if not is_sure else None
+    if loose is not None and loose.outcome == "holds":
+        return loose
+    if is_about_ends(property_):
+        found = _in_the_end(property_, model, me, budget, lonely=lonely)
+    elif property_.kind == "possible":
+        place = groups.index(every[mine]) if mine is not None else None
+        network = model.network(groups, spared=me)
+        found = prove_possible(property_, model, network, place, me, budget)
+    else:
+        found = _searched(property_, model, groups, every, me, budget, lonely=lonely)
+    return loose if loose is not None and found.outcome == "unknown" else found
+
+
+def _searched(
+    property_: ir.Property,
+    model: Model,
+    groups: Sequence[Group],
+    every: Sequence[Group],
+    me: str | None,
+    budget: Budget,
+    *,
+    lonely: bool,
+) -> Verdict:
+    """Look for a finite run of some groups that violates a property, or of all robots."""
+    observer = observer_of(
+        property_, model, groups, me, lonely=lonely, others=len(groups) < len(every)
+    )
+    graph = observe(observer.network, observer, budget)
+    if graph.bad is not None and observer.others:
+        # Whether others act at that moment is known only with all of them.
+        groups = every
+        observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
+        graph = observe(observer.network, observer, budget)
+    if graph.bad is None:
+        return _not_violated(property_, model, graph, groups, me, budget)
+    found = violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+    if found.run is None and property_.chance is None:
+        # A longer run, in which messages arrive first, may be one that can be.
+        observer = observer_of(
+            property_, model, groups, me, lonely=lonely, others=observer.others, eager=True
+        )
+        graph = observe(observer.network, observer, budget)
+        if graph.bad is not None:
+            again = violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+            found = again if again.run is not None else found
+    return found
+
+
+def _in_the_end(
+    property_: ir.Property,
+    model: Model,
+    me: str | None,
+    budget: Budget,
+    *,
+    lonely: bool,
+    timed: bool = False,
+) -> Verdict:
+    """Decide on a property that runs that go on for ever can violate; `timed` ones fit times.
+
+    If robots of a group must be told apart to decide, each is looked at by itself.
+    """
+    flaw = ""
+    for single in (False, True):
+        every = model.groups([property_], me=me, tasks=True, single=single)
+        seen = set(about(property_, model, every))
+        seen |= {number for number, group in enumerate(every) if group.robots == (me,)}
+        groups = cone(model, every, seen) or every
+        observer = observer_of(
+            property_,
+            model,
+            groups,
+            me,
+            lonely=lonely,
+            others=len(groups) < len(every),
+            timed=timed,
+        )
+        if observer.others:
+            # What holds for a moment ends when any robot does something.
+            groups = every
+            observer = observer_of(
+                property_, model, groups, me, lonely=lonely, others=False, timed=timed
+            )
+        graph = observe(observer.network, observer, budget)
+        if graph.bad is not None:
+            return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+        lassos = Lassos(graph, observer, budget)
+        doubts = model.doubts(groups)
+        found = 0
+        for lasso in islice(lassos, _MOST_LASSOS):
+            found += 1
+            if lasso.loop and any(not each.more for each in doubts):
+                # What is not covered may end the loop.
+                break
+            run = endless(observer.network, lasso, property_, me)
+            if not run.flaw:
+                return violated(property_, run, graph, me)
+            flaw = flaw or run.flaw
+        graph.complete &= lassos.complete
+        if doubts or not found:
+            return _not_violated(property_, model, graph, groups, me, budget)
+        if all(len(group.robots) == 1 for group in groups):
+            break
+    return Verdict(property_, "unknown", len(graph.seen), not_run(flaw), robot=me)
+
+
+def _run(property_: ir.Property, observer: Observer, graph: Graph, bad: int) -> Run:
+    """Return a run to a state that violates a property, at once or if nothing follows."""
+    way = graph.way(bad)
+    steps = steps_between(way, lambda state: list(observer.successors(state)))
+    is_bad = observer.is_bad(way[-1])
+    within = length_of(property_)
+    if within is not None:
+        return late(observer.network, steps, property_, within, ended=not is_bad)
+    run = play(observer.network, steps, property_, ended=not is_bad)
+    return run if is_bad else replace(run, loop=0)
+
+
+def observer_of(
+    property_: ir.Property,
+    model: Model,
+    groups: Sequence[Group],
+    me: str | None,
+    *,
+    others: bool,
+    eager: bool = False,
+    lonely: bool = False,
+    timed: bool = False,
+) -> Observer:
+    """Return the observer of a property in some groups, of one robot if it is about each.
+
+    Runs of a property with `within` must fit times, and all runs with `timed`.
+    """
+    table = table_of(property_)
+    is_timed = property_.within is not None
+    # What must happen is asked of robots that are there.
+    spared = me if is_about_ends(property_) else None
+    network = model.network(
+        groups,
+        base=max(table.size, 2).bit_length(),
+        timed=is_timed or timed,
+        spared=spared,
+        eager=eager,
+        lonely=lonely,
+    )
+    mine = place_of(me, groups)
+    if is_timed:
+        return LateObserver(property_, table, network, mine, others=others)
+    return Observer(property_, table, network, mine, others=others)
+
+
+def _not_violated(
+    property_: ir.Property,
+    model: Model,
+    graph: Graph,
+    groups: Sequence[Group],
+    me: str | None,
+    budget: Budget,
+) -> Verdict:
+    """Return the verdict when no violation was found."""
+    states, full = len(graph.seen), tuple(sorted(graph.network.full))
+    doubts = model.doubts(groups)
+    if doubts:
+        return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
+    if not graph.complete:
+        reason = unfinished(model, budget)
+        return Verdict(property_, "up to", states, reason, robot=me, full=full)
+    return Verdict(property_, "holds", states, robot=me, full=full)

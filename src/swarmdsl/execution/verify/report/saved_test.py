@@ -1,0 +1,335 @@
+"""Runs that show what is wrong as behaviour tests, which fail until the model is mended.
+
+A test replays the inputs of a run: ends of functions, events from outside, and the arrival or loss
+of each event between robots. Delays end by themselves while time passes.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from swarmdsl import ir
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import fresh
+from swarmdsl.base.records import dataclass, field, replace
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.shared.default_values import default_result, default_value
+from swarmdsl.execution.simulate.choose_space import has_geometry
+from swarmdsl.execution.simulate.durations import MICROSECOND, SECOND
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.verify.findings.finding import Finding
+from swarmdsl.execution.verify.proofs.verdict import Verdict
+from swarmdsl.execution.verify.report.toml_text import step_text, time_text, toml_text
+from swarmdsl.execution.verify.search.run import Run
+
+_PATIENCE = '"10 min"'
+"""Time that a mended model has to go on after the run."""
+_ACTIVITY = "do."
+_HEAD = """\
+# Written by `swarmc verify --save-test`. Each test fails until the model is mended, and then says
+# that it stays so.
+"""
+
+
+@dataclass(frozen=True)
+class Shown:
+    """Something that a run shows to be wrong, in a swarm with given numbers of members.
+
+    `claim` is an expectation after the run, which is in vain; `property` one that the run violates.
+    """
+
+    name: str
+    run: Run
+    counts: Mapping[str, int]
+    property: str | None = None
+    claim: str | None = None
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Setting of all tests: params as a scenario gives them, and functions that may not answer."""
+
+    params: Mapping[str, Any] = field(default_factory=dict)
+    silent: tuple[str, ...] = ()
+
+
+def shown_by_verdict(verdict: Verdict, counts: Mapping[str, int]) -> Shown | None:
+    """Return what a test can show of a property that does not hold, None if nothing.
+
+    After a run to where something is not possible, or goes on without it for ever, it is expected.
+    """
+    if verdict.outcome != "fails" or verdict.run is None:
+        return None
+    property_, robot = verdict.property, verdict.robot
+    name = property_.name + (f" for {robot}" if robot is not None else "")
+    if property_.kind != "possible" and verdict.run.loop is None:
+        return Shown(name, verdict.run, counts, property=property_.name)
+    match property_.claims[-1]:
+        case ir.Fact(act="in", name=state, robots=None):
+            who = f"who = {toml_text(robot)}, " if robot is not None else ""
+        case ir.Count(role=role, state=state, comparison=">" | ">=" | "==" as sign, number=number):
+            least = number + 1 if sign == ">" else number
+            count = f"{least}" if sign == "==" else f'"{least}..*"'
+            who = f"count = {count}, of = {toml_text(role)}, "
+        case _:
+            return Shown(name, verdict.run, counts, property=property_.name)
+    claim = f"{{ {who}in = {toml_text(state)}, within = {_PATIENCE} }}"
+    return Shown(name, verdict.run, counts, claim=claim)
+
+
+def shown_by_finding(finding: Finding, counts: Mapping[str, int]) -> Shown | None:
+    """Return what a test can show of a finding, None if nothing."""
+    run = finding.run
+    if run is None or finding.fault not in ("stuck", "waits", "loops"):
+        return None
+    if finding.fault == "loops":
+        return Shown(f"{finding.name} comes to rest", run, counts)
+    last = {line.actor: line.configuration for line in run.lines}
+    lost = {loss.robot for loss in run.gone}
+    robots = [
+        actor.robot
+        for actor, states in last.items()
+        if finding.name in states
+        and finding.role in ("", actor.robot.role)
+        and actor.robot.name not in lost
+    ]
+    if not robots:
+        return None
+    robot = robots[0]
+    who = f"no = {toml_text(robot.name)}, " if robot.name is not None else "count = 0, "
+    claim = f"{{ {who}in = {toml_text(finding.name)}, within = {_PATIENCE} }}"
+    name = f"{robot.name or 'it'} goes on from {finding.name}"
+    return Shown(name, run, counts, claim=claim)
+
+
+def tests_of(
+    subject: Subject,
+    models: Sequence[Path],
+    path: Path,
+    shown: Sequence[Shown],
+    setting: Setting,
+) -> tuple[str, list[str]]:
+    """Return a test file for a path, and the names of what its tests cannot show.
+
+    Each test was run, and fails.
+    """
+    chosen: list[str] = []
+    left: list[str] = []
+    names: list[str] = []
+    for each in shown:
+        # Robots may wait in one state for several reasons.
+        names.append(fresh(each.name, names, gap=" "))
+        each = replace(each, name=names[-1])
+        variants = (
+            "".join(f"{line}\n" for line in _Test(subject, each, setting, early).lines())
+            for early in (0, MICROSECOND)
+        )
+        fails = (test for test in variants if _fails(_file(subject, models, path, [test]), path))
+        test = next(fails, None)
+        if test is not None:
+            chosen.append(test)
+        else:
+            left.append(each.name)
+    return _file(subject, models, path, chosen) if chosen else "", left
+
+
+def _file(subject: Subject, models: Sequence[Path], path: Path, tests: Sequence[str]) -> str:
+    folder = path.parent.absolute()
+    named = [Path(os.path.relpath(each.absolute(), folder)).as_posix() for each in models]
+    kind = "swarm" if subject.swarm is not None else "machine"
+    head = [
+        _HEAD,
+        f"model = {toml_text(named[0] if len(named) == 1 else named)}\n",
+        f"{kind} = {toml_text(subject.name)}\n",
+        'impossible = "skip"  # a mended model may run otherwise\n',
+    ]
+    return "".join([*head, *(f"\n{test}" for test in tests)])
+
+
+def _fails(text: str, path: Path) -> bool:
+    """Return True if the only test of a file fails."""
+    # Most calls of the command write no test, and need not wait for this.
+    from swarmdsl.execution.testing.case import InvalidTest
+    from swarmdsl.execution.testing.models import Models
+    from swarmdsl.execution.testing.reading import read_tests
+    from swarmdsl.execution.testing.verdict import judge
+
+    report = Diagnostics()
+    tests = read_tests(Source(path.as_posix(), text, path), Models(), report)
+    if tests is None:
+        return False
+    (case,) = tests.cases
+    if isinstance(case, InvalidTest):
+        return False
+    return not judge(case, case.seeds, lambda _seed, _line: None).passed
+
+
+class _Test:
+    """A test that replays a run.
+
+    Inputs are given `early`, in nanoseconds, to come before delays that end at the same time.
+    """
+
+    def __init__(self, subject: Subject, shown: Shown, setting: Setting, early: int) -> None:
+        assert subject.system is not None
+        self._subject = subject
+        self._system = subject.system
+        self._shown = shown
+        self._setting = setting
+        self._early = early
+        self._robots = list(dict.fromkeys(line.actor.robot for line in shown.run.lines))
+        self._actors = list(dict.fromkeys(line.actor for line in shown.run.lines))
+        self._on_way: list[tuple[str, str | None, str | None]] = []
+        """Events that were sent, each with its sender and receiver."""
+        self._inside: list[tuple[str | None, str]] = []
+        """Events of a robot for itself."""
+        self._lost: set[str | None] = set()
+        self._now = 0
+
+    def lines(self) -> Iterator[str]:
+        """Yield the lines of the test."""
+        shown = self._shown
+        steps = list(self._steps()) or [step_text(**{"pass": "1 s"})]
+        yield "[[test]]"
+        yield f"name = {toml_text(shown.name)}"
+        if shown.property is not None:
+            yield f"properties = {toml_text([shown.property])}"
+        yield f"scenario = {toml_text(self._scenario())}"
+        yield "steps = ["
+        yield from (f"  {step}," for step in steps)
+        yield "]"
+
+    def _scenario(self) -> dict[str, Any]:
+        """Return a scenario in which no function ends by itself during the run.
+
+        Where robots have places, functions that move them would do so.
+        """
+        length = time_text(self._shown.run.lines[-1].time + SECOND)
+        counts = dict(self._shown.counts)
+        functions: dict[str, Any] = {"*": {"duration": length}}
+        functions.update({name: {"never": 1} for name in self._setting.silent})
+        found = {"count": counts, "params": self._setting.params, "functions": functions}
+        if has_geometry(self._subject, Scenario()):
+            found["world"] = {"kind": "abstract"}
+        return {key: values for key, values in found.items() if values}
+
+    def _steps(self) -> Iterator[str]:
+        run = self._shown.run
+        before: Line | None = None
+        for number, line in enumerate(run.lines):
+            yield from self._losses(number)
+            yield from self._gone(number)
+            if not (line.recalled or (before is not None and _is_one(before, line))):
+                step = self._input(line)
+                if step is not None:
+                    yield from self._pass(line.time - self._early)
+                    yield step
+            self._send(line)
+            before = line
+        yield from self._losses(len(run.lines))
+        yield from self._gone(len(run.lines))
+        yield from self._pass(run.lines[-1].time)
+        for event, sender, robot in self._on_way:
+            yield step_text(hear=event, by=robot, **{"from": sender})
+        if self._shown.claim is not None:
+            yield self._shown.claim
+
+    def _pass(self, time: int) -> Iterator[str]:
+        """Let time pass until a time of the run; delays end then."""
+        if time > self._now:
+            yield step_text(**{"pass": time_text(time - self._now)})
+            self._now = time
+
+    def _losses(self, number: int) -> Iterator[str]:
+        for at, event, robot in self._shown.run.lost:
+            if at == number:
+                yield self._arrival("drop", event, robot, None)
+
+    def _gone(self, number: int) -> Iterator[str]:
+        """Yield the losses of robots, with what is on its way to them."""
+        for loss in self._shown.run.gone:
+            if loss.at == number:
+                yield from self._pass(loss.time - self._early)
+                for event, sender, _ in [each for each in self._on_way if each[2] == loss.robot]:
+                    yield self._arrival("drop", event, loss.robot, sender)
+                yield step_text(lose=loss.robot)
+                self._lost.add(loss.robot)
+
+    def _arrival(self, verb: str, event: str, robot: str | None, sender: str | None) -> str:
+        """Take an event from its way."""
+        found = next(
+            (
+                each
+                for each in self._on_way
+                if each[0] == event and each[2] == robot and sender in (None, each[1])
+            ),
+            None,
+        )
+        if found is not None:
+            self._on_way.remove(found)
+            sender = found[1]
+        return step_text(**{verb: event, "by": robot, "from": sender})
+
+    def _input(self, line: Line) -> str | None:
+        """Return the step of what a line begins with, None for what happens by itself."""
+        event, robot = line.event, line.actor.robot.name
+        if event is None:
+            return None
+        if event.startswith(_ACTIVITY):
+            return self._end(line, event)
+        declared = self._system.events_by_name.get(event)
+        if declared is None or declared.predefined:
+            return None  # the end of a delay, a loss, or what heartbeats tell
+        if line.envelope.sender:
+            return self._arrival("hear", event, robot, line.envelope.sender)
+        if (robot, event) in self._inside:
+            self._inside.remove((robot, event))
+            return None
+        return step_text(send=event, to=robot, data=self._data(event, line.data))
+
+    def _end(self, line: Line, event: str) -> str:
+        activities = [each.activity for each in line.actor.machine.states if each.activity]
+        activity = next(each for each in activities if event in each.events.values())
+        outcome = next(word for word, name in activity.events.items() if name == event)
+        result = line.data if isinstance(line.data, Mapping) else None
+        if result is not None and result.get("success") is False:
+            outcome = "succeeded"
+        call = self._system.function(activity.name).communication
+        if outcome != "succeeded" or result == default_result(call, self._system):
+            result = None
+        as_ = outcome if outcome != "succeeded" else None
+        who = line.actor.robot.name
+        return step_text(end=activity.name, of=who, **{"as": as_}, result=result)
+
+    def _data(self, event: str, data: Any) -> Any:
+        type_ = self._system.event(event).type
+        return data if data and data != default_value(type_, self._system) else None
+
+    def _send(self, line: Line) -> None:
+        """Put the events that a line sends on their way."""
+        source = line.actor.robot
+        for event, to in zip(line.sent, line.addresses, strict=True):
+            declared = self._system.event(event)
+            if to is None:
+                here = [e.name for e in self._system.events if e.incoming_topic == declared.topic]
+                self._inside += [(source.name, name) for name in here]
+            for robot in self._robots if declared.swarm else ():
+                listens = any(a.robot is robot and a.listens(event) for a in self._actors)
+                is_there = robot is not source and robot.name not in self._lost
+                if is_there and listens and robot.is_meant_by(to):
+                    self._on_way.append((event, source.name, robot.name))
+
+
+def _is_one(one: Line, other: Line) -> bool:
+    """Return True if an event arrives at two machines of a robot."""
+    return (
+        one.actor is not other.actor
+        and one.actor.robot is other.actor.robot
+        and (one.event, one.time, one.envelope) == (other.event, other.time, other.envelope)
+        and not (one.event or "").startswith(_ACTIVITY)
+    )
