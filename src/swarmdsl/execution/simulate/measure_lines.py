@@ -8,11 +8,11 @@ from typing import Any
 
 from swarmdsl.execution.monitor import PropertyResult, Verdict, Watch
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.json_numbers import named_numbers
 from swarmdsl.execution.simulate.measures import FitnessResult, evaluate
 from swarmdsl.execution.simulate.results import fitness_values
 from swarmdsl.execution.simulate.space import Space
 from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.trace_line import named_numbers
 from swarmdsl.ir import Fitness
 
 

@@ -27,13 +27,14 @@ from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.copying import copied
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
 from swarmdsl.execution.simulate.expressions import PRESENT
+from swarmdsl.execution.simulate.json_numbers import numbers
 from swarmdsl.execution.simulate.machine_data import first_data
 from swarmdsl.execution.simulate.members import Roster, counting_neighbors, following
 from swarmdsl.execution.simulate.robot_data import convert, with_fields
 from swarmdsl.execution.simulate.scenario import Fault, Robot
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, Trace
-from swarmdsl.execution.simulate.trace_line import NAMES, is_beside_steps, numbers
+from swarmdsl.execution.simulate.trace_line import NAMES, is_beside_steps
 from swarmdsl.execution.simulate.trace_records import Record, find_loop, read_records
 from swarmdsl.execution.simulate.world import LATE
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from swarmdsl.codegen.shared.default_values import default_value
-from swarmdsl.execution.simulate.trace_line import numbers
+from swarmdsl.execution.simulate.json_numbers import numbers
 from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS
 

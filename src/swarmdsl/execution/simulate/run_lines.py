@@ -10,10 +10,10 @@ from typing import Any, Protocol
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.durations import MILLISECOND
 from swarmdsl.execution.simulate.expressions import SELF
+from swarmdsl.execution.simulate.json_numbers import named_numbers
 from swarmdsl.execution.simulate.packets import Transmission
 from swarmdsl.execution.simulate.subject import Subject
 from swarmdsl.execution.simulate.trace import Line, as_json
-from swarmdsl.execution.simulate.trace_line import named_numbers
 from swarmdsl.execution.simulate.world import World
 
 

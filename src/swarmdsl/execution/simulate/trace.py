@@ -22,10 +22,10 @@ from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.json_numbers import named_numbers
 from swarmdsl.execution.simulate.scenario import Robot
 from swarmdsl.execution.simulate.space import Place
 from swarmdsl.execution.simulate.statistics import Life, Statistics
-from swarmdsl.execution.simulate.trace_line import named_numbers
 
 
 @dataclass(slots=True)

@@ -10,7 +10,7 @@ from swarmdsl.base.numerals import fits_64_bits
 from swarmdsl.base.suggest import did_you_mean, suggest
 from swarmdsl.codegen.shared.default_values import default_fields, default_result, result_fields
 from swarmdsl.execution.simulate.durations import duration
-from swarmdsl.execution.simulate.trace_line import NOT_FINITE, numbers
+from swarmdsl.execution.simulate.json_numbers import NOT_FINITE, numbers
 from swarmdsl.ir import (
     Array,
     Communication,

@@ -13,8 +13,8 @@ from swarmdsl.execution.engine import Event, Instance
 from swarmdsl.execution.engine.world import FAILURES
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.inputs import Input, Reader
+from swarmdsl.execution.simulate.json_numbers import named_numbers
 from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace_line import named_numbers
 from swarmdsl.execution.simulate.world import World
 from swarmdsl.ide.debugger.messages import RequestError
 from swarmdsl.ir import EventData, System, Transition, subexpressions

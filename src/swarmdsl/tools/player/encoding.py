@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.simulate.trace_line import named_numbers
+from swarmdsl.execution.simulate.json_numbers import named_numbers
 from swarmdsl.tools.player.recording import Recording, Step
 
 VARYING = ("data", "envelope", "at", "moved", "variables", "lost", "cause", "measures")

@@ -7,7 +7,8 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
-from swarmdsl.execution.simulate.trace_line import is_beside_steps, named_numbers, read_line
+from swarmdsl.execution.simulate.json_numbers import named_numbers
+from swarmdsl.execution.simulate.trace_line import is_beside_steps, read_line
 from swarmdsl.tools.player.model import Model
 from swarmdsl.tools.player.record import member_of, named, note_of
 from swarmdsl.tools.player.recording import Machine, Step
