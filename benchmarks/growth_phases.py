@@ -17,11 +17,11 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.pipeline import Result
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.execution.scxml import read
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.run import run as simulate
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import choose
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import choose
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.world.runner import run as simulate
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ide.server.completion import completions
 from swarmdsl.ide.server.folding_range import folding_ranges
 from swarmdsl.ide.server.hover import hover

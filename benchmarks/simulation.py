@@ -16,16 +16,16 @@ from peers import mesa_model, simpy_model
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
 from swarmdsl.execution.monitor import Plan
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
-from swarmdsl.execution.simulate.properties import plan, watch, watchable
-from swarmdsl.execution.simulate.reporter import observe
-from swarmdsl.execution.simulate.run import run
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject, choose
-from swarmdsl.execution.simulate.trace import as_json
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.evaluation.reporter import observe
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject, choose
+from swarmdsl.execution.simulate.run.prepare import Prepared, Request, prepare
+from swarmdsl.execution.simulate.scenario.durations import SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.world.runner import run
+from swarmdsl.execution.simulate.world.trace import as_json
+from swarmdsl.execution.simulate.world.world import World
 
 ROUNDS = 3
 GOAL = 400_000

@@ -17,7 +17,7 @@ from time import process_time
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.search.explore import explore
 from swarmdsl.execution.verify.swarm.model import Model, Options

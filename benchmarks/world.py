@@ -14,7 +14,7 @@ from time import process_time
 import peers
 from measure import Section, interleaved, spread
 from peers import irsim_world
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.execution.space.functions.catalog import CLASSES
 from swarmdsl.execution.space.functions.running import Running
 from swarmdsl.execution.space.layout import Battery, Body, Eye, Layout, Radio, Unit

@@ -32,6 +32,20 @@ LAYERS = (
 
 # Steps of a pipeline, in packages of one package: from the first to the last.
 STEPS = {
+    "execution.simulate": (
+        "scenario",
+        "machines",
+        "inputs",
+        "network",
+        "world",
+        "evaluation",
+        "replay",
+        "pictures",
+        "recording",
+        "run",
+        "many_runs",
+        "command",
+    ),
     "execution.verify": (
         "abstraction",
         "robot",

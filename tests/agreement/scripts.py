@@ -20,8 +20,8 @@ from swarmdsl import ir
 from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.codegen.shared.events import Events, delays
 from swarmdsl.execution.engine import Event, Instance, LoopError, Observer, Transition
-from swarmdsl.execution.simulate.machine_data import first_data
-from swarmdsl.execution.simulate.table import OUTCOMES, table
+from swarmdsl.execution.simulate.machines.machine_data import first_data
+from swarmdsl.execution.simulate.machines.table import OUTCOMES, table
 from swarmdsl.ir import EventTrigger, StateKind, System
 from swarmdsl.syntax.types import DURATION, STRING
 

@@ -18,7 +18,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
-from swarmdsl.execution.simulate.properties import watchable
+from swarmdsl.execution.simulate.evaluation.properties import watchable
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.composition import subjects
 from swarmdsl.execution.verify.proofs.prove import prove

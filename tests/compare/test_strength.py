@@ -11,7 +11,7 @@ import pytest
 
 from swarmdsl.execution.engine import Event
 from swarmdsl.execution.monitor import FALSE, Monitor, Sentence
-from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.simulate.machines.expressions import function_of
 from swarmdsl.ir import (
     Binary,
     Claim,

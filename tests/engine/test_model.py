@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from swarmdsl.execution.engine import Event, Instance
-from swarmdsl.execution.simulate.machine_data import first_data
-from swarmdsl.execution.simulate.table import table
+from swarmdsl.execution.simulate.machines.machine_data import first_data
+from swarmdsl.execution.simulate.machines.table import table
 from swarmdsl.ir import System
 
 from .world import StillWorld, Trace

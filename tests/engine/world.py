@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from swarmdsl.execution.engine import Event, Instance, Machine, Observer, Run, State, Transition
-from swarmdsl.execution.simulate.clock import Alarm, Clock
+from swarmdsl.execution.simulate.scenario.clock import Alarm, Clock
 
 
 class StillWorld:

@@ -22,7 +22,7 @@ from swarmdsl.codegen.shared import constants
 from swarmdsl.codegen.swarm_printer.expressions import expression
 from swarmdsl.execution.engine import Event, ExecutionError
 from swarmdsl.execution.scxml.ecmascript import read
-from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.simulate.machines.expressions import function_of
 from swarmdsl.ir import (
     Binary,
     Call,

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
+from swarmdsl.execution.simulate.run.prepare import Prepared, Request, prepare
 from swarmdsl.ide.fleet.followed import follow_trace
 from swarmdsl.ide.fleet.operator_events import OperatorEvent
 from swarmdsl.ide.fleet.ros2_messages import fill

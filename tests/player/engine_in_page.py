@@ -25,8 +25,8 @@ from swarmdsl.execution.engine import (
     State,
     Transition,
 )
-from swarmdsl.execution.simulate.machine_data import first_data
-from swarmdsl.execution.simulate.table import table
+from swarmdsl.execution.simulate.machines.machine_data import first_data
+from swarmdsl.execution.simulate.machines.table import table
 from swarmdsl.ir import System
 from swarmdsl.tools.player.engine_table import written_machine, written_table
 from swarmdsl.tools.player.engine_values import encoded

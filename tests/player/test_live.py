@@ -18,7 +18,7 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate.prepare import Request, prepare
+from swarmdsl.execution.simulate.run.prepare import Request, prepare
 from swarmdsl.ide.preview.live_player import playing
 from swarmdsl.tools.player.live_lines import LiveLines
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from swarmdsl.execution.simulate.durations import Fixed, Normal, Uniform
-from swarmdsl.execution.simulate.random_source import RandomSource
+from swarmdsl.execution.simulate.scenario.durations import Fixed, Normal, Uniform
+from swarmdsl.execution.simulate.scenario.random_source import RandomSource
 from swarmdsl.tools.player.engine_world import _length
 
 from .engine_in_page import needs_node, node

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.execution.engine import ExecutionError, bounded
-from swarmdsl.execution.simulate.expressions import _ARRAYS
+from swarmdsl.execution.simulate.machines.expressions import _ARRAYS
 from swarmdsl.ir.operations import OPERATIONS
 from swarmdsl.tools.player.engine_values import encoded
 

@@ -17,8 +17,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.cli import run
 from swarmdsl.execution.simulate.command import simulate
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.prepare import Request, prepare
+from swarmdsl.execution.simulate.run.prepare import Request, prepare
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.tools.player.page import page
 from swarmdsl.tools.player.record import RunRecorder, record_traces
 from swarmdsl.tools.player.recording import Recording

@@ -20,14 +20,14 @@ from swarmdsl.codegen.api import NoOptions
 from swarmdsl.codegen.exchange import fitness as fitness_script
 from swarmdsl.driver import pipeline
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.measures import FitnessResult, fitness_of
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.replay import replay
-from swarmdsl.execution.simulate.results import fitness_values
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.verdicts import Recording
+from swarmdsl.execution.simulate.evaluation.measures import FitnessResult, fitness_of
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.evaluation.results import fitness_values
+from swarmdsl.execution.simulate.evaluation.verdicts import Recording
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.replay.replay import replay
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
 
 HERE = Path(__file__).parent
 DIAGNOSTICS = "/diagnostics"

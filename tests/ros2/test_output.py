@@ -21,7 +21,7 @@ from swarmdsl.codegen.options import parse_options
 from swarmdsl.codegen.registry import load
 from swarmdsl.driver import pipeline
 from swarmdsl.execution.engine import Machine
-from swarmdsl.execution.simulate.table import table
+from swarmdsl.execution.simulate.machines.table import table
 from swarmdsl.ir import System
 
 from .conftest import load_module

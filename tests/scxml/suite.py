@@ -22,7 +22,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.execution.engine import Event, Instance, LoopError
 from swarmdsl.execution.engine.activity import Run
 from swarmdsl.execution.scxml import read
-from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.scenario.clock import Clock
 
 WORDS = ("pass", "refuse", "unjudged", "wrong")
 ENOUGH = 600 * 10**9

@@ -20,8 +20,8 @@ from swarmdsl.codegen.shared.identity import uses_self
 from swarmdsl.driver import pipeline
 from swarmdsl.execution.engine import Envelope, Event, Instance, Machine, Observer, Run, Transition
 from swarmdsl.execution.scxml import read
-from swarmdsl.execution.simulate.machine_data import first_data
-from swarmdsl.execution.simulate.table import table
+from swarmdsl.execution.simulate.machines.machine_data import first_data
+from swarmdsl.execution.simulate.machines.table import table
 from swarmdsl.ir import Action, Array, Primitive, Service, System
 
 from ..agreement.scripts import as_headers_say

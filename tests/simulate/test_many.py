@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate import many, one_run
-from swarmdsl.execution.simulate.histogram import bars
+from swarmdsl.execution.simulate.many_runs import many, one_run
+from swarmdsl.execution.simulate.many_runs.histogram import bars
 
 from .conftest import Simulate
 

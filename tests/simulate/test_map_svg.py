@@ -4,7 +4,14 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from swarmdsl.execution.simulate.map_svg import Ground, Mark, Moment, Sighting, Track, map_svg
+from swarmdsl.execution.simulate.pictures.map_svg import (
+    Ground,
+    Mark,
+    Moment,
+    Sighting,
+    Track,
+    map_svg,
+)
 from swarmdsl.ir.space import Box, Disc, Point
 
 SECOND = 10**9

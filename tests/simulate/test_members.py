@@ -10,8 +10,8 @@ from textwrap import dedent
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate.network import Network
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.network.network import Network
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 
 MODEL = """
 event Go : std_msgs/Empty

@@ -16,16 +16,16 @@ from swarmdsl.cli import run as cli_run
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.monitor import PropertyResult
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.inputs import Input
-from swarmdsl.execution.simulate.properties import plan, watch, watchable
-from swarmdsl.execution.simulate.replay import replay
-from swarmdsl.execution.simulate.run import run
-from swarmdsl.execution.simulate.scenario_file import read_scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line, as_json
-from swarmdsl.execution.simulate.verdicts import Recording
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.evaluation.verdicts import Recording
+from swarmdsl.execution.simulate.inputs.events import Input
+from swarmdsl.execution.simulate.inputs.scenario_file import read_scenario
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.replay.replay import replay
+from swarmdsl.execution.simulate.world.runner import run
+from swarmdsl.execution.simulate.world.trace import Line, as_json
+from swarmdsl.execution.simulate.world.world import World
 
 from .conftest import Ran, Simulate
 from .test_properties import verdicts

@@ -13,15 +13,15 @@ import pytest
 from rich.console import Console
 
 from swarmdsl.execution.engine import Activity, Kind, Machine, State, Transition
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.durations import SECOND, duration, format_duration
-from swarmdsl.execution.simulate.live_table import Board
-from swarmdsl.execution.simulate.packets import Transmission
-from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.execution.simulate.state_colours import Meaning, nth_colour, state_colours
-from swarmdsl.execution.simulate.timeline import Timeline
-from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.network.packets import Transmission
+from swarmdsl.execution.simulate.pictures.state_colours import Meaning, nth_colour, state_colours
+from swarmdsl.execution.simulate.pictures.timeline import Timeline
+from swarmdsl.execution.simulate.run.live_table import Board
+from swarmdsl.execution.simulate.scenario.clock import Clock
+from swarmdsl.execution.simulate.scenario.durations import SECOND, duration, format_duration
+from swarmdsl.execution.simulate.scenario.scenario import Robot
+from swarmdsl.execution.simulate.world.trace import Line
 
 from .conftest import Simulate
 

@@ -15,15 +15,15 @@ from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.monitor import automaton, joint, plan, progress, watch
-from swarmdsl.execution.simulate import properties
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.inputs import Input
-from swarmdsl.execution.simulate.reporter import observe
-from swarmdsl.execution.simulate.run import run
-from swarmdsl.execution.simulate.scenario_file import read_scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import as_text
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.evaluation import properties
+from swarmdsl.execution.simulate.evaluation.reporter import observe
+from swarmdsl.execution.simulate.inputs.events import Input
+from swarmdsl.execution.simulate.inputs.scenario_file import read_scenario
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.world.runner import run
+from swarmdsl.execution.simulate.world.trace import as_text
+from swarmdsl.execution.simulate.world.world import World
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 

@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.scenario.durations import SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.execution.space.functions.base import ABORTED, RUNNING, SUCCEEDED
 from swarmdsl.execution.space.functions.catalog import CLASSES
 from swarmdsl.execution.space.functions.running import Running

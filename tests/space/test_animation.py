@@ -16,10 +16,10 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.map_animation import Film, map_animation, timing_of
-from swarmdsl.execution.simulate.map_svg import Ground, Sighting, Track
-from swarmdsl.execution.simulate.player import player
+from swarmdsl.execution.simulate.pictures.map_animation import Film, map_animation, timing_of
+from swarmdsl.execution.simulate.pictures.map_svg import Ground, Sighting, Track
+from swarmdsl.execution.simulate.pictures.player import player
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.ir import Point
 
 from .worlds import TEXT

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate import choose_space
+from swarmdsl.execution.simulate.inputs import choose_space
 
 from .worlds import TEXT
 

@@ -12,8 +12,8 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate.one_run import Runner
-from swarmdsl.execution.simulate.prepare import Request, prepare
+from swarmdsl.execution.simulate.many_runs.one_run import Runner
+from swarmdsl.execution.simulate.run.prepare import Request, prepare
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 FIRST = {

@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.durations import SECOND, Fixed
-from swarmdsl.execution.simulate.run import run, run_by_steps
-from swarmdsl.execution.simulate.scenario import Fault, Scenario
-from swarmdsl.execution.simulate.trace import as_json
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.scenario.durations import SECOND, Fixed
+from swarmdsl.execution.simulate.scenario.scenario import Fault, Scenario
+from swarmdsl.execution.simulate.world.runner import run, run_by_steps
+from swarmdsl.execution.simulate.world.trace import as_json
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.space.ensemble import Ensemble
 from swarmdsl.ir import (
     Box,

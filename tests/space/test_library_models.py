@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.one_run import Runner
-from swarmdsl.execution.simulate.prepare import Request, prepare
+from swarmdsl.execution.simulate.many_runs.one_run import Runner
+from swarmdsl.execution.simulate.run.prepare import Request, prepare
 
 MODEL = """package flight
 import cpswarm.behaviours.*

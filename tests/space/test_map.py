@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate.run_map import RunMap
+from swarmdsl.execution.simulate.pictures.run_map import RunMap
 from swarmdsl.ir import Targets, Wall
 from swarmdsl.ir.space import Point
 

@@ -13,13 +13,13 @@ from typing import Any
 import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.run import run
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import as_json
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.world.runner import run
+from swarmdsl.execution.simulate.world.trace import as_json
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.space.ensemble import Ensemble
 from swarmdsl.execution.space.outside import OutsideError, OutsideMotion
 from swarmdsl.execution.space.prepare import prepare_setting

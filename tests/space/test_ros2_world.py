@@ -15,11 +15,11 @@ from swarmdsl.execution.ros2_world.holds import PATIENCE, Holds
 from swarmdsl.execution.ros2_world.messages import fill, plain
 from swarmdsl.execution.ros2_world.names import name_in, namespace
 from swarmdsl.execution.ros2_world.served import ServedWorld
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.choose_space import choose_space
-from swarmdsl.execution.simulate.durations import SECOND, Fixed
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.inputs.choose_space import choose_space
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import SECOND, Fixed
+from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
 from swarmdsl.ir import Communication, Delivery, ModelUse, Named, Point, RobotValues
 
 from .worlds import TEXT, changed, numbers, system_of

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.one_run import Runner
-from swarmdsl.execution.simulate.prepare import Request, prepare
+from swarmdsl.execution.simulate.many_runs.one_run import Runner
+from swarmdsl.execution.simulate.run.prepare import Request, prepare
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "search_and_rescue"
 SEEDS = (1, 2, 3, 4)

@@ -10,14 +10,14 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.choose_space import choose_space
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.run import run
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import as_json
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.inputs.choose_space import choose_space
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.world.runner import run
+from swarmdsl.execution.simulate.world.trace import as_json
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ir import FLOAT, Expression, Literal, ModelUse, System
 
 TEXT = """

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from swarmdsl.execution.simulate.coverage import Coverage
+from swarmdsl.execution.simulate.evaluation.coverage import Coverage
 from swarmdsl.execution.testing.console import Console
 
 from .conftest import Ran

@@ -10,8 +10,8 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.proofs.prove import prove
 from swarmdsl.execution.verify.proofs.verdict import Verdict

@@ -12,7 +12,7 @@ from itertools import chain
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.verify.automata.automaton import Automaton
 from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.automata.limits import Budget, Limits

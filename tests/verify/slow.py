@@ -16,14 +16,14 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.shared.default_values import default_result
 from swarmdsl.execution.engine import Envelope, Event, Instance, InstanceLike, Run, Servers
 from swarmdsl.execution.monitor import FALSE, LOST
-from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.expressions import PRESENT
-from swarmdsl.execution.simulate.members import DEPARTED, Roster, following
-from swarmdsl.execution.simulate.properties import plan, watch, watchable
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line, Trace
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.machines.actors import Actor, actors
+from swarmdsl.execution.simulate.machines.expressions import PRESENT
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.network.members import DEPARTED, Roster, following
+from swarmdsl.execution.simulate.scenario.clock import Clock
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.world.trace import Line, Trace
 from swarmdsl.ir import Property, System
 
 Choice = tuple[Any, ...]

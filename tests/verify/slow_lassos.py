@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.monitor import FALSE
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.ir import System
 
 from .slow import Choice, Swarm

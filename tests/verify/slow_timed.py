@@ -11,11 +11,11 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.engine import Event, InstanceLike, Run
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.ir import System
 
 from .slow import Choice, Swarm

@@ -11,8 +11,8 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.verify.any_size import prove as any_size
 from swarmdsl.execution.verify.any_size.prove import enough, prove_any
 from swarmdsl.execution.verify.automata.limits import Budget, Limits

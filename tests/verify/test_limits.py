@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from swarmdsl.execution.simulate.properties import watchable
+from swarmdsl.execution.simulate.evaluation.properties import watchable
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.proofs.prove import prove
 from swarmdsl.execution.verify.proofs.verdict import unfinished

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.cli import run
-from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.verify.replay.lasso_times import lap_times
 from swarmdsl.execution.verify.swarm.model import Model
 

@@ -13,14 +13,14 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import FALSE
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.durations import SECOND, Fixed, Uniform
-from swarmdsl.execution.simulate.properties import plan, watch, watchable
-from swarmdsl.execution.simulate.run import run as simulate
-from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Message, Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import SECOND, Fixed, Uniform
+from swarmdsl.execution.simulate.scenario.scenario import EVERY_FUNCTION, Fault, Message, Scenario
+from swarmdsl.execution.simulate.world.runner import run as simulate
+from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.proofs.prove import prove
 from swarmdsl.execution.verify.proofs.verdict import Verdict

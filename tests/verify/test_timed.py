@@ -12,8 +12,10 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
 from swarmdsl.execution.monitor import FALSE
-from swarmdsl.execution.simulate.actors import actors
-from swarmdsl.execution.simulate.durations import (
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.inputs.events import Input
+from swarmdsl.execution.simulate.machines.actors import actors
+from swarmdsl.execution.simulate.scenario.durations import (
     MILLISECOND,
     SECOND,
     Fixed,
@@ -21,11 +23,9 @@ from swarmdsl.execution.simulate.durations import (
     Normal,
     Uniform,
 )
-from swarmdsl.execution.simulate.inputs import Input
-from swarmdsl.execution.simulate.properties import plan, watch, watchable
-from swarmdsl.execution.simulate.run import run as simulate
-from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Scenario
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.scenario.scenario import EVERY_FUNCTION, Fault, Scenario
+from swarmdsl.execution.simulate.world.runner import run as simulate
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.verify.proofs.verdict import UNSURE
 from swarmdsl.execution.verify.robot.environment import Options
 from swarmdsl.execution.verify.search.run import written

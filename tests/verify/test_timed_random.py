@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.execution.simulate.durations import SECOND, Fixed, Uniform
-from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
+from swarmdsl.execution.simulate.scenario.durations import SECOND, Fixed, Uniform
+from swarmdsl.execution.simulate.scenario.scenario import EVERY_FUNCTION, Scenario
 from swarmdsl.execution.verify.automata import clock_classes
 from swarmdsl.execution.verify.proofs.verdict import Verdict
 from swarmdsl.execution.verify.robot.environment import Options

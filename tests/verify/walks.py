@@ -13,15 +13,15 @@ from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import FALSE
-from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.durations import SECOND, Uniform
-from swarmdsl.execution.simulate.inputs import Input
-from swarmdsl.execution.simulate.properties import plan, watch, watchable
-from swarmdsl.execution.simulate.run import run
-from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.inputs.events import Input
+from swarmdsl.execution.simulate.machines.actors import Actor, actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import SECOND, Uniform
+from swarmdsl.execution.simulate.scenario.scenario import EVERY_FUNCTION, Scenario
+from swarmdsl.execution.simulate.world.runner import run
+from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.world import World
 
 from ..agreement.values import Values
 

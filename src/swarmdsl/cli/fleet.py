@@ -16,7 +16,7 @@ from swarmdsl.cli import options, served_page
 from swarmdsl.cli.exit_code import ERRORS, OK
 
 if TYPE_CHECKING:
-    from swarmdsl.execution.simulate.prepare import Prepared
+    from swarmdsl.execution.simulate.run.prepare import Prepared
     from swarmdsl.ide.fleet.watch import Watch
 _LOOPBACK = "127.0.0.1"
 _TOKEN = re.compile(r"[A-Za-z0-9._~-]+")
@@ -77,7 +77,7 @@ def fleet(
     a button for each `swarm operator event` of the model.
     """
     from swarmdsl.base.forced_end import forced_end
-    from swarmdsl.execution.simulate.prepare import Request
+    from swarmdsl.execution.simulate.run.prepare import Request
     from swarmdsl.ide.preview.ros2 import PREFIX, UnavailableError
 
     names = [each.removeprefix(PREFIX) for each in sources or (PREFIX,) if each.startswith(PREFIX)]

@@ -14,7 +14,7 @@ from click.core import ParameterSource
 from swarmdsl.cli import options
 
 if TYPE_CHECKING:
-    from swarmdsl.execution.simulate.many import Many
+    from swarmdsl.execution.simulate.many_runs.many import Many
 
 _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 
@@ -113,8 +113,8 @@ def many_of(
         raise click.UsageError("`--runs` and `--events -` conflict")
     if histogram is not None:
         options.check_picture(histogram, "--histogram", ".svg", {})
-    from swarmdsl.execution.simulate.chances import Level
-    from swarmdsl.execution.simulate.many import Many
+    from swarmdsl.execution.simulate.many_runs.chances import Level
+    from swarmdsl.execution.simulate.many_runs.many import Many
 
     level = Level(confidence, indifference, error)
     return Many(runs, jobs or os.cpu_count() or 1, level, early, histogram)

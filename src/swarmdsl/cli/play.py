@@ -18,7 +18,7 @@ from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
 
 if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostic
-    from swarmdsl.execution.simulate.prepare import Request
+    from swarmdsl.execution.simulate.run.prepare import Request
 
 
 @click.command(
@@ -112,7 +112,7 @@ def play(
     shows a new simulation, or recorded traces; what is wrong with these is told in it. With
     `--follow`, it grows with a trace until Ctrl-C.
     """
-    from swarmdsl.execution.simulate import prepare
+    from swarmdsl.execution.simulate.run import prepare
     from swarmdsl.tools.player.command import play_run, play_traces, read_other
 
     if machine is not None and swarm is not None:

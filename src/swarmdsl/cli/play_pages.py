@@ -16,7 +16,7 @@ from swarmdsl.base.diagnostics.render import render
 from swarmdsl.base.records import replace
 
 if TYPE_CHECKING:
-    from swarmdsl.execution.simulate.prepare import Request
+    from swarmdsl.execution.simulate.run.prepare import Request
     from swarmdsl.execution.testing.verdict import Verdict
     from swarmdsl.execution.verify.command import Request as VerifyRequest
 
@@ -49,7 +49,7 @@ def play_counterexample(
     request: VerifyRequest, shown: Sequence[tuple[str, str]], out: Path
 ) -> bool:
     """Write the page of the first run, if there is one; return False if that fails."""
-    from swarmdsl.execution.simulate import prepare
+    from swarmdsl.execution.simulate.run import prepare
     from swarmdsl.tools.player.command import play_lines
 
     if not shown:

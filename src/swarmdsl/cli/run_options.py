@@ -18,7 +18,7 @@ def parse_duration(
     _context: click.Context, _param: click.Parameter, text: str | None
 ) -> int | None:
     """Parse a duration with its unit, to nanoseconds."""
-    from swarmdsl.execution.simulate.durations import duration
+    from swarmdsl.execution.simulate.scenario.durations import duration
 
     length = duration(text) if text is not None else None
     if text is not None and length is None:

@@ -17,7 +17,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import render
 
 if TYPE_CHECKING:
-    from swarmdsl.execution.simulate.prepare import Prepared, Request
+    from swarmdsl.execution.simulate.run.prepare import Prepared, Request
     from swarmdsl.ide.preview.ros2 import UnavailableError
 
 _NAP = 0.2

@@ -20,7 +20,7 @@ from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostic
-    from swarmdsl.execution.simulate.live import Page
+    from swarmdsl.execution.simulate.run.live import Page
     from swarmdsl.ir import System
 
 _NOT_WITH_ROS2 = (
@@ -213,7 +213,7 @@ def simulate(
     output, a summary to standard error.
     """
     from swarmdsl.execution.simulate.command import simulate as run_simulation
-    from swarmdsl.execution.simulate.prepare import Request
+    from swarmdsl.execution.simulate.run.prepare import Request
 
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` conflict")
@@ -300,7 +300,7 @@ def simulate(
     elif many is None:
         simulate_ = run_simulation
     else:
-        from swarmdsl.execution.simulate.many import simulate_many
+        from swarmdsl.execution.simulate.many_runs.many import simulate_many
 
         simulate_ = partial(simulate_many, many)
     if play is not None:

@@ -45,7 +45,7 @@ def _sizes(
 def _limits(_context: click.Context, _param: click.Parameter, texts: tuple[str, ...]) -> Limits:
     """Parse limits: numbers of states, durations, or sizes of memory."""
     from swarmdsl.base.records import replace
-    from swarmdsl.execution.simulate.durations import SECOND, duration
+    from swarmdsl.execution.simulate.scenario.durations import SECOND, duration
     from swarmdsl.execution.verify.automata.limits import Limits
 
     limits = Limits()

@@ -19,7 +19,7 @@ from swarmdsl.codegen.options import Option, options_of
 from swarmdsl.driver.config.keys import Key, Shape, list_of, one_of, table
 from swarmdsl.driver.config.lint import may_have
 from swarmdsl.driver.config.project_keys import LINT, OPTIONS, TABLES
-from swarmdsl.execution.simulate.scenario_keys import TABLES as SCENARIO
+from swarmdsl.execution.simulate.inputs.scenario_keys import TABLES as SCENARIO
 from swarmdsl.execution.testing.keys import FILE
 
 _DRAFT = "http://json-schema.org/draft-07/schema#"

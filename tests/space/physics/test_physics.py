@@ -10,10 +10,10 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.physics.motion import PhysicalMotion
-from swarmdsl.execution.simulate.choose_space import choose_space
-from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.inputs.choose_space import choose_space
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
 from swarmdsl.execution.space.flat import FlatSpace
 from swarmdsl.execution.space.layout import Body, Layout, Unit
 from swarmdsl.execution.space.shapes import Edge, Round

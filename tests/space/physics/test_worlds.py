@@ -13,7 +13,7 @@ import pytest
 
 from swarmdsl.cli import run
 from swarmdsl.execution.physics import picture
-from swarmdsl.execution.simulate import choose_space
+from swarmdsl.execution.simulate.inputs import choose_space
 
 from ..worlds import TEXT
 

@@ -11,9 +11,9 @@ from swarmdsl.execution.estimation.intervals import clopper_pearson
 from swarmdsl.execution.estimation.sample import Sample, summarize
 from swarmdsl.execution.experiments.task import Row
 from swarmdsl.execution.monitor import TRUE
-from swarmdsl.execution.simulate.measures import fitness_of, inputs_of
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.measures import fitness_of, inputs_of
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.ir import Fitness
 
 FITNESS = "fitness"

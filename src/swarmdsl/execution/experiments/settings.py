@@ -10,9 +10,9 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.driver.config.toml import Document, Keys, Place
 from swarmdsl.execution.experiments.task import COUNT, SCENARIO, Candidate
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.scenario_file import read_scenario
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.inputs.scenario_file import read_scenario
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
 
 EMPTY = Document(Source(COMMAND_LINE, ""), {})
 """Document of runs without a scenario."""

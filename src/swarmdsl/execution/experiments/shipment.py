@@ -18,7 +18,7 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import ModelSource, Settings, find_settings
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.experiments.task import NO_SCENARIO, canonical
-from swarmdsl.execution.simulate.subject import Subject, choose
+from swarmdsl.execution.simulate.machines.subject import Subject, choose
 from swarmdsl.project.loader import Project
 from swarmdsl.project.read_source import read_source
 

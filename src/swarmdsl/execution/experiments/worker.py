@@ -30,12 +30,12 @@ from swarmdsl.execution.experiments.settings import EMPTY, apply_candidate
 from swarmdsl.execution.experiments.shipment import Shipment, shipment_of
 from swarmdsl.execution.experiments.task import NO_SCENARIO, Candidate, canonical
 from swarmdsl.execution.experiments.time_limit import OverdueError, deadly, limited
-from swarmdsl.execution.simulate.choose_space import choose_space
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.measures import inputs_of
-from swarmdsl.execution.simulate.one_run import Outcome, Runner
-from swarmdsl.execution.simulate.prepare import Prepared, Request
-from swarmdsl.execution.simulate.subject import Subject, choose
+from swarmdsl.execution.simulate.evaluation.measures import inputs_of
+from swarmdsl.execution.simulate.inputs.choose_space import choose_space
+from swarmdsl.execution.simulate.machines.subject import Subject, choose
+from swarmdsl.execution.simulate.many_runs.one_run import Outcome, Runner
+from swarmdsl.execution.simulate.run.prepare import Prepared, Request
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.syntax.types import DURATION
 
 LIMIT = 60.0

@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 
 from swarmdsl.execution.physics.scene import Scene
-from swarmdsl.execution.simulate.space import NoPictureError
+from swarmdsl.execution.simulate.scenario.space import NoPictureError
 
 _WIDTH, _HEIGHT = 1280, 960
 _NEAREST = 6.0

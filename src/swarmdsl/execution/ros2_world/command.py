@@ -18,19 +18,23 @@ from swarmdsl.execution.ros2_world.drive import drive, wait_for_nodes
 from swarmdsl.execution.ros2_world.graph import RclpyGraph, is_there
 from swarmdsl.execution.ros2_world.ports import MissingInterfaceError
 from swarmdsl.execution.ros2_world.served import ServedWorld
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import SECOND, format_duration
-from swarmdsl.execution.simulate.live import show
-from swarmdsl.execution.simulate.measures import fitness_of
-from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.results import as_document
-from swarmdsl.execution.simulate.run import DEFAULT_UNTIL
-from swarmdsl.execution.simulate.run_map import Maps
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.space import ModelError
-from swarmdsl.execution.simulate.summary import format_table, measure_table, property_table
-from swarmdsl.execution.simulate.verdicts import Recording, report_violations
+from swarmdsl.execution.simulate.evaluation.measures import fitness_of
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.evaluation.results import as_document
+from swarmdsl.execution.simulate.evaluation.summary import (
+    format_table,
+    measure_table,
+    property_table,
+)
+from swarmdsl.execution.simulate.evaluation.verdicts import Recording, report_violations
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.pictures.run_map import Maps
+from swarmdsl.execution.simulate.run.live import show
+from swarmdsl.execution.simulate.run.prepare import Prepared, Request, prepare
+from swarmdsl.execution.simulate.scenario.durations import SECOND, format_duration
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.scenario.space import ModelError
+from swarmdsl.execution.simulate.world.runner import DEFAULT_UNTIL
 from swarmdsl.execution.space.setting import Setting
 
 Tell = Callable[[Diagnostics], None]

@@ -9,7 +9,7 @@ from typing import Literal
 from swarmdsl.base import interrupts
 from swarmdsl.execution.ros2_world.ports import Graph
 from swarmdsl.execution.ros2_world.served import ServedWorld
-from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 
 Ending = Literal["ended", "stopped"]
 _TELL_AFTER = 5.0

@@ -14,7 +14,7 @@ from typing import Any
 
 from swarmdsl.execution.ros2_world.messages import fill, plain
 from swarmdsl.execution.ros2_world.ports import MissingInterfaceError, Taker
-from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.ir import Communication, Delivery, Named
 
 _DEPTH = 10_000

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 
 _TIMES = ("builtin_interfaces/Time", "builtin_interfaces/Duration")
 _LIST = re.compile(r"sequence<(?P<item>.+?)(?:, \d+)?>|(?P<element>.+)\[\d+\]")

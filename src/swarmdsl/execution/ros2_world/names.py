@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.base.naming import incoming_topic, snake_case
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.ir import Event
 
 RADIO = "radio"

@@ -11,9 +11,9 @@ from swarmdsl.codegen.shared import envelopes_of
 from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.ros2_world.names import name_in, radio_topic, topic_of_swarm
 from swarmdsl.execution.ros2_world.ports import Graph, Sender
-from swarmdsl.execution.simulate.headers import signed
-from swarmdsl.execution.simulate.network import Network
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.machines.headers import signed
+from swarmdsl.execution.simulate.network.network import Network
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.ir import Delivery, Heartbeat, Named, System
 from swarmdsl.ir import Event as Declared
 

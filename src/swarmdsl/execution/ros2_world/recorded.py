@@ -9,14 +9,14 @@ from typing import Any
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.execution.monitor import LOST, PropertyResult
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.simulate.measures import FitnessResult
-from swarmdsl.execution.simulate.replay import replay
-from swarmdsl.execution.simulate.space import Place, Space
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace_line import read_line
-from swarmdsl.execution.simulate.verdicts import Recording
+from swarmdsl.execution.simulate.evaluation.measures import FitnessResult
+from swarmdsl.execution.simulate.evaluation.verdicts import Recording
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.replay.replay import replay
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
+from swarmdsl.execution.simulate.scenario.space import Place, Space
+from swarmdsl.execution.simulate.world.trace_line import read_line
 
 _NOTHING: tuple[str, ...] = ("entered", "exited", "taken", "started", "cancelled", "sent")
 

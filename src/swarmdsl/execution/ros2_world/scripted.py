@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 
 from swarmdsl.execution.engine import Run
-from swarmdsl.execution.simulate.clock import Alarm, Clock
-from swarmdsl.execution.simulate.random_source import RandomSource
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
-from swarmdsl.execution.simulate.space import Ended
+from swarmdsl.execution.simulate.scenario.clock import Alarm, Clock
+from swarmdsl.execution.simulate.scenario.random_source import RandomSource
+from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.scenario.space import Ended
 
 
 class Scripted:

@@ -15,14 +15,14 @@ from swarmdsl.execution.ros2_world.ports import Graph, Request, Sender
 from swarmdsl.execution.ros2_world.radio import Radio
 from swarmdsl.execution.ros2_world.recorded import Recorded
 from swarmdsl.execution.ros2_world.scripted import Scripted
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.network import Network
-from swarmdsl.execution.simulate.random_source import RandomSource
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
-from swarmdsl.execution.simulate.scenario_schedule import schedule
-from swarmdsl.execution.simulate.space import Place, Space
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.network.network import Network
+from swarmdsl.execution.simulate.scenario.clock import Clock
+from swarmdsl.execution.simulate.scenario.random_source import RandomSource
+from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.scenario.space import Place, Space
+from swarmdsl.execution.simulate.world.schedule import schedule
 from swarmdsl.execution.space.setting import Setting
 from swarmdsl.ir import Delivery, Function, Named
 

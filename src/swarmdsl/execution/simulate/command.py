@@ -21,28 +21,28 @@ from swarmdsl.base.read_files import MOST_RECORDED, lines_of
 from swarmdsl.base.write_stream import report_unwritten
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import PropertyResult, ViolatedError
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.deadlock_hint import deadlock_hint
-from swarmdsl.execution.simulate.durations import SECOND, format_duration
-from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader
-from swarmdsl.execution.simulate.measures import (
+from swarmdsl.execution.simulate.evaluation.measures import (
     FitnessResult,
     evaluate,
     fitness_of,
     measures_of,
 )
-from swarmdsl.execution.simulate.prepare import STANDARD_INPUT, Prepared, Request, prepare
-from swarmdsl.execution.simulate.properties import plan, watch, watchable
-from swarmdsl.execution.simulate.replay import replay
-from swarmdsl.execution.simulate.reporter import observe
-from swarmdsl.execution.simulate.results import as_document
-from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
-from swarmdsl.execution.simulate.run_outputs import Outputs
-from swarmdsl.execution.simulate.space import ModelError
-from swarmdsl.execution.simulate.summary import Summary, measure_table, property_table
-from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.verdicts import Recording, report_violations
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.evaluation.reporter import observe
+from swarmdsl.execution.simulate.evaluation.results import as_document
+from swarmdsl.execution.simulate.evaluation.summary import Summary, measure_table, property_table
+from swarmdsl.execution.simulate.evaluation.verdicts import Recording, report_violations
+from swarmdsl.execution.simulate.inputs.events import STDIN, Input, Reader
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.replay.replay import replay
+from swarmdsl.execution.simulate.run.deadlock_hint import deadlock_hint
+from swarmdsl.execution.simulate.run.outputs import Outputs
+from swarmdsl.execution.simulate.run.prepare import STANDARD_INPUT, Prepared, Request, prepare
+from swarmdsl.execution.simulate.scenario.durations import SECOND, format_duration
+from swarmdsl.execution.simulate.scenario.space import ModelError
+from swarmdsl.execution.simulate.world.runner import DEFAULT_UNTIL, Ending, Pace, run, run_live
+from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.project.read_source import read_source
 
 Tell = Callable[[Diagnostics], None]
@@ -302,7 +302,7 @@ class _Play:
             return
         from rich.console import Console
 
-        from swarmdsl.execution.simulate.live_table import Board
+        from swarmdsl.execution.simulate.run.live_table import Board
 
         board = Board(self._cast, self._world.clock, self._limit, Console(stderr=True))
         self._listeners.append(board.note)

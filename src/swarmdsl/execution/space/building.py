@@ -9,10 +9,10 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.execution.engine import ExecutionError
-from swarmdsl.execution.simulate.actors import values
-from swarmdsl.execution.simulate.expressions import function_of
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.actors import values
+from swarmdsl.execution.simulate.machines.expressions import function_of
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
 from swarmdsl.execution.space.layout import (
     DEFAULT_STEP,
     Battery,

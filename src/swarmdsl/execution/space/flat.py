@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from swarmdsl.execution.engine import ExecutionError, LoopError, Run
-from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.execution.simulate.space import Ended, ModelError, Place, Space, Surroundings
+from swarmdsl.execution.simulate.scenario.scenario import Robot
+from swarmdsl.execution.simulate.scenario.space import Ended, ModelError, Place, Space, Surroundings
 from swarmdsl.execution.space.arrays import Whole
 from swarmdsl.execution.space.functions.base import OUTCOMES, Finding
 from swarmdsl.execution.space.gauges import Gauges

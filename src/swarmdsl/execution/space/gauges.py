@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.execution.simulate.space import Surroundings
+from swarmdsl.execution.simulate.scenario.durations import SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Robot
+from swarmdsl.execution.simulate.scenario.space import Surroundings
 from swarmdsl.execution.space.building import BATTERY, RANGE
 from swarmdsl.execution.space.layout import Gauge
 from swarmdsl.execution.space.messages import Facts

@@ -10,8 +10,8 @@ import math
 from collections.abc import Mapping
 
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.execution.space.shapes import Edge, Round
 from swarmdsl.ir import Rain, Targets, Type, Wind
 from swarmdsl.ir.space import Area, Point

@@ -8,7 +8,7 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.default_values import default_value, result_fields
-from swarmdsl.execution.simulate.copying import copied
+from swarmdsl.execution.simulate.machines.copying import copied
 from swarmdsl.ir import Function, Message, Named, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS, INTEGERS
 

@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.space.arrays import Floats, Part
 from swarmdsl.execution.space.motion import Motion
 from swarmdsl.execution.space.robots import Robots

@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.suggest import suggest
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import MOST_MEMBERS, Subject
+from swarmdsl.execution.simulate.machines.subject import MOST_MEMBERS, Subject
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.space.building import UnfitError, build
 from swarmdsl.execution.space.functions.catalog import CLASSES
 from swarmdsl.execution.space.functions.foreign import load

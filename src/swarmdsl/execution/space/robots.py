@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.space.arrays import Flags, Floats, Rows, Whole, Words
 from swarmdsl.execution.space.consumption import Consumption
 from swarmdsl.execution.space.hashing import key, shares

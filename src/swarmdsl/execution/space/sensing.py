@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.space.arrays import Flags, Floats, Part, Rows, Whole
 from swarmdsl.execution.space.hashing import key, shares
 from swarmdsl.execution.space.robots import Robots

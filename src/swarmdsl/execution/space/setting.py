@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import ExecutionError
-from swarmdsl.execution.simulate.durations import SECOND
-from swarmdsl.execution.simulate.expressions import Value, function_of
-from swarmdsl.execution.simulate.machine_data import stored
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.machines.expressions import Value, function_of
+from swarmdsl.execution.simulate.machines.machine_data import stored
+from swarmdsl.execution.simulate.scenario.durations import SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
 from swarmdsl.execution.space.functions.base import Model
 from swarmdsl.execution.space.layout import Layout
 from swarmdsl.execution.space.messages import path_in, place_in

@@ -11,9 +11,9 @@ from typing import Any, Literal
 from swarmdsl.base.diagnostics.collector import Diagnostic
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
-from swarmdsl.execution.simulate.choose_space import Spaces
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.inputs.choose_space import Spaces
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.testing.measures import ExpectedMeasure
 from swarmdsl.ir import Property
 

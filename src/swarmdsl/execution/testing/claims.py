@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import replace
-from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
+from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.execution.testing.case import ALL, ANY, NONE, ActionKind, Claim, Expect, Quantity
 from swarmdsl.execution.testing.data import describe_fields
 from swarmdsl.execution.testing.expected_data import event_data, variables

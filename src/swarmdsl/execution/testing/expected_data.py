@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
-from swarmdsl.execution.simulate.scenario_table import Table
-from swarmdsl.execution.simulate.values import Way, fitted
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
+from swarmdsl.execution.simulate.inputs.values import Way, fitted
 from swarmdsl.execution.testing.data import given_part
 from swarmdsl.execution.testing.names import Names
 from swarmdsl.ir import System, Type

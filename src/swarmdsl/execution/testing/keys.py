@@ -17,9 +17,9 @@ from swarmdsl.driver.config.keys import (
     table_of,
     whole,
 )
-from swarmdsl.execution.simulate.scenario_keys import DURATION, SHARE
-from swarmdsl.execution.simulate.scenario_keys import TABLES as SCENARIO
-from swarmdsl.execution.simulate.table import OUTCOMES
+from swarmdsl.execution.simulate.inputs.scenario_keys import DURATION, SHARE
+from swarmdsl.execution.simulate.inputs.scenario_keys import TABLES as SCENARIO
+from swarmdsl.execution.simulate.machines.table import OUTCOMES
 from swarmdsl.execution.testing.measures import COMPARISON
 
 # Upper limit that is reasonable for a test.

@@ -7,15 +7,15 @@ import re
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
-from swarmdsl.execution.simulate.durations import duration
-from swarmdsl.execution.simulate.measures import (
+from swarmdsl.execution.simulate.evaluation.measures import (
     FitnessResult,
     fitness_of,
     inputs_of,
     value_text,
 )
-from swarmdsl.execution.simulate.scenario_table import Table
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import duration
 from swarmdsl.ir.operations import OPERATIONS
 from swarmdsl.syntax.types import DURATION
 

@@ -13,8 +13,8 @@ from swarmdsl.base.source import Span
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import ModelSource, Settings, find_file, find_settings
 from swarmdsl.execution.scxml import read as read_scxml
-from swarmdsl.execution.simulate.scenario_table import Table
-from swarmdsl.execution.simulate.subject import Document, Subject
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
+from swarmdsl.execution.simulate.machines.subject import Document, Subject
 from swarmdsl.ir import System
 from swarmdsl.project.loader import Project
 from swarmdsl.project.read_source import read_source

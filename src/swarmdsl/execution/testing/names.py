@@ -10,8 +10,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import did_you_mean, suggest
 from swarmdsl.execution.engine import Kind, Machine
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.testing.case import ActionKind
 from swarmdsl.ir import Send as SendEffect
 from swarmdsl.ir import State as ModelState

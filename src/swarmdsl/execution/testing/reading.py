@@ -11,13 +11,13 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config.toml import Document, Keys, Place, parse_toml
-from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.choose_space import Spaces, choose_space
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.scenario_file import read_scenario
-from swarmdsl.execution.simulate.scenario_table import Table
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.inputs.choose_space import Spaces, choose_space
+from swarmdsl.execution.simulate.inputs.scenario_file import read_scenario
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
+from swarmdsl.execution.simulate.machines.actors import Actor, actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.testing.case import Case, End, InvalidTest, Step, TestFile
 from swarmdsl.execution.testing.claims import ClaimReader
 from swarmdsl.execution.testing.keys import FILE, IMPOSSIBLE, MOST_SEEDS, TEST

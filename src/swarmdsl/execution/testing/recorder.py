@@ -9,8 +9,8 @@ from typing import Any
 from swarmdsl.base.diagnostics.collector import listed
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.testing.case import ActionKind, Claim
 from swarmdsl.execution.testing.data import describe_fields, matches
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TextIO
 
 from swarmdsl.base.diagnostics.collector import Diagnostic
-from swarmdsl.execution.simulate.coverage import Coverage
+from swarmdsl.execution.simulate.evaluation.coverage import Coverage
 from swarmdsl.execution.testing import records
 from swarmdsl.execution.testing.case import Case, InvalidTest
 from swarmdsl.execution.testing.outcome import FileOutcome

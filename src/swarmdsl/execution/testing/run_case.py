@@ -8,17 +8,17 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.execution.monitor import FALSE, Violation, Watch
-from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.measures import evaluate, fitness_of, measures_of
-from swarmdsl.execution.simulate.properties import plan, watch
-from swarmdsl.execution.simulate.run import Pace
-from swarmdsl.execution.simulate.run_lines import Recorder as Recording
-from swarmdsl.execution.simulate.run_lines import RunLines
-from swarmdsl.execution.simulate.space import ModelError
-from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.verdicts import violation_fields
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.evaluation.measures import evaluate, fitness_of, measures_of
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch
+from swarmdsl.execution.simulate.evaluation.verdicts import violation_fields
+from swarmdsl.execution.simulate.machines.actors import Actor, actors
+from swarmdsl.execution.simulate.recording.run_lines import Recorder as Recording
+from swarmdsl.execution.simulate.recording.run_lines import RunLines
+from swarmdsl.execution.simulate.scenario.durations import format_duration
+from swarmdsl.execution.simulate.scenario.space import ModelError
+from swarmdsl.execution.simulate.world.runner import Pace
+from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.testing.case import (
     Arrive,
     Case,

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
-from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
 from swarmdsl.execution.testing.names import Names
 
 # Words of other tools and languages.

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.scenario_table import Table
-from swarmdsl.execution.simulate.table import OUTCOMES
-from swarmdsl.execution.simulate.values import fitted, fitted_result
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
+from swarmdsl.execution.simulate.inputs.values import fitted, fitted_result
+from swarmdsl.execution.simulate.machines.table import OUTCOMES
 from swarmdsl.execution.testing.case import Arrive, End, Lose, Pass, Send, Step
 from swarmdsl.execution.testing.claims import ClaimReader
 from swarmdsl.execution.testing.keys import ACTIONS

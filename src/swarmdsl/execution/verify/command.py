@@ -18,11 +18,11 @@ from swarmdsl.base.write_stream import write_stream
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.driver.config.toml import parse_toml
-from swarmdsl.execution.simulate.choose_space import has_geometry
-from swarmdsl.execution.simulate.load_scenario import load_scenario
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject, choose
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.inputs.choose_space import has_geometry
+from swarmdsl.execution.simulate.inputs.load_scenario import load_scenario
+from swarmdsl.execution.simulate.machines.subject import Subject, choose
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.verify.any_size.prove import enough, prove_any
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.findings.finding import Finding

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.machines.actors import Actor, actors
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.testing.case import Case
 from swarmdsl.execution.testing.models import Models
 from swarmdsl.execution.testing.read_file import read_file

@@ -13,7 +13,7 @@ from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.engine import Machine
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.ide.debugger.expressions import Evaluate, Expressions
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required
 from swarmdsl.ide.debugger.points import Element

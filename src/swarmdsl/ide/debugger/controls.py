@@ -14,12 +14,12 @@ from typing import Any
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Event, Instance, InstanceLike, State, Transition
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import SECOND, format_duration
-from swarmdsl.execution.simulate.run import Pace
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import SECOND, format_duration
+from swarmdsl.execution.simulate.world.runner import Pace
+from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ide.debugger.breakpoints import Breakpoints
 from swarmdsl.ide.debugger.client import Client, RunAgainError
 from swarmdsl.ide.debugger.expressions import Expressions, Result

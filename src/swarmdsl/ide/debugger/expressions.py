@@ -20,9 +20,9 @@ from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.source import Source
 from swarmdsl.execution.engine import Event, Instance
 from swarmdsl.execution.engine.world import FAILURES
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.expressions import ACTIVE, ELAPSED, Value, function_of
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.expressions import ACTIVE, ELAPSED, Value, function_of
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.ide.debugger.messages import RequestError
 from swarmdsl.lowering.context import Context, make_context
 from swarmdsl.lowering.expressions import lower_expression

@@ -11,9 +11,9 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Instance, State, Transition
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.values import MisfitError, fitted
+from swarmdsl.execution.simulate.inputs.values import MisfitError, fitted
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.ide.debugger.controls import Controls, Deed
 from swarmdsl.ide.debugger.messages import RequestError
 from swarmdsl.ide.debugger.points import Element

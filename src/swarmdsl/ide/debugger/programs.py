@@ -11,15 +11,15 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import LoopError, Machine
 from swarmdsl.execution.monitor import FALSE
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import duration
-from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
-from swarmdsl.execution.simulate.properties import plan, watch, watchable
-from swarmdsl.execution.simulate.run import Pace, run
-from swarmdsl.execution.simulate.space import ModelError
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.evaluation.properties import plan, watch, watchable
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.run.prepare import Prepared, Request, prepare
+from swarmdsl.execution.simulate.scenario.durations import duration
+from swarmdsl.execution.simulate.scenario.space import ModelError
+from swarmdsl.execution.simulate.world.runner import Pace, run
+from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, as_path, optional, texts
 
 

@@ -11,11 +11,11 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.execution.engine import Event, Instance
 from swarmdsl.execution.engine.world import FAILURES
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.inputs import Input, Reader
-from swarmdsl.execution.simulate.json_numbers import named_numbers
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.inputs.events import Input, Reader
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.json_numbers import named_numbers
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ide.debugger.messages import RequestError
 from swarmdsl.ir import EventData, System, Transition, subexpressions
 

@@ -8,8 +8,8 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
-from swarmdsl.execution.simulate.durations import format_duration
-from swarmdsl.execution.simulate.json_numbers import named_numbers
+from swarmdsl.execution.simulate.machines.json_numbers import named_numbers
+from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.ir import Literal, System
 from swarmdsl.syntax.types import DURATION
 

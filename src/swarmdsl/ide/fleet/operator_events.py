@@ -8,7 +8,7 @@ from typing import Any
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.default_values import default_fields
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 
 _HEADERS = ("std_msgs/Header", "swarmros/EventHeader")
 """Types of fields that say who sends a message, and when."""

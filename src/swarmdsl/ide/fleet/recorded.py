@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.base.read_files import is_file, is_folder
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.ide.fleet.sensed import BATTERY, TYPES, moved_line, place_of, share_of
 from swarmdsl.ide.fleet.told_lines import LINES, TOPICS, member_in, model_in, time_of
 from swarmdsl.ide.fleet.watch import Watch

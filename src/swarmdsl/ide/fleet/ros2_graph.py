@@ -7,7 +7,7 @@ from importlib import import_module
 from time import time_ns
 from typing import Any
 
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.ide.fleet.operator_events import OperatorEvent
 from swarmdsl.ide.fleet.ros2_messages import fill, message_class
 from swarmdsl.ide.fleet.sensed import BATTERY, TYPES, moved_line, place_of, share_of

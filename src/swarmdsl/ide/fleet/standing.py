@@ -7,9 +7,9 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace_line import is_beside_steps
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.scenario import Robot
+from swarmdsl.execution.simulate.world.trace_line import is_beside_steps
 
 EXPECTED, THERE, ENDED, GONE = "expected", "there", "ended", "lost"
 _SECOND = 1_000_000_000

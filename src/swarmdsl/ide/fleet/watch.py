@@ -11,7 +11,7 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.ide.fleet.operator_events import OperatorEvent, operator_events
 from swarmdsl.ide.fleet.standing import Standing
 from swarmdsl.ide.preview.live_player import Feed

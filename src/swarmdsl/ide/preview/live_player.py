@@ -10,7 +10,7 @@ from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.read_files import OddFileError
-from swarmdsl.execution.simulate.prepare import Prepared
+from swarmdsl.execution.simulate.run.prepare import Prepared
 from swarmdsl.ide.preview.local_server import (
     HOST,
     KEEP_ALIVE,

@@ -9,7 +9,7 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.read_files import OddFileError
-from swarmdsl.execution.simulate.trace_line import is_beside_steps, read_line
+from swarmdsl.execution.simulate.world.trace_line import is_beside_steps, read_line
 from swarmdsl.ide.preview.pictures import Steps
 from swarmdsl.ide.preview.serving import Snapshot
 from swarmdsl.ide.preview.trace_file import Turn, read_growing

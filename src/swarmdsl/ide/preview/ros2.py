@@ -13,7 +13,7 @@ from threading import Event, Thread
 from typing import Any, NamedTuple, Protocol
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.trace_line import NAMES
+from swarmdsl.execution.simulate.world.trace_line import NAMES
 from swarmdsl.ide.preview.live_trace import TraceReader
 from swarmdsl.ide.preview.serving import Snapshot
 

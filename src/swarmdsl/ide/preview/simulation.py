@@ -9,7 +9,7 @@ from threading import RLock
 from typing import Any
 
 from swarmdsl.base.read_files import is_folder
-from swarmdsl.execution.simulate.scenario_files import scenarios_in
+from swarmdsl.execution.simulate.inputs.scenario_files import scenarios_in
 from swarmdsl.ide.debugger.messages import RequestError
 from swarmdsl.ide.preview.adapter import Adapter
 from swarmdsl.ide.preview.breakpoints import Breakpoints

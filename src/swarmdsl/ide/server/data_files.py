@@ -12,11 +12,11 @@ from swarmdsl.driver.config import FILE_NAME
 from swarmdsl.driver.config.toml import Document, parse_toml
 from swarmdsl.driver.pipeline import Result
 from swarmdsl.driver.workspace import Workspace
-from swarmdsl.execution.simulate.scenario_file import read_scenario
-from swarmdsl.execution.simulate.scenario_files import is_scenario
-from swarmdsl.execution.simulate.scenario_keys import TABLES
-from swarmdsl.execution.simulate.scenario_table import Table
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.inputs.scenario_file import read_scenario
+from swarmdsl.execution.simulate.inputs.scenario_files import is_scenario
+from swarmdsl.execution.simulate.inputs.scenario_keys import TABLES
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.testing.case import InvalidTest
 from swarmdsl.execution.testing.models import Model, Models
 from swarmdsl.execution.testing.reading import read_tests

@@ -11,7 +11,7 @@ from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.source import Source
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.simulate.command import simulate
-from swarmdsl.execution.simulate.prepare import Prepared, Request, prepare
+from swarmdsl.execution.simulate.run.prepare import Prepared, Request, prepare
 from swarmdsl.execution.testing.run_case import run_case
 from swarmdsl.execution.testing.verdict import Verdict
 from swarmdsl.project.read_source import decoded, read_bytes

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from typing import Any
 
 from swarmdsl.execution.engine import Machine
-from swarmdsl.execution.simulate.coverage import Coverage, Key, MachineCoverage
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.coverage import Coverage, Key, MachineCoverage
+from swarmdsl.execution.simulate.machines.subject import Subject
 
 
 def coverage_of(subject: Subject, machines: Iterable[Machine]) -> dict[str, Any]:

@@ -15,8 +15,8 @@ from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.simulate.json_numbers import named_numbers
+from swarmdsl.execution.simulate.machines.json_numbers import named_numbers
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
 from swarmdsl.tools.player.recording import Recording, Step
 
 VARYING = ("data", "envelope", "at", "moved", "variables", "lost", "cause", "measures")

@@ -21,7 +21,7 @@ from swarmdsl.execution.engine import (
     Transition,
 )
 from swarmdsl.execution.engine.table import Edge
-from swarmdsl.execution.simulate.table import TableMaker
+from swarmdsl.execution.simulate.machines.table import TableMaker
 from swarmdsl.ir import Assignment, Cancel, Expression, Send, System
 from swarmdsl.tools.player.engine_values import Tree, encoded, stored_tree, tree_of
 

@@ -7,18 +7,18 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.codegen.shared.default_values import default_result, default_value, result_fields
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import (
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import (
     Fixed,
     Length,
     Normal,
     Uniform,
     written_duration,
 )
-from swarmdsl.execution.simulate.scenario import FunctionBehavior, Robot, Scenario
-from swarmdsl.execution.simulate.space import ABSTRACT
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.scenario.scenario import FunctionBehavior, Robot, Scenario
+from swarmdsl.execution.simulate.scenario.space import ABSTRACT
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.verify.report.toml_text import toml_text
 from swarmdsl.ir import System
 from swarmdsl.syntax.types import DURATION, Named, Primitive

@@ -8,12 +8,12 @@ from typing import Any, NamedTuple
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Severity
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source
-from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.replay import replay
-from swarmdsl.execution.simulate.run_lines import Changes
-from swarmdsl.execution.simulate.scenario import Robot, Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.machines.actors import Actor, actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.recording.run_lines import Changes
+from swarmdsl.execution.simulate.replay.replay import replay
+from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.tools.player.judged_lines import Judge
 
 _INVALID = "bad-trace-line"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from swarmdsl.execution.simulate.map_svg import (
+from swarmdsl.execution.simulate.pictures.map_svg import (
     DEFINITIONS,
     MapDrawing,
     Moment,
@@ -13,7 +13,7 @@ from swarmdsl.execution.simulate.map_svg import (
     Track,
     number,
 )
-from swarmdsl.execution.simulate.run_map import ground_of
+from swarmdsl.execution.simulate.pictures.run_map import ground_of
 from swarmdsl.ir import Environment
 
 

@@ -7,15 +7,15 @@ from collections.abc import Mapping
 from typing import Any
 
 from swarmdsl.execution.monitor import Property, Verdict
-from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.simulate.measure_lines import MeasureLines, tell_results
-from swarmdsl.execution.simulate.measures import fitness_of
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.replay import Replayed
-from swarmdsl.execution.simulate.space import ABSTRACT
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line
-from swarmdsl.execution.simulate.verdicts import Recording
+from swarmdsl.execution.simulate.evaluation.measures import fitness_of
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.evaluation.verdicts import Recording
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.recording.measure_lines import MeasureLines, tell_results
+from swarmdsl.execution.simulate.replay.replay import Replayed
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
+from swarmdsl.execution.simulate.scenario.space import ABSTRACT
+from swarmdsl.execution.simulate.world.trace import Line
 
 
 class Judge:

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
-from swarmdsl.execution.simulate.json_numbers import named_numbers
-from swarmdsl.execution.simulate.trace_line import is_beside_steps, read_line
+from swarmdsl.execution.simulate.machines.json_numbers import named_numbers
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND, format_duration
+from swarmdsl.execution.simulate.world.trace_line import is_beside_steps, read_line
 from swarmdsl.tools.player.model import Model
 from swarmdsl.tools.player.record import member_of, named, note_of
 from swarmdsl.tools.player.recording import Machine, Step

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from swarmdsl.execution.engine import Machine as Table
-from swarmdsl.execution.simulate.state_colours import state_colours
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.pictures.state_colours import state_colours
 from swarmdsl.ir import StateMachine
 from swarmdsl.tools.player.machine_pictures import machine_picture
 from swarmdsl.tools.player.recording import Machine, Step

@@ -10,12 +10,12 @@ from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 from swarmdsl.base.numerals import integer
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.simulate.prepare import Prepared
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace_line import is_beside_steps
-from swarmdsl.execution.simulate.world import World
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.run.prepare import Prepared
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
+from swarmdsl.execution.simulate.world.trace_line import is_beside_steps
+from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.tools.player.engine_world import written_world
 from swarmdsl.tools.player.follow_model import follow
 from swarmdsl.tools.player.model import Model

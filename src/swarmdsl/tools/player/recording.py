@@ -7,8 +7,8 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.simulate.state_colours import nth_colour
+from swarmdsl.execution.simulate.pictures.state_colours import nth_colour
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
 
 Step = Mapping[str, Any]
 """Values of a line of a trace; `t` is in milliseconds since the beginning of the recording."""

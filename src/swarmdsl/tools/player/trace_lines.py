@@ -7,8 +7,8 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
-from swarmdsl.execution.simulate.durations import MILLISECOND, format_duration
-from swarmdsl.execution.simulate.trace_records import Record, read_records
+from swarmdsl.execution.simulate.replay.trace_records import Record, read_records
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND, format_duration
 from swarmdsl.tools.player.trace_values import fitting
 
 _SOON = 5 * MILLISECOND

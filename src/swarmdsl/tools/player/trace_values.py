@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from swarmdsl.execution.simulate.trace_line import is_beside_steps
+from swarmdsl.execution.simulate.world.trace_line import is_beside_steps
 
 _AXES = (2, 3)
 _FAR = 1e9

@@ -7,10 +7,10 @@ from typing import Any
 
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
-from swarmdsl.execution.simulate.map_svg import Place
-from swarmdsl.execution.simulate.measures import fitness_of, inputs_of
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.measures import fitness_of, inputs_of
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.pictures.map_svg import Place
 from swarmdsl.syntax.parser.keywords import RESERVED
 from swarmdsl.syntax.types import DURATION
 from swarmdsl.tools.player.counted_elements import coverage_of

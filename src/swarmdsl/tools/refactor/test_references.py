@@ -17,9 +17,9 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.rewriting import Change
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config.toml import parse_toml
-from swarmdsl.execution.simulate.scenario_file import read_scenario
-from swarmdsl.execution.simulate.scenario_keys import TABLES
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.inputs.scenario_file import read_scenario
+from swarmdsl.execution.simulate.inputs.scenario_keys import TABLES
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.testing.discovery import SUFFIX
 from swarmdsl.execution.testing.models import Model, Models
 from swarmdsl.execution.testing.reading import read_tests

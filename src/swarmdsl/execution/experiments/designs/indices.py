@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 from swarmdsl.execution.estimation.intervals import Interval
 from swarmdsl.execution.experiments.designs.sobol import MOST_DIMENSIONS, sobol_sequence
-from swarmdsl.execution.simulate.random_source import RandomSource
+from swarmdsl.execution.simulate.scenario.random_source import RandomSource
 
 MOST_FACTORS = MOST_DIMENSIONS // 2
 _RESAMPLES = 200

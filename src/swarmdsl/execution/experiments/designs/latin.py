@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.execution.simulate.random_source import RandomSource
+from swarmdsl.execution.simulate.scenario.random_source import RandomSource
 
 Shares = tuple[float, ...]
 

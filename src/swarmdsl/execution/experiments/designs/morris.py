@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from swarmdsl.execution.estimation.sample import summarize
-from swarmdsl.execution.simulate.random_source import RandomSource
+from swarmdsl.execution.simulate.scenario.random_source import RandomSource
 
 _LEVELS = 4
 _JUMP = _LEVELS // 2

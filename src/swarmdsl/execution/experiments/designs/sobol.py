@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.execution.simulate.random_source import RandomSource
+from swarmdsl.execution.simulate.scenario.random_source import RandomSource
 
 _BITS = 32
 # Degree and inner coefficients of the primitive polynomial, and the initial numbers, of the second

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from swarmdsl.execution.estimation.intervals import Interval
 from swarmdsl.execution.experiments.report.canvas import Canvas, short, ticks
-from swarmdsl.execution.simulate.histogram import bars
+from swarmdsl.execution.simulate.many_runs.histogram import bars
 
 _LEFT, _RIGHT, _TOP, _BOTTOM = 62, 16, 24, 34
 

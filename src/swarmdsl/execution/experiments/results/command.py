@@ -34,7 +34,7 @@ from swarmdsl.execution.experiments.results.records import (
 )
 from swarmdsl.execution.experiments.study.tables import interval, number, verdict
 from swarmdsl.execution.monitor import FALSE, TRUE
-from swarmdsl.execution.simulate.summary import format_table
+from swarmdsl.execution.simulate.evaluation.summary import format_table
 
 Tell = Callable[[Diagnostics], None]
 PARQUET = ".parquet"

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from swarmdsl.execution.experiments.results.records import Record
-from swarmdsl.execution.simulate.durations import SECOND, duration
+from swarmdsl.execution.simulate.scenario.durations import SECOND, duration
 
 _FORM = re.compile(r"\s*(?P<name>.+?)\s*(?P<sign><=|>=|!=|==|=|<|>)\s*(?P<value>.*?)\s*")
 _SIGNS: dict[str, Callable[[Any, Any], bool]] = {

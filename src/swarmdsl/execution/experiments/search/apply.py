@@ -13,7 +13,7 @@ from swarmdsl.execution.experiments.failures import StoppedError
 from swarmdsl.execution.experiments.search.problem import Problem
 from swarmdsl.execution.experiments.settings import keys_of
 from swarmdsl.execution.experiments.task import Candidate
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 
 
 def apply_candidate_of(problem: Problem, candidate: Candidate, report: Diagnostics) -> None:

@@ -28,7 +28,7 @@ from swarmdsl.execution.experiments.search.page import worst_runs
 from swarmdsl.execution.experiments.search.problem import Problem, Request, problem_of
 from swarmdsl.execution.experiments.store import FILE, Store
 from swarmdsl.execution.experiments.task import canonical
-from swarmdsl.execution.simulate.durations import written_duration
+from swarmdsl.execution.simulate.scenario.durations import written_duration
 
 HISTORY, RESULTS, REPORT = "history.jsonl", "results.json", "report.html"
 Tell = Callable[[Diagnostics], None]

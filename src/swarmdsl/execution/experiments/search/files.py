@@ -13,7 +13,7 @@ from swarmdsl.codegen.exchange.search_space import behaviour_package, search_par
 from swarmdsl.execution.experiments.settings import merged
 from swarmdsl.execution.experiments.task import COUNT, Candidate
 from swarmdsl.execution.experiments.toml_text import toml_text
-from swarmdsl.execution.simulate.durations import SECOND, duration
+from swarmdsl.execution.simulate.scenario.durations import SECOND, duration
 from swarmdsl.ir import Optimization, System
 
 _PARAMETERS, _POINTS = "parameters", "front"

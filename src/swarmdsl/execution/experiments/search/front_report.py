@@ -27,7 +27,7 @@ from swarmdsl.execution.experiments.search.report import (
     number_text,
 )
 from swarmdsl.execution.experiments.task import settings_text
-from swarmdsl.execution.simulate.summary import format_table
+from swarmdsl.execution.simulate.evaluation.summary import format_table
 
 Rows = list[tuple[str, ...]]
 

@@ -9,7 +9,7 @@ from swarmdsl.execution.experiments.report.canvas import short
 from swarmdsl.execution.experiments.report.importance import Importance
 from swarmdsl.execution.experiments.search.space import Dimension, SearchSpace
 from swarmdsl.execution.experiments.task import Candidate
-from swarmdsl.execution.simulate.durations import SECOND, duration
+from swarmdsl.execution.simulate.scenario.durations import SECOND, duration
 
 _MOST_GROUPS = 8
 _MOST_ROUNDS = 100

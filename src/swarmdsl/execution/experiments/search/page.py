@@ -23,7 +23,7 @@ from swarmdsl.execution.experiments.settings import merged
 from swarmdsl.execution.experiments.study.tables import number, verdict
 from swarmdsl.execution.experiments.task import Candidate, settings_text
 from swarmdsl.execution.experiments.toml_text import toml_text
-from swarmdsl.execution.simulate.durations import SECOND, duration
+from swarmdsl.execution.simulate.scenario.durations import SECOND, duration
 
 _MOST_WORST = 3
 Line = Mapping[str, Any]

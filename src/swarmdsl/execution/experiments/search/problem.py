@@ -25,7 +25,7 @@ from swarmdsl.execution.experiments.search.space import SearchSpace, report_narr
 from swarmdsl.execution.experiments.settings import apply_candidate
 from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
 from swarmdsl.execution.experiments.task import NO_SCENARIO
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.ir import Fitness, Optimization, System
 
 

@@ -12,7 +12,7 @@ from swarmdsl.execution.experiments.search.evaluation import Evaluation
 from swarmdsl.execution.experiments.search.importance import importances
 from swarmdsl.execution.experiments.search.optimizing import Found, Observed, Plan
 from swarmdsl.execution.experiments.task import Candidate, settings_text
-from swarmdsl.execution.simulate.summary import format_table
+from swarmdsl.execution.simulate.evaluation.summary import format_table
 
 _SHOWN = 5
 """Candidates of the race that are shown."""

@@ -17,7 +17,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.exchange.search_space import number
 from swarmdsl.codegen.shared.constants import constant
 from swarmdsl.execution.experiments.task import COUNT, Candidate
-from swarmdsl.execution.simulate.durations import SECOND, written_duration
+from swarmdsl.execution.simulate.scenario.durations import SECOND, written_duration
 from swarmdsl.ir import CountRange, Expression, Optimization, ParamRange, Primitive, Role, System
 from swarmdsl.syntax.types import DURATION, INTEGERS
 

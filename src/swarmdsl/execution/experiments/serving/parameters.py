@@ -9,7 +9,7 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import suggest
 from swarmdsl.execution.experiments.serving.messages import Parameter
 from swarmdsl.execution.experiments.task import COUNT, Candidate, Value
-from swarmdsl.execution.simulate.durations import SECOND, written_duration
+from swarmdsl.execution.simulate.scenario.durations import SECOND, written_duration
 from swarmdsl.ir import Primitive, Swarm, System, Type
 from swarmdsl.syntax.types import DURATION, INTEGERS
 

@@ -28,8 +28,8 @@ from swarmdsl.execution.experiments.study.study_file import read_study
 from swarmdsl.execution.experiments.study.tables import answers, conditions, grids
 from swarmdsl.execution.experiments.study.worst import Played, worst_of
 from swarmdsl.execution.experiments.task import SCENARIO, Row, Task
-from swarmdsl.execution.simulate.prepare import Request as Simulation
-from swarmdsl.execution.simulate.summary import format_table
+from swarmdsl.execution.simulate.evaluation.summary import format_table
+from swarmdsl.execution.simulate.run.prepare import Request as Simulation
 
 Tell = Callable[[Diagnostics], None]
 Play = Callable[[Sequence[tuple[Simulation, Path]], Diagnostics], Iterator[Path]]

@@ -12,9 +12,9 @@ from swarmdsl.driver.config.toml import Document, Keys
 from swarmdsl.execution.experiments.designs.factors import Factor, Value
 from swarmdsl.execution.experiments.study.plan import Kind, Varied
 from swarmdsl.execution.experiments.task import COUNT, SCENARIO
-from swarmdsl.execution.simulate.durations import SECOND, duration
-from swarmdsl.execution.simulate.scenario_table import Table
-from swarmdsl.execution.simulate.values import kind
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
+from swarmdsl.execution.simulate.inputs.values import kind
+from swarmdsl.execution.simulate.scenario.durations import SECOND, duration
 
 MOST_LEVELS = 1000
 _RANGE = ("from", "to", "step")

@@ -19,10 +19,10 @@ from swarmdsl.execution.experiments.settings import EMPTY, apply_candidate
 from swarmdsl.execution.experiments.shipment import Conditions, Shipment, pack
 from swarmdsl.execution.experiments.study.plan import Study, Varied
 from swarmdsl.execution.experiments.task import NO_SCENARIO, SCENARIO, Candidate, Task
-from swarmdsl.execution.simulate.choose_space import choose_space
-from swarmdsl.execution.simulate.measures import fitness_of
-from swarmdsl.execution.simulate.prepare import Prepared
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.measures import fitness_of
+from swarmdsl.execution.simulate.inputs.choose_space import choose_space
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.run.prepare import Prepared
 from swarmdsl.project.read_source import read_source
 
 OpenModel = Callable[[str, Path, Diagnostics], Path | None]

@@ -15,7 +15,7 @@ from swarmdsl.execution.experiments.designs.indices import saltelli_points
 from swarmdsl.execution.experiments.designs.latin import latin_hypercube
 from swarmdsl.execution.experiments.designs.morris import trajectories
 from swarmdsl.execution.experiments.designs.sobol import sobol_sequence
-from swarmdsl.execution.simulate.durations import SECOND, format_duration, written_duration
+from swarmdsl.execution.simulate.scenario.durations import SECOND, format_duration, written_duration
 
 Design = Literal["full", "latin", "sobol", "morris", "indices"]
 DESIGNS: dict[Design, str] = {

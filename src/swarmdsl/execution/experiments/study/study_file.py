@@ -15,8 +15,8 @@ from swarmdsl.execution.experiments.designs.indices import MOST_FACTORS
 from swarmdsl.execution.experiments.designs.sobol import MOST_DIMENSIONS
 from swarmdsl.execution.experiments.study.factor_file import read_factors
 from swarmdsl.execution.experiments.study.plan import DESIGNS, Design, Study, Varied
-from swarmdsl.execution.simulate.choose_space import KINDS
-from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.inputs.choose_space import KINDS
+from swarmdsl.execution.simulate.inputs.scenario_table import Table
 from swarmdsl.project.read_source import read_source
 
 KEYS = (

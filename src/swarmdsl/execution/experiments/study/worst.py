@@ -15,8 +15,8 @@ from swarmdsl.execution.experiments.study.analysis import Analysis, Result
 from swarmdsl.execution.experiments.study.models import Setting
 from swarmdsl.execution.experiments.task import Row
 from swarmdsl.execution.experiments.toml_text import toml_text
-from swarmdsl.execution.simulate.durations import written_duration
-from swarmdsl.execution.simulate.prepare import Request
+from swarmdsl.execution.simulate.run.prepare import Request
+from swarmdsl.execution.simulate.scenario.durations import written_duration
 
 _WORST, _BEST = "worst run of the best point", "best run of the best point"
 _MOST = 3

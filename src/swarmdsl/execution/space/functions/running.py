@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swarmdsl.execution.simulate.space import ModelError
+from swarmdsl.execution.simulate.scenario.space import ModelError
 from swarmdsl.execution.space.arrays import Flags, Part, Rows
 from swarmdsl.execution.space.functions.base import ABORTED, RUNNING, Finding, Model
 

@@ -8,7 +8,7 @@ from typing import Any
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.engine import Event
-from swarmdsl.execution.simulate.members import DEPARTED
+from swarmdsl.execution.simulate.network.members import DEPARTED
 from swarmdsl.execution.verify.abstraction.demands import Demands
 
 

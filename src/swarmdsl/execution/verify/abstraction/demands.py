@@ -16,7 +16,7 @@ from swarmdsl.codegen.shared.default_values import (
     field_type,
     result_fields,
 )
-from swarmdsl.execution.simulate.members import DEPARTED, JOINED
+from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED
 from swarmdsl.execution.verify.abstraction.doubt import Doubt
 from swarmdsl.execution.verify.abstraction.places import Node
 from swarmdsl.execution.verify.abstraction.representatives import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl import ir
-from swarmdsl.execution.simulate.expressions import ATTEMPT, ONE_OF
+from swarmdsl.execution.simulate.machines.expressions import ATTEMPT, ONE_OF
 from swarmdsl.execution.verify.abstraction.representatives import Path
 
 Node = tuple[str, str, Path]

@@ -15,7 +15,7 @@ from swarmdsl.codegen.shared.default_values import (
     sent_types,
 )
 from swarmdsl.execution.engine import ExecutionError
-from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.simulate.machines.expressions import function_of
 from swarmdsl.execution.verify.abstraction.places import (
     Node,
     behind,

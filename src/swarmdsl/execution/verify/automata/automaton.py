@@ -10,9 +10,9 @@ from typing import Any, TypeVar
 
 from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.members import DEPARTED
-from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.network.members import DEPARTED
+from swarmdsl.execution.simulate.scenario.clock import Clock
+from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet
 from swarmdsl.execution.verify.automata.labels import Look, Move, Slot
 from swarmdsl.execution.verify.automata.observations import moments_of

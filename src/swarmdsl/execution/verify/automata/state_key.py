@@ -6,7 +6,7 @@ from typing import Any
 
 from swarmdsl.execution.engine import NO_ENVELOPE, Event
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.expressions import SELF
+from swarmdsl.execution.simulate.machines.expressions import SELF
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet, frozen
 from swarmdsl.execution.verify.robot.body import Body
 

@@ -9,8 +9,8 @@ from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.shared.identity import neighbor_uses
-from swarmdsl.execution.simulate.properties import watchable
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.composition.plain_data import Composition, Letter, Local, Team, Turn

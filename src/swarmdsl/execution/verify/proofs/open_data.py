@@ -10,9 +10,9 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.codegen.shared.default_values import field_type, sent_types
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.expressions import ATTEMPT, ONE_OF
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.expressions import ATTEMPT, ONE_OF
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.verify.abstraction.places import Node, behind, places_in
 from swarmdsl.execution.verify.abstraction.slice import can_fail
 from swarmdsl.execution.verify.swarm.machines import conditions, facts_by_role

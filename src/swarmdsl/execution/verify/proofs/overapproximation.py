@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.verify.abstraction.places import Node
 from swarmdsl.execution.verify.automata.limits import Budget
 from swarmdsl.execution.verify.proofs.open_data import is_about, loosened

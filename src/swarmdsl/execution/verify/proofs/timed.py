@@ -10,9 +10,9 @@ from math import ceil, gcd
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.durations import SECOND, format_duration
-from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.expressions import function_of
+from swarmdsl.execution.simulate.scenario.durations import SECOND, format_duration
 from swarmdsl.execution.verify.abstraction.doubt import Doubt
 from swarmdsl.execution.verify.abstraction.places import is_constant
 from swarmdsl.execution.verify.automata.automaton import Automaton

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swarmdsl import ir
 from swarmdsl.execution.monitor import Sentence
-from swarmdsl.execution.simulate.expressions import function_of
+from swarmdsl.execution.simulate.machines.expressions import function_of
 from swarmdsl.execution.verify.properties.monitor_table import MOST_CLAIMS, MonitorTable
 from swarmdsl.execution.verify.swarm.propositions import is_act
 from swarmdsl.ir.sentences import facts_in

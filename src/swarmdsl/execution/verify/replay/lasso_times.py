@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from swarmdsl.execution.simulate.durations import MILLISECOND
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
 from swarmdsl.execution.verify.replay.times import GAPS
 
 _MOST_LENGTHS = 100

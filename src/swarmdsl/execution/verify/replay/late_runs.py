@@ -11,9 +11,9 @@ from itertools import islice
 
 from swarmdsl.base.records import replace
 from swarmdsl.execution.monitor import FALSE
-from swarmdsl.execution.simulate.durations import MILLISECOND
-from swarmdsl.execution.simulate.properties import plan
-from swarmdsl.execution.simulate.properties import watch as watched
+from swarmdsl.execution.simulate.evaluation.properties import plan
+from swarmdsl.execution.simulate.evaluation.properties import watch as watched
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
 from swarmdsl.execution.verify.properties.timed_observer import LATE
 from swarmdsl.execution.verify.replay.play import Play
 from swarmdsl.execution.verify.replay.spurious import exceeding

@@ -11,12 +11,12 @@ from typing import Any
 
 from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.monitor import FALSE, LOST, Watch
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.members import DEPARTED
-from swarmdsl.execution.simulate.properties import plan
-from swarmdsl.execution.simulate.properties import watch as watched
-from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.evaluation.properties import plan
+from swarmdsl.execution.simulate.evaluation.properties import watch as watched
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.network.members import DEPARTED
+from swarmdsl.execution.simulate.scenario.clock import Clock
+from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet, Message
 from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.replay.absences import absences

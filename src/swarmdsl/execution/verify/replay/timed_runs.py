@@ -8,8 +8,8 @@ from itertools import accumulate
 
 from swarmdsl.base.records import replace
 from swarmdsl.execution.monitor import FALSE, Watch
-from swarmdsl.execution.simulate.properties import plan
-from swarmdsl.execution.simulate.properties import watch as watched
+from swarmdsl.execution.simulate.evaluation.properties import plan
+from swarmdsl.execution.simulate.evaluation.properties import watch as watched
 from swarmdsl.execution.verify.automata.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.replay.play import Play
 from swarmdsl.execution.verify.replay.spurious import exceeding

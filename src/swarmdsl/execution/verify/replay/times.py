@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
-from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.scenario.durations import MILLISECOND, SECOND
 from swarmdsl.execution.verify.robot.timing import Bounds
 
 _MOST_ROUNDS = 50

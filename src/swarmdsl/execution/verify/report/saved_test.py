@@ -17,11 +17,11 @@ from swarmdsl.base.naming import fresh
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.shared.default_values import default_result, default_value
-from swarmdsl.execution.simulate.choose_space import has_geometry
-from swarmdsl.execution.simulate.durations import MICROSECOND, SECOND
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject
-from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.inputs.choose_space import has_geometry
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.scenario.durations import MICROSECOND, SECOND
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.proofs.verdict import Verdict
 from swarmdsl.execution.verify.report.toml_text import step_text, time_text, toml_text

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from swarmdsl.execution.simulate.durations import MICROSECOND, MILLISECOND, SECOND
+from swarmdsl.execution.simulate.scenario.durations import MICROSECOND, MILLISECOND, SECOND
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 

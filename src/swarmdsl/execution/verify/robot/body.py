@@ -20,12 +20,12 @@ from swarmdsl.execution.engine import (
     Servers,
 )
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.clock import Clock
-from swarmdsl.execution.simulate.expressions import PRESENT
-from swarmdsl.execution.simulate.headers import signed
-from swarmdsl.execution.simulate.members import DEPARTED, JOINED, Roster
-from swarmdsl.execution.simulate.trace import Line, Trace
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.expressions import PRESENT
+from swarmdsl.execution.simulate.machines.headers import signed
+from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED, Roster
+from swarmdsl.execution.simulate.scenario.clock import Clock
+from swarmdsl.execution.simulate.world.trace import Line, Trace
 from swarmdsl.execution.verify.robot.choices import Nearness
 from swarmdsl.execution.verify.robot.membership import Crew
 from swarmdsl.execution.verify.robot.tasks import Absence, Delay, Input, Task, Wait

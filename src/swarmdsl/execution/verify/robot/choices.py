@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from swarmdsl.execution.simulate.expressions import CHOICE, NEIGHBORS
+from swarmdsl.execution.simulate.machines.expressions import CHOICE, NEIGHBORS
 
 _MOST_FREE = 8
 """Maximum number of free choices in a step that are followed."""

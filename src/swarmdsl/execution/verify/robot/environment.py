@@ -10,8 +10,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.base.suggest import suggest
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.scenario import (
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.scenario.scenario import (
     EVERY_FUNCTION,
     Fault,
     Message,

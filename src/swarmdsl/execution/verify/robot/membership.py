@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.members import following
-from swarmdsl.execution.simulate.scenario import Robot
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.network.members import following
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.execution.verify.robot.environment import Environment
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.execution.engine import Event
-from swarmdsl.execution.simulate.members import DEPARTED, JOINED
+from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet
 from swarmdsl.execution.verify.robot.body import Body
 from swarmdsl.execution.verify.robot.robot_kind import Kind

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.engine import Event
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.members import DEPARTED
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.network.members import DEPARTED
 from swarmdsl.execution.verify.robot.body import Body
 from swarmdsl.execution.verify.robot.environment import Arrivals, Ends
 from swarmdsl.execution.verify.robot.membership import Crew

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.verify.abstraction.demands import Demands
 from swarmdsl.execution.verify.robot.environment import Environment, Options
 

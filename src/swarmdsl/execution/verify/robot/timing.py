@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Robot, Scenario
+from swarmdsl.execution.simulate.scenario.scenario import EVERY_FUNCTION, Robot, Scenario
 
 Bounds = tuple[int, int | None]
 """The least and the greatest time; None is no limit."""

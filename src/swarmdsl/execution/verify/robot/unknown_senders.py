@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from swarmdsl import ir
 from swarmdsl.execution.engine import Envelope, Event
-from swarmdsl.execution.simulate.members import DEPARTED
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.network.members import DEPARTED
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.execution.verify.abstraction.demands import Demands
 from swarmdsl.execution.verify.abstraction.doubt import Doubt
 from swarmdsl.execution.verify.robot.environment import Environment

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.verify.automata.clock_classes import ClockClasses
 from swarmdsl.execution.verify.automata.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.automata.labels import Move

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl import ir
-from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.verify.swarm.propositions import facts_of, meaning, roles_of
 
 FactsByRole = Mapping[str, Sequence[ir.Fact | ir.Count]]

@@ -9,10 +9,10 @@ from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
 from swarmdsl.execution.engine import Event
-from swarmdsl.execution.simulate.actors import Actor, actors
-from swarmdsl.execution.simulate.members import DEPARTED, JOINED
-from swarmdsl.execution.simulate.scenario import Scenario
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.actors import Actor, actors
+from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED
+from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet
 from swarmdsl.execution.verify.abstraction.demands import Demands
 from swarmdsl.execution.verify.abstraction.doubt import Doubt

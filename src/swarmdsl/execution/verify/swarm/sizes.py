@@ -11,7 +11,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.numerals import integer
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.base.suggest import suggest
-from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.machines.subject import Subject
 
 _WRITTEN = re.compile(r"([^=]+)=([0-9]{1,5})(?:\.\.([0-9]{1,5}))?")
 

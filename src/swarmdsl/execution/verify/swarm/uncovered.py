@@ -7,8 +7,8 @@ from itertools import islice
 
 from swarmdsl import ir
 from swarmdsl.codegen.shared.identity import member_uses, neighbor_uses
-from swarmdsl.execution.simulate.actors import Actor
-from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.execution.verify.abstraction.doubt import Doubt
 from swarmdsl.execution.verify.robot.environment import Options
 
