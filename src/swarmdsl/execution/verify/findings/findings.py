@@ -271,7 +271,9 @@ class _Part:
                     heard.add(move.given.name)
                     if not move.idle:
                         handled.add(move.given.name)
-        for name in sorted({messages[m].event.name for m in self._sent} & heard - handled):
+        sent = {messages[m].event.name for m in self._sent}
+        astray = self._astray()
+        for name in sorted(sent & heard - handled | astray.keys() - heard):
             sends = self._model.sends(self._model.machines)
             place = next((send.origin for send in sends if send.event == name), None)
             first = next(
@@ -285,11 +287,27 @@ class _Part:
                 None,
             )
             run = self._run(*first) if first is not None else None
-            found = Finding("lost", name, "", place)
+            found = Finding("lost", name, "", place, "" if name in heard else astray[name])
             if run is not None and run.flaw:
                 self.open[name] = (found, run.flaw)
             else:
                 yield replace(found, run=run)
+
+    def _astray(self) -> dict[str, str]:
+        """Return events with a role that gets them and does not handle them, though others do."""
+        kinds = [automaton.kind for automaton in self._model.kinds]
+        found: dict[str, str] = {}
+        reaching: set[str] = set()
+        for message in self._sent:
+            event = self._model.alphabet.messages[message].event
+            role = (event.envelope.to or "").partition("[")[0]
+            there = [kind for kind in kinds if kind.role == role]
+            if there and not any(kind.listens(event.name) for kind in there):
+                found[event.name] = f"`{role}`"
+            else:
+                reaching.add(event.name)
+        waited = {name for name in found if any(kind.listens(name) for kind in kinds)}
+        return {name: found[name] for name in sorted(waited - reaching)}
 
     # ---- runs and places
 

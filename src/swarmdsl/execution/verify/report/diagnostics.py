@@ -76,6 +76,7 @@ def open_finding(finding: Finding, flaw: str) -> str:
 def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
     """Report what is wrong with a swarm."""
     run = finding.run
+    astray = finding.fault == "lost" and finding.detail
     notes = (_head(run, size), *_lines(run)) if run is not None else (f"in {size}",)
     report.report(
         _CODES[finding.fault],
@@ -85,7 +86,8 @@ def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
         reason=finding.detail,
         related=tuple(_last_taken(run, finding.place)) if run is not None else (),
         notes=notes,
-        help=(hint(run) if run is not None and finding.fault == "stuck" else None)
+        help=(f"look at its address: {finding.detail} does not handle it" if astray else None)
+        or (hint(run) if run is not None and finding.fault == "stuck" else None)
         or _HELP.get(finding.fault),
     )
 
@@ -115,7 +117,15 @@ def _lines(run: Run) -> Iterator[str]:
         yield from _losses(run, len(run.lines))
         yield from _quiet_losses(run, len(run.lines))
         if run.loop == 0:
-            yield "nothing happens any more"
+            yield f"nothing happens{_to_whom(run)} any more"
+
+
+def _to_whom(run: Run) -> str:
+    """Name the robots of a run: others, of which these hear nothing, may go on."""
+    names = [name for name in dict.fromkeys(line.actor.robot.name for line in run.lines) if name]
+    if not names:
+        return ""
+    return f" to {listed(names, 'and') if len(names) <= 3 else 'these robots'}"
 
 
 def _quiet_losses(run: Run, number: int) -> Iterator[str]:
