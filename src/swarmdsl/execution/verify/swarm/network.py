@@ -18,8 +18,10 @@ from swarmdsl.ir import Heartbeat
 class Network:
     """Steps of a swarm, over packed states.
 
-    The number of robots at place `n` has `width` bits, from bit `base + n * width` on. The `base`
-    lowest bits are free for an observer.
+    The number of robots at place `n` has `width` bits, in the order of the places. The `base`
+    lowest bits are free for an observer. Between them is a sum of numbers, one for each robot by
+    its place: Python hashes an integer modulo 2**61 - 1, so that counters alone would have few
+    different hashes.
     """
 
     def __init__(
@@ -62,6 +64,8 @@ class Network:
         self._rotten: dict[int, list[Step]] = {}
         self.width = max(len(group.robots) for group in groups).bit_length()
         self.mask = (1 << self.width) - 1
+        self._counters = base + _SALT.bit_length() + sum(len(g.robots) for g in groups).bit_length()
+        """The first bit of the counters."""
         self.places: list[Place] = []
         self.ones: list[int] = []
         """A robot at each place, as a summand."""
@@ -103,7 +107,8 @@ class Network:
         if found is None:
             found = self._numbers[place] = len(self.places)
             self.places.append(place)
-            self.ones.append(1 << (self.base + found * self.width))
+            one = 1 << (self._counters + found * self.width)
+            self.ones.append(one + (pow(_ROOT, found, _SALT) << self.base))
             self.steps.append(None)
             self.plain.append([])
             self.casts.append([])
@@ -114,7 +119,7 @@ class Network:
     def present(self, state: int) -> list[tuple[int, int]]:
         """Return the places that are not empty, each with its number of robots."""
         width, mask = self.width, self.mask
-        state >>= self.base
+        state >>= self._counters
         found = []
         if len(self.places) <= _FEW:
             for place in range(len(self.places)):
@@ -317,5 +322,7 @@ class Network:
         return tuple(sorted((*bag, message)))
 
 
+_SALT, _ROOT = 16_777_213, 5
+"""A prime, and a number whose powers modulo the prime have different sums."""
 _FEW = 40
 """Number of places up to which looking at all of them is the fastest."""
