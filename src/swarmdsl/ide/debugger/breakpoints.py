@@ -17,7 +17,6 @@ from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.ide.debugger.expressions import Evaluate, Expressions
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required
 from swarmdsl.ide.debugger.points import Element
-from swarmdsl.ide.server.positions import position
 from swarmdsl.project.read_source import read_source
 from swarmdsl.syntax.types import BOOL
 
@@ -36,10 +35,7 @@ _BRACES = re.compile(r"\{([^{}]*)\}")
 
 @dataclass(frozen=True)
 class Place:
-    """Place of a state or a transition; the path is the real one, lines and columns count from 1.
-
-    Columns are units of UTF-16, as clients count them.
-    """
+    """Place of a state or a transition; the path is the real one, lines count from 1."""
 
     path: str
     line: int
@@ -51,7 +47,6 @@ class Places:
 
     def __init__(self, subject: Subject, machines: Iterable[Machine]) -> None:
         self._of: dict[int, Place] = {}
-        self._starts: set[Place] = set()
         self._texts: dict[str, str] = {}
         self._owners: dict[tuple[str, int], set[tuple[str, str]]] = {}
         for machine in machines:
@@ -63,9 +58,7 @@ class Places:
                         continue
                     at = span.absolute
                     path = os.path.realpath(at.source.path or "")
-                    line, column = position(at.source, at.start)
-                    place = Place(path, line + 1, column + 1)
-                    self._starts.add(place)
+                    place = Place(path, *at.source.line_column(at.start))
                     self._of[id(element.origin)] = place
                     self._texts[path] = at.source.text
                     owners = self._owners.setdefault((path, place.line), set())
@@ -74,10 +67,6 @@ class Places:
     def of(self, element: Element) -> Place | None:
         """Return the place of a state or transition."""
         return self._of.get(id(element.origin))
-
-    def begins(self, path: str, line: int, column: int) -> bool:
-        """Return True if a state or transition begins at a place."""
-        return Place(path, line, column) in self._starts
 
     def has_changed(self, path: str) -> bool:
         """Return True if a file is not any more what runs."""
@@ -99,13 +88,11 @@ class Places:
 class Breakpoint:
     """Breakpoint at a place, with conditions on when it counts.
 
-    Without a column, it is on all that begins on the line. With a `message` it does not stop, but
-    tells the message.
+    With a `message` it does not stop, but tells the message.
     """
 
-    def __init__(self, line: int, column: int | None, asked: Arguments) -> None:
+    def __init__(self, line: int, asked: Arguments) -> None:
         self.line = line
-        self.column = column
         self.condition = optional(asked, "condition", str) or ""
         self.message = optional(asked, "logMessage", str) or ""
         self._hits = 0
@@ -188,9 +175,7 @@ class Breakpoints:
         line = next(iter(self._places.lines(path, required(asked, "line", int))), None)
         if line is None:
             raise RequestError("no state or transition of a machine that runs is here or below")
-        column = optional(asked, "column", int)
-        is_exact = column is not None and self._places.begins(path, line, column)
-        made = Breakpoint(line, column if is_exact else None, asked)
+        made = Breakpoint(line, asked)
         if made.condition:
             type_ = self._type(made.condition, path, line)
             if type_ not in (BOOL, None):
@@ -218,8 +203,4 @@ class Breakpoints:
         """Return those at a state or transition."""
         place = self._places.of(element) if self._of else None
         found = self._of.get(place.path, ()) if place is not None else ()
-        return [
-            each
-            for each in found
-            if place is not None and each.line == place.line and each.column in (None, place.column)
-        ]
+        return [each for each in found if place is not None and each.line == place.line]

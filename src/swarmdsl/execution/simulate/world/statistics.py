@@ -98,6 +98,10 @@ class Life(Observer):
         if self._count > _LIMIT:
             raise LoopError(self.actor.machine.name, self.instance.configuration.innermost)
 
+    def count_anew(self) -> None:
+        """Forget how many events have come at this point in time."""
+        self._busy = -1
+
     def close(self) -> None:
         """Add the time in the states that are still active; do it once, at the end."""
         now = self._clock.now

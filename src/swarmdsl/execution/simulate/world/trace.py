@@ -134,6 +134,11 @@ class Trace(Observer):
         """True if there are listeners."""
         return bool(self._listeners)
 
+    def count_anew(self) -> None:
+        """Forget how many events have come at this point in time."""
+        for life in self.lives.values():
+            life.count_anew()
+
     def begin(
         self,
         instance: InstanceLike,

@@ -10,10 +10,11 @@ from typing import Any, TypeVar
 
 from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.monitor import LOST
-from swarmdsl.execution.simulate.network.members import DEPARTED
+from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED
 from swarmdsl.execution.simulate.scenario.clock import Clock
 from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet
+from swarmdsl.execution.verify.automata.bodies import Bodies, is_unchanged, take_back
 from swarmdsl.execution.verify.automata.labels import Look, Move, Slot
 from swarmdsl.execution.verify.automata.observations import moments_of
 from swarmdsl.execution.verify.automata.slots import Occupied, carried, occupied
@@ -52,7 +53,7 @@ class Automaton:
         self.first: Move
         self._key = StateKey(alphabet)
         self._keys: dict[Any, int] = {}
-        self._origins: list[tuple[int, Input] | None] = []
+        self.bodies = Bodies(self._body_at_rest, self.apply)
         self.looks: list[Look] = []
         self.tasks: list[frozenset[Task]] = []
         """Tasks of each state: what is over some time, however long it takes."""
@@ -74,19 +75,17 @@ class Automaton:
     def expand(self, number: int) -> None:
         """Find the moves of a state, without those that other robots cause."""
         body = self._at(number)
+        inputs = [*body.inputs(), *self._presence.guesses(body)]
+        if body.running:
+            inputs += self._arriving(body)
+        is_missed = self.kind.can_be_lost and not body.is_lost and self._shows_loss(body)
+        self.bodies.keep_unchanged(number, body)
         made = []
-        for each in (*body.inputs(), *self._presence.guesses(body)):
+        for each in inputs:
             for choice in self.kind.choices(each):
                 made += self._tries(number, choice)
-        if body.running:
-            for event, messages in self.kind.outside.messages.items():
-                once = self.kind.outside.once.get(event, frozenset())
-                for index in range(len(messages)):
-                    if index in once and (event, index) in body.used:
-                        continue
-                    made += self._tries(number, Input("outside", -1, event, index))
         self.steps[number] = made
-        if self.kind.can_be_lost and not self.is_lost[number] and self._shows_loss(body):
+        if is_missed:
             (self.losses[number],) = self._tries(number, Input("lose", -1, LOST))
 
     def hear(self, number: int, message: int) -> None:
@@ -157,6 +156,14 @@ class Automaton:
             for steps, heard, late in zip(self.steps, self.heard, self.late, strict=True)
         )
 
+    def _arriving(self, body: Body) -> Iterator[Input]:
+        """Yield the events from outside that may still come."""
+        for event, messages in self.kind.outside.messages.items():
+            once = self.kind.outside.once.get(event, frozenset())
+            for index in range(len(messages)):
+                if index not in once or (event, index) not in body.used:
+                    yield Input("outside", -1, event, index)
+
     # ---- running
 
     def apply(self, body: Body, given: Input, event: Event | None = None) -> None:
@@ -207,25 +214,10 @@ class Automaton:
         envelope = Envelope(event.envelope.sender, 0, event.envelope.to)
         return Event(event.name, event.data, envelope=envelope)
 
-    def _path(self, number: int) -> list[Input]:
-        path: list[Input] = []
-        origin = self._origins[number]
-        while origin is not None:
-            number, given = origin
-            path.append(given)
-            origin = self._origins[number]
-        return path[::-1]
-
     def _at(self, number: int) -> Body:
-        """Return a body in a state, by playing the way there."""
+        """Return a body in a state."""
         self.replays += 1
-        body = self._body_at_rest()
-        body.start()
-        for given in self._path(number):
-            body.clock.now += 1
-            self.apply(body, given)
-        body.clock.now += 1
-        return body
+        return self.bodies.at(number)
 
     def _body_at_rest(self) -> Body:
         kind = self.kind
@@ -269,10 +261,21 @@ class Automaton:
         todo: deque[tuple[int, ...]] = deque([()])
         while todo:
             body = self._at(number)
+            known = len(self.steps)
             yield act(body, given._replace(near=todo.popleft()))
             todo += body.near.others()
             self.asks_who_is_near |= body.near.is_asked
             self.is_too_large |= body.near.has_too_many
+            if known < len(self.steps):
+                self.bodies.keep_new(known, body)
+            elif self._changes_nothing(given, body):
+                take_back(body)
+                self.bodies.keep_unchanged(number, body)
+
+    def _changes_nothing(self, given: Input, body: Body) -> bool:
+        """Return True if a body is as before an input."""
+        is_event = given.kind in ("hear", "outside") and given.name not in (JOINED, DEPARTED)
+        return is_event and not self.kind.outside.once.get(given.name) and is_unchanged(body)
 
     def _move(
         self,
@@ -327,7 +330,7 @@ class Automaton:
             self.deferred.append(
                 {each.name for one in body.instances for each in one._deferred or ()}
             )
-            self._origins.append(origin)
+            self.bodies.add(origin)
             shown = [
                 (number, state)
                 for number, instance in enumerate(() if body.is_lost else body.instances)

@@ -38,4 +38,6 @@ def close(
                         automaton.hear(number, message)
                         changed = True
                 number += 1
+    for automaton in automata:
+        automaton.bodies.clear()
     return complete

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from copy import deepcopy
 from functools import partial
 from typing import Any
 
@@ -21,6 +20,7 @@ from swarmdsl.execution.engine import (
 )
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.machines.copying import copied
 from swarmdsl.execution.simulate.machines.expressions import PRESENT
 from swarmdsl.execution.simulate.machines.headers import signed
 from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED, Roster
@@ -60,7 +60,7 @@ class Body:
         """All calls and inner events."""
         self.steps = 0
         self._system = system
-        self._trace = Trace(clock, [self._see])
+        self.trace = Trace(clock, [self._see])
         self.used: set[tuple[str, int]] = set()
         """Events from outside that have come, of those that come once."""
         self.is_lost = False
@@ -89,7 +89,7 @@ class Body:
     def start(self) -> None:
         """Start all machines."""
         for instance in self.instances:
-            self._trace.begin(instance, None)
+            self.trace.begin(instance, None)
             self._guarded(instance.start)
         self._forget_ended()
 
@@ -177,9 +177,9 @@ class Body:
         self._begin()
         for instance in self.instances:
             if instance.running:
-                self._trace.begin(instance, LOST)
+                self.trace.begin(instance, LOST)
                 instance.running = False
-                self._trace.flush()
+                self.trace.flush()
         for delay in self.delays:
             delay.ended = self.steps
         for wait in self.waits:
@@ -215,11 +215,11 @@ class Body:
         servers = Servers()
         made = []
         for number, actor in enumerate(self.cast):
-            data = {**deepcopy(actor.data), **self.near.functions}
+            data = {**copied(actor.data), **self.near.functions}
             if self.roster is not None:
                 data[PRESENT] = self.roster.count
             made.append(Instance(actor.machine, _Desk(self, number), data=data, servers=servers))
-            self._trace.watch(made[-1], actor)
+            self.trace.watch(made[-1], actor)
         return made
 
     def _see(self, line: Line) -> None:
@@ -241,7 +241,7 @@ class Body:
         for instance, actor in zip(self.instances, self.cast, strict=True):
             observes = is_about_member and self.crew is not None and self.crew.observes(actor)
             if instance.running and (observes or actor.listens(event.name)):
-                self._trace.begin(instance, event.name, event.data, event.envelope)
+                self.trace.begin(instance, event.name, event.data, event.envelope)
                 self._guarded(partial(instance.receive, event))
         self._forget_ended()
 
@@ -251,7 +251,7 @@ class Body:
             action()
         except LoopError as error:
             self.loop = error
-        self._trace.flush()
+        self.trace.flush()
 
     def _over(self, task: object, *, fired: bool) -> None:
         wait = next(each for each in self.waits if each.task is task)
