@@ -367,6 +367,24 @@ def test_what_the_user_sends_counts_for_the_verdict(client: Client) -> None:
     assert verdict(client, "passed", 0)["outcome"] == "passed"
 
 
+def test_a_breakpoint_with_a_column_is_on_what_begins_there(client: Client, tmp_path: Path) -> None:
+    model = tmp_path / "one.swarm"
+    state = "  state B { on Tick -> C }"
+    model.write_text(
+        "package a\nevent Tick : std_msgs/Empty\nstatemachine M {\n  initial A\n"
+        f"  state A {{ after 1 s / send Tick -> B }}\n{state}\n  final C\n}}\n",
+        encoding="utf-8",
+    )
+    client.launch(machine="M", program=str(model), stopOnEntry=True)
+    client.stop()
+    for column, name in ((state.index("on") + 1, "on Tick -> C"), (4, "B")):
+        places = [{"line": 6, "column": column}]
+        client.request("setBreakpoints", source={"path": str(model)}, breakpoints=places)
+        assert client.go("continue")["frame"]["name"] == name
+        client.request("restart")
+        client.stop()
+
+
 def test_a_test_that_fails_stops_where_it_fails(client: Client) -> None:
     client.launch(test=f"{TESTS}::never ends")
     stopped = client.stop()

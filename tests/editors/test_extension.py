@@ -67,7 +67,7 @@ def test_manifest_names_all_files_of_the_extension() -> None:
 def test_commands_are_those_that_the_sources_register() -> None:
     sources = all_sources()
     registered = {f"swarmdsl.{name}" for name in re.findall(r'\bcommand\("(\w+)"', sources)}
-    for_the_server = {"swarmdsl.references"}
+    for_the_server = {"swarmdsl.references", "swarmdsl.rename"}
     offered = {each["command"] for each in MANIFEST["contributes"]["commands"]}
     assert offered | for_the_server == registered
     used = set(re.findall(r"executeCommand\(\s*\"(swarmdsl\.\w+)\"", sources))

@@ -52,12 +52,14 @@ def test_wishes_of_pages(model: Path) -> None:
         assert offers["scenarios"] == ["bad.toml", "three.toml"]
         for wish, why in (
             (3, "not an object"),
-            ({"run": 1}, "expected one of start, request, event, look, speed"),
+            ({"run": 1}, "expected one of start, request, event, look, speed, breakpoint"),
             ({"start": 3}, "the model has no None that runs"),
             ({"start": {"subject": "swarm Team", "scenario": "/etc/passwd"}}, "no scenario"),
             ({"request": "continue"}, "nothing is simulated"),
             ({"request": ["continue"]}, "there is no request"),
             ({"event": "Go"}, "nothing is simulated"),
+            ({"breakpoint": "Out"}, "a breakpoint is on a `breakpoint` of a `diagram`"),
+            ({"breakpoint": "Oat", "diagram": "Job.statechart"}, "no state or transition `Oat`"),
         ):
             assert why in asked(browser, wish)["failed"], wish
         # Pages of others cannot drive it.
@@ -177,7 +179,39 @@ def test_a_page_simulates(model: Path) -> None:
         press("c")
         expect(button("Continue")).to_be_visible()
         expect(button("Halt")).to_be_visible()
+
+        # A breakpoint is set with the pointer or the keyboard, and stays when the text moves.
+        dots, menu = page.locator("#picture .stop"), page.get_by_role("menu")
+        base = page.locator("#picture .node[data-id='Base']")
+        going = menu.get_by_role("menuitemcheckbox", name="Breakpoint on Go")
+        base.click(button="right")
+        going.click()
+        expect(dots).to_have_count(1)
+        base.focus()
+        press("F9")
+        expect(dots).to_have_count(2)
+        press("F9")
+        expect(dots).to_have_count(1)
+        model.write_text(f"// Work.\n{MODEL.replace('Home', 'Base')}", encoding="utf-8")
+        expect(said).to_have_text("the model has changed: Restart runs it as it is now")
+        button("Restart").click()
+        expect(said).to_be_empty()
+        expect(where).to_have_text("swarm Team, at 0.000 s")
+        button("Go").click()
+        entry.fill('{"load": 2}')
+        press("Enter")
+        expect(said).to_have_text("at a breakpoint: digger[0], at 0 ms")
+        expect(lit).to_have_attribute("data-id", "Base")
+        base.click(button="right")
+        expect(going).to_have_attribute("aria-checked", "true")
+        press("Escape")
+        expect(menu).to_be_hidden()
         button("End").click()
+        page.reload()
+        expect(dots).to_have_count(1)
+        base.click(button="right")
+        menu.get_by_role("menuitem", name="Remove all breakpoints").click()
+        expect(dots).to_have_count(0)
         expect(button("Simulate")).to_be_visible()
         expect(lit).to_have_count(0)
         chromium.close()

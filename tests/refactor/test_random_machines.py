@@ -17,7 +17,7 @@ from swarmdsl.syntax.formatter import format_source
 from swarmdsl.tools.refactor.extract_machine import extract_machine
 from swarmdsl.tools.refactor.inline_state import inline_state
 from swarmdsl.tools.refactor.selected_states import Selection, selected_states
-from swarmdsl.tools.refactor.wrap_states import wrap_states
+from swarmdsl.tools.refactor.wrap_states import new_name, wrap_states
 
 from .random_machines import random_model
 from .traces import behaviour, comments
@@ -49,7 +49,8 @@ def test_traces_stay(tmp_path: Path) -> None:
             assert format_source(Source("", texts[path]), Diagnostics()) == texts[path]
             lost = comments(file.source.text) - comments(texts[path])
             assert lost == Counter()
-            gone = selection.states[0].name if change is inline_state else "Group"
+            inlined = change is inline_state
+            gone = selection.states[0].name if inlined else new_name(selection)
             with workspace.overriding(texts):
                 behaviour(before, lower(workspace.project), "M", str(gone))
     assert (

@@ -3,6 +3,7 @@
 import random
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.renaming import RefusedError, rename, replaced
+from swarmdsl.ir import System
 from swarmdsl.ir.dump import dump
 from swarmdsl.lowering import lower
 from swarmdsl.project.loader import File
@@ -19,13 +21,24 @@ from swarmdsl.syntax.formatter import format_source
 from swarmdsl.tools.refactor.extract_machine import extract_machine, why_not_extract
 from swarmdsl.tools.refactor.inline_state import inline_state, why_not_inline
 from swarmdsl.tools.refactor.selected_states import Selection, selected_states
-from swarmdsl.tools.refactor.wrap_states import wrap_states
+from swarmdsl.tools.refactor.wrap_states import new_name, wrap_states
 
 from .traces import behaviour, behaviours, check_text, comments
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = sorted((ROOT / "examples").glob("*/*.swarm"))
 MODELS += sorted((ROOT / "tests" / "golden").glob("*/model.swarm"))
+MODELS = [each for each in MODELS if "statemachine" in each.read_text(encoding="utf-8")]
+
+
+@cache
+def loaded(path: Path) -> tuple[Workspace, File, System]:
+    """Return a model, for all tests that look at it."""
+    workspace = Workspace([path])
+    file = workspace.file(path)
+    if workspace.report.has_errors or file is None:
+        pytest.skip("it is wrong by itself")
+    return workspace, file, lower(workspace.project)
 
 
 def selections(file: File, dice: random.Random) -> Iterator[Selection]:
@@ -43,11 +56,7 @@ def selections(file: File, dice: random.Random) -> Iterator[Selection]:
 
 @pytest.mark.parametrize("path", MODELS, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_wrapped_and_dissolved_again(path: Path) -> None:
-    workspace = Workspace([path])
-    file = workspace.file(path)
-    if workspace.report.has_errors or file is None:
-        pytest.skip("it is wrong by itself")
-    before = lower(workspace.project)
+    workspace, file, before = loaded(path)
     for selection in selections(file, random.Random(path.as_posix()[-30:])):
         try:
             texts = wrap_states(workspace, file, selection)
@@ -55,28 +64,26 @@ def test_wrapped_and_dissolved_again(path: Path) -> None:
             continue
         check_text(texts[path], file.source.text)
         name, count = str(selection.machine.name), len(selection.states)
+        gone = new_name(selection)
         with workspace.overriding(texts):
             after = lower(workspace.project)
-            behaviour(before, after, name, "Group")
-            here, wrapped = group(workspace, path)
+            behaviour(before, after, name, gone)
+            here, wrapped = group(workspace, path, gone)
             inner = [each for each in walk(wrapped.states[0]) if isinstance(each, State)]
             assert len(inner) > count - 1
             back = inline_state(workspace, here, wrapped)
             check_text(back[path], file.source.text)
             with workspace.overriding(back):
-                again = lower(workspace.project)
-        assert dump(again) == dump(before)
-        with workspace.overriding(texts):
-            here, wrapped = group(workspace, path)
+                assert dump(lower(workspace.project)) == dump(before)
             if why_not_extract(wrapped) is None:
                 with workspace.overriding(extract_machine(workspace, here, wrapped)):
-                    behaviour(before, lower(workspace.project), name, "Group")
+                    behaviour(before, lower(workspace.project), name, gone)
 
 
-def group(workspace: Workspace, path: Path) -> tuple[File, Selection]:
+def group(workspace: Workspace, path: Path, name: str) -> tuple[File, Selection]:
     file = workspace.file(path)
     assert file is not None
-    at = file.source.text.index("state Group {")
+    at = file.source.text.index(f"state {name} {{")
     found = selected_states(file, Span(file.source, at, at))
     assert found is not None
     return file, found
@@ -84,11 +91,8 @@ def group(workspace: Workspace, path: Path) -> tuple[File, Selection]:
 
 @pytest.mark.parametrize("path", MODELS, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_dissolved(path: Path) -> None:
-    workspace = Workspace([path])
-    file = workspace.file(path)
-    if workspace.report.has_errors or file is None:
-        pytest.skip("it is wrong by itself")
-    before, left = lower(workspace.project), 2
+    workspace, file, before = loaded(path)
+    left = 2
     for machine in file.model.declarations:
         for state in walk(machine) if isinstance(machine, StateMachine) else ():
             if not isinstance(state, State) or not left:
@@ -117,12 +121,8 @@ def machine_in(text: str, name: str) -> str:
 
 @pytest.mark.parametrize("path", MODELS, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_machine_extracted(path: Path) -> None:
-    workspace = Workspace([path])
-    file = workspace.file(path)
-    if workspace.report.has_errors or file is None:
-        pytest.skip("it is wrong by itself")
-    original, left = lower(workspace.project), 2
-    before = dump(original)
+    workspace, file, before = loaded(path)
+    left = 2
     for machine in file.model.declarations:
         for state in walk(machine) if isinstance(machine, StateMachine) else ():
             at = state.span.absolute.start
@@ -138,13 +138,12 @@ def test_machine_extracted(path: Path) -> None:
             assert format_source(Source("", texts[path]), Diagnostics()) == texts[path]
             assert comments(file.source.text) == comments(texts[path])
             with workspace.overriding(texts):
-                after = dump(lower(workspace.project))
-                system = lower(workspace.project)
+                after = lower(workspace.project)
             name = str(machine.name)
             if "on done.To" not in texts[path]:
-                assert machine_in(after, name) == machine_in(before, name)
+                assert machine_in(dump(after), name) == machine_in(dump(before), name)
             else:
-                behaviour(original, system, name, "")
+                behaviour(before, after, name, "")
 
 
 MODEL = """\
@@ -214,8 +213,8 @@ def test_wrapped_text(model: Workspace) -> None:
     [text] = wrap_states(model, *chosen(model, "state A", "state B")).values()
     assert (
         """\
-  initial Group
-  state Group {
+  initial AGroup
+  state AGroup {
     initial A
 
     // about A
@@ -229,13 +228,13 @@ def test_wrapped_text(model: Workspace) -> None:
     history Back -> D
     initial D
     state D { on Go -> E }
-    state E { on Stop -> Group.A }
-    on Stop -> Group.A
+    state E { on Stop -> AGroup.A }
+    on Stop -> AGroup.A
   }
 """
         in text
     )
-    assert "in W.X leads to in Group.A within" in text
+    assert "in W.X leads to in AGroup.A within" in text
 
 
 def test_state_is_renamed_in_paths_of_properties(model: Workspace) -> None:
@@ -262,16 +261,32 @@ def test_extracted_text(model: Workspace) -> None:
         ),
         ("[1 == 1]", "[in(A)]", "`A` is named in `W`, and not inside"),
         ("on Go -> C }", "on Go -> W.Y }", "`W.Y` is inside, and named outside of `W`"),
-        ("initial A", "var n : int32 = 0; initial A", "`n` is a variable around `W`"),
+        (
+            "initial A",
+            "var n : int32 = 0; initial A",
+            (
+                "`n` is set in `W`, and a machine can only read variables around it:"
+                " set `n` in transitions that stay"
+            ),
+        ),
         ("// on a stop", "do halt", "`W` has an activity"),
-        ("// on a stop", "var k : int32 = 0", "`W` has variables"),
+        (
+            "// on a stop",
+            "var k : int32",
+            "the variable `k` of `W` starts with zero on each entry: give it an initial value",
+        ),
+        (
+            "// on a stop",
+            "var k : int32 = 0; exit / k = 1",
+            "the variable `k` of `W` is used outside of its states",
+        ),
         ("in W.X", "in W", ""),
     ],
 )
 def test_not_extracted(tmp_path: Path, old: str, new: str, reason: str) -> None:
     text = MODEL.replace("state Y\n", "state Y { on Stop [1 == 1] -> Y; on Stop -> Y }\n")
     if "n : int32" in new:
-        text = text.replace("[1 == 1]", "[n == 1]")
+        text = text.replace("[1 == 1]", "/ n = 1")
     text = text.replace(old, new)
     text += 'function halt : swarm { service "halt" : std_srvs/Trigger }\n'
     (tmp_path / "model.swarm").write_text(text, encoding="utf-8")
@@ -281,6 +296,58 @@ def test_not_extracted(tmp_path: Path, old: str, new: str, reason: str) -> None:
     if reason:
         with pytest.raises(RefusedError, match=re.escape(reason)):
             extract_machine(model, *place)
+
+
+def test_variables_are_passed_or_moved(tmp_path: Path) -> None:
+    text = MODEL.replace("initial A", "var n : int32 = 0; initial W").replace(
+        "state A { on Go -> B }", "state A { on Go / n = n + 1 -> W }"
+    )
+    text = text.replace("/// At first.", "/// Kept.\nvar k : int32 = 1\n/// At first.").replace(
+        "state Y\n", "state Y { on Go [n > k] / k = k + n -> X; on Go [k < 5] -> X }\n"
+    )
+    (tmp_path / "model.swarm").write_text(text, encoding="utf-8")
+    model = Workspace([tmp_path])
+    before = lower(model.project)
+    texts = extract_machine(model, *chosen(model, "state W"))
+    [text] = texts.values()
+    assert (
+        "statemachine MW {\n  param n : int32\n  // head\n  /// Kept.\n  var k : int32 = 1\n"
+        in text
+    )
+    assert "  state W = MW(n = n) {" in text
+    with model.overriding(texts):
+        assert behaviours(before, lower(model.project), "M", "") > 10
+
+
+@pytest.mark.parametrize(
+    ("names", "new"),
+    [
+        ("SearchLeft SearchRight", "Search"),
+        ("Search SearchRight", "SearchGroup"),
+        ("UavUp UAVDown", "UavUpGroup"),
+        ("go_out go_back", "go"),
+        ("wait_here look", "wait_here_group"),
+        ("S1 S2", "S"),
+    ],
+)
+def test_new_states_are_named_after_their_content(tmp_path: Path, names: str, new: str) -> None:
+    first, last = names.split()
+    text = f"  initial {first}\n  state {first} {{ on Go -> {last} }}\n  state {last}\n"
+    made = changed(tmp_path, wrap_states, text, f"state {first}", f"state {last}")
+    assert f"  initial {new}\n  state {new} {{\n" in made
+
+
+def test_tabs_and_words_of_other_languages_stay(tmp_path: Path) -> None:
+    text = (
+        COMMON.replace("  ", "\t")
+        .replace("// a", "/// Über den Wolken ☁ 🚁")
+        .replace("// b", "// 終")
+    )
+    for change in (wrap_states, extract_machine):
+        made = changed(tmp_path, change, text, "state A", "state C")
+        assert "  /// Über den Wolken ☁ 🚁\n" in made
+        assert "// 終\n" in made
+        assert "\t" not in made
 
 
 def test_transitions_that_leave_end_the_machine(tmp_path: Path) -> None:
@@ -399,8 +466,8 @@ def test_common_transitions_are_kept_once(tmp_path: Path) -> None:
         changed(tmp_path, wrap_states, COMMON, "// a", "state C")
         == """\
 statemachine M {
-  initial Group
-  state Group {
+  initial AGroup
+  state AGroup {
     initial A
 
     // a
@@ -426,9 +493,9 @@ statemachine M {
 def test_states_are_extracted_into_a_machine(tmp_path: Path) -> None:
     text = COMMON.replace("on Go -> C", "on Go -> D").replace("final Z", "state D\n  final Z")
     made = changed(tmp_path, extract_machine, text.replace("\n", "\r\n"), "-> B; on", "state C {")
-    assert "  initial Group\n  state Group = MGroup {\n    on done.ToD -> D\n    // c\n" in made
+    assert "  initial AGroup\n  state AGroup = MAGroup {\n    on done.ToD -> D\n    // c\n" in made
     assert "    on Go -> ToD\n" in made
-    assert made.startswith("statemachine MGroup {\n  initial A\n\n  // a\n")
+    assert made.startswith("statemachine MAGroup {\n  initial A\n\n  // a\n")
 
 
 AROUND = """\

@@ -6,6 +6,7 @@ from collections import Counter
 from contextlib import suppress
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
 from swarmdsl.base.source import Source
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.ir import System
@@ -26,23 +27,23 @@ def behaviours(before: System, after: System, name: str, gone: str) -> int:
         return ".".join(part for part in state.split(".") if part != gone)
 
     renamed = {plain(state.id): state.id for state in other.walk() if plain(state.id)}
-    compared = 0
+    compared, prefix = 0, f"{snake_case(gone)}_" if gone else ""
     for steps in map(first.walk, map(random.Random, range(2))):
         left, right = Model(first), Model(second)
         for step in steps:
-            assert told(left, plain) == told(right, plain)
+            assert told(left, plain) == told(right, plain, prefix)
             left.take(step)
             run = (renamed[plain(step.run[0])], step.run[1]) if step.run is not None else None
             right.take(Step(step.event, step.data, run, step.time, step.sender, step.sent))
             compared += 1
-        assert told(left, plain) == told(right, plain)
+        assert told(left, plain) == told(right, plain, prefix)
     return compared
 
 
-def told(model: Ours, plain) -> object:
+def told(model: Ours, plain, prefix: str = "") -> object:
     """All states that are active, but for the one in between, and the values of variables."""
     active = {plain(state) for state in Ours.active.fget(model)} - {""}
-    return active, repr(model.instance.data).replace("group_", "")
+    return active, repr(model.instance.data).replace(prefix, "")
 
 
 def comments(text: str) -> Counter[str]:

@@ -1,5 +1,7 @@
 """Refactorings as code actions: listed, shown as disabled with a reason, and made when chosen."""
 
+import re
+
 import pytest
 import pytest_lsp
 from lsprotocol import types as lsp
@@ -38,6 +40,7 @@ async def client(lsp_client: LanguageClient, tmp_path_factory):
     folder = tmp_path_factory.mktemp("open")
     await lsp_client.initialize_session(
         lsp.InitializeParams(
+            initialization_options={"commands": ["swarmdsl.rename"]},
             capabilities=lsp.ClientCapabilities(
                 workspace=lsp.WorkspaceClientCapabilities(
                     workspace_edit=lsp.WorkspaceEditClientCapabilities(
@@ -82,6 +85,19 @@ async def offered(client, document, first, last="", only=None):
     return {each.title: each for each in found}
 
 
+def renamed(action, document):
+    """Return the word that the client is told to let the user rename after an edit."""
+    text = MODEL.splitlines(keepends=True)
+    for each in sorted(action.edit.changes[document.uri], key=lambda e: -e.range.start.line):
+        start, end = each.range.start, each.range.end
+        assert (start.character, end.character) == (0, 0)
+        text[start.line : end.line] = [each.new_text]
+    uri, at = action.command.arguments
+    assert (action.command.command, uri) == ("swarmdsl.rename", document.uri)
+    line = "".join(text).splitlines()[at["line"]]
+    return re.match(r"\w+", line[at["character"] :])[0]
+
+
 async def test_states_are_extracted(client, document):
     found = await offered(client, document, "state A", "state B", [lsp.CodeActionKind.Refactor])
     assert list(found) == [
@@ -90,11 +106,15 @@ async def test_states_are_extracted(client, document):
     ]
     action, other = found.values()
     assert action.edit is None
-    made = (await client.code_action_resolve_async(other)).edit
-    assert "state Group = MGroup" in "".join(each.new_text for each in made.changes[document.uri])
-    edit = (await client.code_action_resolve_async(action)).edit
+    chosen = await client.code_action_resolve_async(other)
+    assert renamed(chosen, document) == "MAGroup"
+    made = chosen.edit
+    assert "state AGroup = MAGroup" in "".join(each.new_text for each in made.changes[document.uri])
+    chosen = await client.code_action_resolve_async(action)
+    assert renamed(chosen, document) == "AGroup"
+    edit = chosen.edit
     new = "".join(each.new_text for each in edit.changes[document.uri])
-    assert "initial Group\n  state Group {\n    initial A\n" in new
+    assert "initial AGroup\n  state AGroup {\n    initial A\n" in new
 
 
 async def test_reasons_are_shown(client, document):

@@ -11,6 +11,7 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
+from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.completion import completions
 from swarmdsl.ide.server.models import Models
 from swarmdsl.ide.server.snippets import snippets, table
@@ -83,6 +84,17 @@ def test_offered_snippets_fit(place):
             report = Diagnostics()
             parse(Source("a.swarm", before + text + after), report)
             assert not report.has_errors, (text, [each.message for each in report])
+
+
+@pytest.mark.parametrize("place", ["declaration", "function", "component", "member"])
+def test_snippets_name_interfaces_of_the_right_kind(place, tmp_path):
+    before = PLACES[place]
+    for number, snippet in enumerate(offered_at(place)):
+        text = before + insertions(snippet.text)[0] + "\n}" * before.count("{") + "\n"
+        path = tmp_path / f"{number}.swarm"
+        path.write_text(text, encoding="utf-8")
+        wrong = [each for each in Workspace([path]).report if each.code == "SW0604"]
+        assert not wrong, (text, [each.message for each in wrong])
 
 
 def test_every_snippet_is_offered():

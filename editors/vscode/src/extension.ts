@@ -11,7 +11,7 @@ import { play, test } from "./play.ts";
 import { Preview } from "./preview.ts";
 import { newProject } from "./projects.ts";
 import { onSelect } from "./python.ts";
-import { type Place, showReferences } from "./references.ts";
+import { type At, type Place, renameAt, showReferences } from "./references.ts";
 import { renewSchemas, useSchemas } from "./schemas.ts";
 import { Server } from "./server.ts";
 import { simulate } from "./simulate.ts";
@@ -91,9 +91,8 @@ export function activate(context: vscode.ExtensionContext): void {
       const uri = await targetFile(file);
       return uri && preview.show(uri, subject);
     }),
-    command("references", (file: string, at: Place["range"]["start"], places: Place[]) =>
-      showReferences(file, at, places),
-    ),
+    command("references", (file: string, at: At, places: Place[]) => showReferences(file, at, places)),
+    command("rename", (file: string, at: At) => renameAt(file, at)),
     welcome(() => {
       refresh();
       // Without a model, no change starts the server.

@@ -57,7 +57,10 @@ export async function newProject(server: Server): Promise<void> {
     return;
   }
   const folder = isEmpty ? parent : vscode.Uri.joinPath(parent, name);
-  const failure = await create(launch, name, folder.fsPath, template.target);
+  const failure = await vscode.window.withProgress(
+    { location: vscode.ProgressLocation.Notification, title: `Creating project ${name}` },
+    () => create(launch, name, folder.fsPath, template.target),
+  );
   if (failure !== undefined) {
     void vscode.window.showErrorMessage(failure);
     return;

@@ -1,4 +1,4 @@
-// Command of the references lens.
+// Commands of the language server that show references, or rename what a refactoring has made.
 
 import * as vscode from "vscode";
 
@@ -7,7 +7,7 @@ export interface Place {
   readonly uri: string;
   readonly range: { readonly start: At; readonly end: At };
 }
-interface At {
+export interface At {
   readonly line: number;
   readonly character: number;
 }
@@ -30,6 +30,11 @@ export async function showReferences(
         ),
     ),
   );
+}
+
+/** Let the user rename what is at a position. */
+export async function renameAt(file: string, at: At): Promise<void> {
+  await vscode.commands.executeCommand("editor.action.rename", [vscode.Uri.parse(file), position(at)]);
 }
 
 function position({ line, character }: At): vscode.Position {

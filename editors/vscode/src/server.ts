@@ -130,10 +130,11 @@ export class Server implements vscode.Disposable {
         // The same as in the problem matcher, so that each problem is shown once.
         diagnosticCollectionName: "swarmdsl",
         outputChannel: this.log,
-        // Commands that the server may use in code lenses.
+        // Commands that the server may use in code lenses and refactorings.
         initializationOptions: {
           commands: [
             "swarmdsl.references",
+            "swarmdsl.rename",
             "swarmdsl.preview",
             "swarmdsl.simulate",
             "swarmdsl.debug",

@@ -279,6 +279,24 @@ def test_pictures(window: Window, tmp_path: Path, pytestconfig: pytest.Config) -
     window.saved("behaviours.swarm", lambda now: now == before)
 
 
+def test_extracted_states_are_named_by_the_user(window: Window) -> None:
+    window.place("behaviours.swarm", "Coverage {")
+    entry = window.page.locator(".rename-box input")
+
+    def extract() -> None:
+        window.press("Control+Shift+r")
+        action = window.page.locator(".action-widget .monaco-list-row", has_text="composite state")
+        action.first.click()
+        expect(entry).to_have_value("CoverageGroup")
+
+    window.again(extract, entry)
+    entry.fill("Sweep")
+    entry.press("Enter")
+    expect(entry).to_be_hidden()
+    window.saved("behaviours.swarm", lambda now: "state Sweep {" in now)
+    assert "on succeeded -> Sweep.Coverage\n" in text(window, "behaviours.swarm")
+
+
 def test_reference_lens(window: Window) -> None:
     window.open("behaviours.swarm")
     lens = window.page.locator(".codelens-decoration a", has_text="1 reference").first
@@ -446,7 +464,8 @@ def test_a_simulation_is_debugged(window: Window) -> None:
     window.place("lamps.swarm", "on Start")
     window.press("F9")
     expect(window.page.locator(".codicon-debug-breakpoint")).not_to_have_count(0)
-    window.command("Swarm: Debug Simulation")
+    expect(window.first_command("Simulate")).to_have_text("Swarm: Simulate")
+    window.command("Swarm: Debug")
     window.choose("swarm")
     window.choose("No scenario")
     page = window.view()

@@ -93,18 +93,24 @@ class Window:
         row = self._asked.locator(
             ".monaco-list-row", has=self.page.get_by_text(title, exact=True)
         ).first
-
-        def ask() -> None:
-            if self._asked.count():
-                self.press("Escape")  # an open input keeps its list of files
-                expect(self._asked).to_have_count(0, timeout=_SOON)
-            self.press(key)
-            self._entry.fill(text, timeout=_SOON)
-
-        self.again(ask, row)
+        self.again(lambda: self._ask(key, text), row)
         row.click()
         # The next item to choose is not in this list, which stays for a moment.
         expect(row).to_be_hidden()
+
+    def _ask(self, key: str, text: str) -> None:
+        """Type into the input opened by a key."""
+        if self._asked.count():
+            self.press("Escape")  # an open input keeps its list of files
+            expect(self._asked).to_have_count(0, timeout=_SOON)
+        self.press(key)
+        self._entry.fill(text, timeout=_SOON)
+
+    def first_command(self, text: str) -> Locator:
+        """Return the command that the palette finds first for a text."""
+        first = self._asked.locator(".monaco-list-row[data-index='0'] .label-name")
+        self.again(lambda: self._ask("F1", f">{text}"), first.filter(has_text=text))
+        return first
 
     def focus(self) -> None:
         """Return to the text."""

@@ -31,9 +31,10 @@ def _set_breakpoints(session: Session, arguments: Arguments) -> Body:
     path = _path(arguments)
     asked = optional(arguments, "breakpoints", list) or []
     shift = 1 - session.first_line
+    shifts = {"line": shift, "column": 1 - session.first_column}
     moved = [
-        {**each, "line": each["line"] + shift}
-        if isinstance(each, dict) and isinstance(each.get("line"), int)
+        {**each, **{key: each[key] + by for key, by in shifts.items() if _is_number(each.get(key))}}
+        if isinstance(each, dict)
         else each
         for each in asked
     ]
@@ -46,6 +47,10 @@ def _set_breakpoints(session: Session, arguments: Arguments) -> Body:
             {**each, "line": each["line"] - shift} if "line" in each else each for each in found
         ]
     }
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
 
 
 def _path(arguments: Arguments) -> str:

@@ -17,6 +17,7 @@ from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.ide.debugger.expressions import Evaluate, Expressions
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, optional, required
 from swarmdsl.ide.debugger.points import Element
+from swarmdsl.ide.server.positions import position
 from swarmdsl.project.read_source import read_source
 from swarmdsl.syntax.types import BOOL
 
@@ -35,7 +36,10 @@ _BRACES = re.compile(r"\{([^{}]*)\}")
 
 @dataclass(frozen=True)
 class Place:
-    """Place of a state or a transition; the path is the real one, lines count from 1."""
+    """Place of a state or a transition; the path is the real one, lines and columns count from 1.
+
+    Columns are units of UTF-16, as clients count them.
+    """
 
     path: str
     line: int
@@ -47,6 +51,7 @@ class Places:
 
     def __init__(self, subject: Subject, machines: Iterable[Machine]) -> None:
         self._of: dict[int, Place] = {}
+        self._starts: set[Place] = set()
         self._texts: dict[str, str] = {}
         self._owners: dict[tuple[str, int], set[tuple[str, str]]] = {}
         for machine in machines:
@@ -58,7 +63,9 @@ class Places:
                         continue
                     at = span.absolute
                     path = os.path.realpath(at.source.path or "")
-                    place = Place(path, *at.source.line_column(at.start))
+                    line, column = position(at.source, at.start)
+                    place = Place(path, line + 1, column + 1)
+                    self._starts.add(place)
                     self._of[id(element.origin)] = place
                     self._texts[path] = at.source.text
                     owners = self._owners.setdefault((path, place.line), set())
@@ -67,6 +74,10 @@ class Places:
     def of(self, element: Element) -> Place | None:
         """Return the place of a state or transition."""
         return self._of.get(id(element.origin))
+
+    def begins(self, path: str, line: int, column: int) -> bool:
+        """Return True if a state or transition begins at a place."""
+        return Place(path, line, column) in self._starts
 
     def has_changed(self, path: str) -> bool:
         """Return True if a file is not any more what runs."""
@@ -88,11 +99,13 @@ class Places:
 class Breakpoint:
     """Breakpoint at a place, with conditions on when it counts.
 
-    With a `message` it does not stop, but tells the message.
+    Without a column, it is on all that begins on the line. With a `message` it does not stop, but
+    tells the message.
     """
 
-    def __init__(self, line: int, asked: Arguments) -> None:
+    def __init__(self, line: int, column: int | None, asked: Arguments) -> None:
         self.line = line
+        self.column = column
         self.condition = optional(asked, "condition", str) or ""
         self.message = optional(asked, "logMessage", str) or ""
         self._hits = 0
@@ -175,7 +188,9 @@ class Breakpoints:
         line = next(iter(self._places.lines(path, required(asked, "line", int))), None)
         if line is None:
             raise RequestError("no state or transition of a machine that runs is here or below")
-        made = Breakpoint(line, asked)
+        column = optional(asked, "column", int)
+        is_exact = column is not None and self._places.begins(path, line, column)
+        made = Breakpoint(line, column if is_exact else None, asked)
         if made.condition:
             type_ = self._type(made.condition, path, line)
             if type_ not in (BOOL, None):
@@ -203,4 +218,8 @@ class Breakpoints:
         """Return those at a state or transition."""
         place = self._places.of(element) if self._of else None
         found = self._of.get(place.path, ()) if place is not None else ()
-        return [each for each in found if place is not None and each.line == place.line]
+        return [
+            each
+            for each in found
+            if place is not None and each.line == place.line and each.column in (None, place.column)
+        ]

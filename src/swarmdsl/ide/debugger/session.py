@@ -271,7 +271,8 @@ class Session:
         """Stand still until the user goes on."""
         controls = self.looking()
         self.is_held, self._goes_on = True, False
-        self._reason, self._is_notable = text, reason in ("exception", "pause")
+        self._reason = f"at a breakpoint: {text}" if reason == "breakpoint" else text
+        self._is_notable = reason in ("exception", "pause", "breakpoint")
         self._show()
         thread = controls.point.member + 1
         body = {"reason": reason, "threadId": thread, "allThreadsStopped": True}

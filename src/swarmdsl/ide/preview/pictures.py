@@ -52,7 +52,8 @@ class Message(Steps, total=False):
     `redrawn` is a new picture of a diagram, for pages that show it.
 
     `subjects` are diagrams of what a page can simulate, by kind and name, and `scenarios` are the
-    files for that. `debug` is the state of a simulation that the user drives, None for none.
+    files for that. `debug` is the state of a simulation that the user drives, None for none, and
+    `breakpoints` are ids of states and transitions by diagram.
     """
 
     titles: dict[str, str]
@@ -66,6 +67,7 @@ class Message(Steps, total=False):
     subjects: Mapping[str, str]
     scenarios: Sequence[str]
     debug: Mapping[str, Any] | None
+    breakpoints: Mapping[str, Sequence[str]]
     active: Mapping[str, Sequence[str] | None]
 
 
@@ -112,6 +114,24 @@ class Pictures:
         """Return the state ids of each machine by its name."""
         machines = self._system.machines if self._system is not None else ()
         return {each.name: frozenset(state.id for state in each.walk()) for each in machines}
+
+    @cached_property
+    def stops(self) -> Mapping[tuple[str, str], Span]:
+        """Return the places of states and transitions, by diagram and id: a run can stop there."""
+        machines = self._system.machines if self._system is not None else ()
+        return {
+            (f"{machine.name}.statechart", id_): origin
+            for machine in machines
+            for state in machine.walk()
+            for id_, origin in (
+                (state.id, state.origin),
+                *(
+                    (f"{state.id}->{number}", t.origin)
+                    for number, t in enumerate(state.transitions)
+                ),
+            )
+            if origin is not None
+        }
 
     @cached_property
     def subjects(self) -> Mapping[tuple[str, str], str]:

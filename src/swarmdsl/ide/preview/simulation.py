@@ -12,6 +12,7 @@ from swarmdsl.base.read_files import is_folder
 from swarmdsl.execution.simulate.inputs.scenario_files import scenarios_in
 from swarmdsl.ide.debugger.messages import RequestError
 from swarmdsl.ide.preview.adapter import Adapter
+from swarmdsl.ide.preview.breakpoints import Breakpoints
 from swarmdsl.ide.preview.pictures import Message, Pictures, Steps
 from swarmdsl.ide.preview.serving import Snapshot
 
@@ -33,6 +34,7 @@ class Simulation:
         self._sources: Sequence[Path] = ()
         self._subjects: dict[str, tuple[str, str]] = {}
         self._scenarios: dict[str, Path] = {}
+        self._breakpoints = Breakpoints()
         self._told = ""
         """Last line of the console."""
 
@@ -42,6 +44,8 @@ class Simulation:
         """Return what pages can simulate of a model, which is in `sources` of a project."""
         with self._lock:
             self._sources = sources
+            if self._breakpoints.learn(pictures.stops):
+                self._publish()
             self._subjects = {_titled(kind, name): (kind, name) for kind, name in pictures.subjects}
             folders = [each if is_folder(each) else each.parent for each in sources]
             found = scenarios_in([*folders, folder.absolute()])
@@ -108,6 +112,7 @@ class Simulation:
         try:
             adapter.request("initialize", {"adapterID": "swarm"})
             adapter.request("launch", launch)
+            self._breakpoints.send(adapter, is_new=True)
             adapter.request("configurationDone", {})
         except RequestError as error:
             self._end(adapter, str(error))
@@ -130,6 +135,7 @@ class Simulation:
 
     def _restart(self) -> None:
         adapter = self._running()
+        self._breakpoints.send(adapter)  # those of the text that runs next
         adapter.request("restart", {})
         with self._lock:
             if adapter is self._adapter:
@@ -138,6 +144,18 @@ class Simulation:
     def _send(self, wish: Mapping[str, Any]) -> None:
         line = {key: wish[key] for key in ("event", "data") if key in wish}
         self._running().request("swarmSend", line)
+
+    def _toggle_breakpoint(self, wish: Mapping[str, Any]) -> None:
+        with self._lock:
+            if wish["breakpoint"] is None:
+                self._breakpoints.clear()
+            else:
+                self._breakpoints.toggle(wish)
+            self._publish()
+            # Of a text that has changed, the lines are others: Restart sends them.
+            adapter = None if self._shown.get("changed") else self._adapter
+        if adapter is not None:
+            self._breakpoints.send(adapter)
 
     def _look(self, wish: Mapping[str, Any]) -> None:
         """Show the variables of another member, which goes on with *Into*."""
@@ -160,6 +178,7 @@ class Simulation:
         "event": _send,
         "look": _look,
         "speed": _set_speed,
+        "breakpoint": _toggle_breakpoint,
     }
 
     def _running(self) -> Adapter:
@@ -203,7 +222,8 @@ class Simulation:
         self._publish()
 
     def _publish(self) -> None:
-        self._snapshot.control({"debug": self._shown or None})
+        shown = self._breakpoints.shown()
+        self._snapshot.control({"debug": self._shown or None, "breakpoints": shown})
 
 
 def _titled(kind: str, name: str) -> str:

@@ -6,17 +6,21 @@ is chosen. One that would change the meaning is shown as disabled, with the reas
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
 from lsprotocol import types as lsp
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
+from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.renaming import RefusedError
 from swarmdsl.ide.server.layout import line_changes
+from swarmdsl.ide.server.positions import position
 from swarmdsl.ide.server.session import Session
 from swarmdsl.project.loader import File
 from swarmdsl.tools.refactor.extract_machine import extract_machine, why_not_extract
@@ -29,6 +33,9 @@ WRAP = "refactor.extract.state"
 EXTRACT = "refactor.extract.machine"
 INLINE = "refactor.inline.state"
 MOVE = "refactor.move.file"
+RENAME = "swarmdsl.rename"
+"""Command of a client that lets the user rename what is at a position of a document."""
+_DECLARED = re.compile(r"^ *(?:endless )?(state|statemachine) (\w+)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -85,7 +92,12 @@ def resolved(session: Session, action: lsp.CodeAction) -> lsp.CodeAction:
     part = lsp.Range(lsp.Position(line, character), lsp.Position(end_line, end_character))
     for each in _at(session, workspace, file, part):
         if each.kind == data["kind"]:
-            action.edit = _edit(session, workspace, each.texts())
+            texts = each.texts()
+            action.edit = _edit(session, workspace, texts)
+            path = file.source.path
+            if each.kind in (WRAP, EXTRACT) and RENAME in session.commands and path is not None:
+                at = _new_name(file.source.text, texts[path], session.encoding)
+                action.command = lsp.Command("Rename", RENAME, arguments=[data["uri"], at])
             return action
     raise RefusedError("the text has changed")
 
@@ -127,6 +139,17 @@ def _at(
             f"Move `{name}` to `{new_path(file, declaration).name}`",
             lambda: move_declaration(workspace, file, declaration),
         )
+
+
+def _new_name(old: str, new: str, encoding: str) -> lsp.Position:
+    """Return the place of the name of the new machine, else of the new state, in the new text."""
+    made = Counter(_DECLARED.findall(new))
+    made.subtract(_DECLARED.findall(old))
+    lines = zip(old.splitlines(keepends=True), new.splitlines(keepends=True), strict=False)
+    start = sum(len(one) for one, _ in takewhile(lambda pair: pair[0] == pair[1], lines))
+    found = (each for each in _DECLARED.finditer(new, start) if made[each.groups()] > 0)
+    best = max(found, key=lambda each: each[1])
+    return lsp.Position(*position(Source("", new), best.start(2), encoding))
 
 
 def _creates_files(session: Session) -> bool:

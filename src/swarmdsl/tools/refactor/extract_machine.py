@@ -1,9 +1,10 @@
 """Make a machine of states, which a state then runs as its submachine.
 
 They are those in a composite state, or some beside each other, which a new state then replaces.
-Submachines are expanded, so the robot does what it did. Params of the machine that are used inside
-are passed on. A transition that leaves the state ends the machine in a final state of its own, and
-the state goes on from there. It is refused where a transition leads in, or variables are shared.
+Submachines are expanded, so the robot does what it did. Params of the machine and variables around
+that are read inside are passed on. A transition that leaves the state ends the machine in a final
+state of its own, and the state goes on from there. It is refused where a transition leads in, or a
+variable around is set inside.
 """
 
 from __future__ import annotations
@@ -28,17 +29,14 @@ from swarmdsl.syntax.ast import (
     FinalState,
     History,
     Initial,
-    NameUse,
     Node,
     Parallel,
-    Param,
     Ref,
     Region,
     Send,
     State,
     StateMachine,
     Transition,
-    Variable,
     Vertex,
     nodes_of,
     references,
@@ -47,9 +45,15 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.tools.refactor.changed_texts import applied, statement, tried
 from swarmdsl.tools.refactor.common_transitions import common_transitions
 from swarmdsl.tools.refactor.selected_states import Selection, selected_states
+from swarmdsl.tools.refactor.shared_variables import (
+    as_param,
+    own_variables,
+    passed_values,
+    why_not_shared,
+)
 from swarmdsl.tools.refactor.wrap_states import new_name, why_not_wrap, wrap_states
 
-_ITEMS = {Activity: "an activity", History: "a history", Variable: "variables"}
+_ITEMS = {Activity: "an activity", History: "a history"}
 _BODY = re.compile(r"\s*\{")
 
 
@@ -64,7 +68,9 @@ def why_not_extract(selection: Selection) -> str | None:
         if type(item) in _ITEMS:
             return f"{selection.subject} has {_ITEMS[type(item)]}"
     part = _part_of(selection)
-    return _crossing(part) or _shared_variable(part)
+    return _crossing(part) or why_not_shared(
+        selection.machine, state, part.moved, selection.subject
+    )
 
 
 @dataclass(frozen=True)
@@ -98,7 +104,8 @@ def _part_of(selection: Selection) -> _Part:
     initial = next((item for item in container.items if isinstance(item, Initial)), None)
     entry = initial.target.target if initial is not None else None
     if state is not None:
-        return _Part(selection, frozenset(states), _with(states, initial), entry)
+        moved = {node for each in own_variables(state) for node in walk(each)}
+        return _Part(selection, frozenset(states), _with(states | moved, initial), entry)
     if entry not in states:
         arrows = (Branch, History, Initial, Transition)
         entered = (
@@ -167,15 +174,6 @@ def _comes_before_done(node: Node) -> bool:
     return local and isinstance(node, Send) and node.delay is None
 
 
-def _shared_variable(part: _Part) -> str | None:
-    """Return the reason if states use a variable around them."""
-    for node in part.moved:
-        variable = node.target if isinstance(node, NameUse) else None
-        if isinstance(variable, Variable) and variable not in part.states:
-            return f"`{variable.name}` is a variable around {part.selection.subject}"
-    return None
-
-
 def _is_in(inner: Node, outer: Node) -> bool:
     one, other = inner.span.absolute, outer.span.absolute
     return one.source is other.source and other.start <= one.start and one.end <= other.end
@@ -233,8 +231,8 @@ def _extracted(workspace: Workspace, file: File, selection: Selection) -> dict[P
     assert path is not None  # sources of a workspace are files
     part = _part_of(selection)
     name = fresh(f"{machine.name}{state.name}", re.findall(r"\w+", text), gap="")
-    params = list(_params(state, machine))
-    kept = [item for item in state.items if not isinstance(item, (Initial, *Vertex.__args__))]
+    passed = passed_values(machine, part.moved)
+    kept = [item for item in state.items if item not in part.moved]
     bounds = [statement(item.span.absolute) for item in kept]
     opening = _BODY.match(text, state.name.span.absolute.end)
     assert opening is not None  # a composite state has a body
@@ -244,10 +242,10 @@ def _extracted(workspace: Workspace, file: File, selection: Selection) -> dict[P
     body = applied(text, [*removed, *leaving], opening.end(), end)
     ends = bool(finals) or any(isinstance(each, FinalState) for each in state.items)
     head = f"{'' if ends else 'endless '}statemachine {name} {{"
-    declared = [text[one.span.absolute.start : one.type.span.absolute.end] for one in params]
+    declared = [as_param(each, text) for each in passed]
     ways = [f"final {each}" for each in finals]
     whole = "\n".join([head, *declared, body.rstrip(), *ways, "}\n\n"])
-    given = ", ".join(f"{one.name} = {one.name}" for one in params)
+    given = ", ".join(f"{one.name} = {one.name}" for one in passed)
     use = f" = {name}" + (f"({given})" if given else "")
     # They come first: a transition on `done` alone is on any end.
     items = "".join(f"\non done.{each} -> {target}" for each, target in finals.items())
@@ -283,14 +281,3 @@ def _leaving(part: _Part, text: str) -> tuple[list[Change], dict[str, str]]:
         _, start, end = ref.span.absolute
         changes.append((start, end, final_of[ref.target]))
     return changes, finals
-
-
-def _params(state: State, machine: StateMachine) -> Iterator[Param]:
-    """Yield the params of a machine that are used in a state, in the order of the machine."""
-    used = {
-        node.target
-        for item in vertices(state)
-        for node in walk(item)
-        if isinstance(node, NameUse) and isinstance(node.target, Param)
-    }
-    return (item for item in machine.items if isinstance(item, Param) and item in used)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 from pathlib import Path
 
 from swarmdsl.base.naming import fresh
@@ -28,7 +29,7 @@ from swarmdsl.tools.refactor.changed_texts import (
 from swarmdsl.tools.refactor.common_transitions import Common, common_transitions
 from swarmdsl.tools.refactor.selected_states import Selection
 
-_NAME = "Group"
+_WORD = re.compile(r"_*(?:[A-Z]+(?![a-z])|[A-Z]?[a-z]+|[0-9]+)")
 
 
 def why_not_wrap(selection: Selection) -> str | None:
@@ -47,8 +48,22 @@ def why_not_wrap(selection: Selection) -> str | None:
 
 
 def new_name(selection: Selection) -> str:
-    """Return the name of the new state, which nothing in the machine has."""
-    return fresh(_NAME, re.findall(r"\w+", selection.machine.span.text), gap="")
+    """Return a name for the new state, which nothing in the machine has.
+
+    `SearchLeft` and `SearchRight` are wrapped in `Search`, states without a common word in
+    `AscendGroup` if `Ascend` is entered first.
+    """
+    taken = set(re.findall(r"\w+", selection.machine.span.text))
+    names = [str(each.name) for each in selection.states]
+    words = zip(*map(_WORD.findall, names), strict=False)
+    common = (each[0] for each in takewhile(lambda each: len(set(each)) == 1, words))
+    name = "".join(common).rstrip("_0123456789")
+    if name and name not in taken:
+        return name
+    initial = (each.target.name for each in selection.container.items if isinstance(each, Initial))
+    states = [str(each.name) for each in selection.states if isinstance(each, State)] or names
+    stem = name or next((each for each in initial if each in names), states[0])
+    return fresh(f"{stem}_group" if stem.islower() else f"{stem}Group", taken, gap="")
 
 
 def wrap_states(workspace: Workspace, file: File, selection: Selection) -> dict[Path, str]:

@@ -16,6 +16,7 @@ class Moment(NamedTuple):
     actor: int
     event: str | None
     taken: tuple[str, ...]
+    entered: tuple[str, ...]
     holding: int
     ignored: bool
     started: tuple[str, ...]

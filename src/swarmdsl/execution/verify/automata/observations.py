@@ -16,6 +16,7 @@ def moments_of(body: Body, shown: Sequence[tuple[int, int]]) -> tuple[Moment, ..
             actor,
             line.event,
             tuple(dict.fromkeys(map(line.actor.machine.called, line.taken))),
+            tuple(dict.fromkeys(line.entered)),
             holding,
             line.ignored and not line.taken,
             tuple(line.started),

@@ -142,12 +142,12 @@ class _Part:
             place = self._network.places[number]
             group = self._network.groups[place.group]
             cast = group.automaton.whole.kind.cast
-            for actor_number, state in group.automaton.look(place.state).innermost:
-                reached[cast[actor_number].machine.name].states.add(state)
             moves = [step.move for step in self._network.row(number) if step.move is not None]
             for move in (group.automaton.first, *moves):
                 for moment in move.moments:
-                    reached[cast[moment.actor].machine.name].taken.update(moment.taken)
+                    found = reached[cast[moment.actor].machine.name]
+                    found.taken.update(moment.taken)
+                    found.states.update(moment.entered)
 
     def _answers(self, budget: Budget) -> Iterator[Finding]:
         """Find robots that answer each other without end."""

@@ -48,35 +48,22 @@ class Reached:
             return
         role = " or ".join(self.roles)
         every = transitions_of(self._table)
-        entered = self._entered(every)
         absent: set[str] = set()
         for state in self._machine.walk():
             is_place = state.kind not in (ir.StateKind.HISTORY, ir.StateKind.REGION)
             around = state.id.rpartition(".")[0]
-            if state.id not in entered and is_place:
+            if state.id not in self.states and is_place:
                 absent.add(state.id)
                 if not any(around == a or around.startswith(f"{a}.") for a in absent):
                     yield Finding("unreachable", state.id, role, state.origin)
         for name, transition in every.items():
             source = name.rpartition("->")[0]
-            if name in self.taken or source not in entered or transition.target in absent:
+            if name in self.taken or source not in self.states or transition.target in absent:
                 continue
             triggers = transition.triggers
             if triggers and all(_is_told(each, ignored) for each in triggers):
                 continue
             yield Finding("untaken", transition.target or source, role, transition.origin)
-
-    def _entered(self, every: dict[str, ir.Transition]) -> set[str]:
-        """Return the states that occur, with the states around them."""
-        found = set(self.states)
-        for name in self.taken:
-            found.add(name.rpartition("->")[0])
-            if name in every and every[name].target is not None:
-                found.add(str(every[name].target))
-        for state in list(found):
-            names = state.split(".")
-            found.update(".".join(names[:end]) for end in range(1, len(names)))
-        return found
 
 
 def _is_told(trigger: ir.Trigger, ignored: Collection[str]) -> bool:

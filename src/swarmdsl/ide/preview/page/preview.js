@@ -4,10 +4,12 @@
 // diagram, `{ broken }` with the number of errors (the picture stays), `{ active }` with active states,
 // `{ taken, entered }` with transitions just taken and states they entered,
 // `{ redrawn: { id, svg } }` with a new picture of a diagram, for pages that show it,
+// `{ breakpoints: { ID: [ELEMENT, ...] } }`,
 // `{ debug }` with the controls of a simulation that the user drives or null for none; a browser starts
 // one of what `{ subjects: { NAME: ID }, scenarios }` offer with the titles. `{ cursor: [{ diagram, element }], moved }`, `{ show: ID }`, and
 // `{ unavailable: { text, actions: [{ title, command }] } }` if there are no diagrams.
 
+import { Breakpoints } from "./breakpoints.js";
 import { Cursor } from "./cursor.js";
 import { Debugging } from "./debugging.js";
 import { saveButtons } from "./export.js";
@@ -29,6 +31,7 @@ const view = new View(canvas, picture, click);
 const cursor = new Cursor();
 const status = new Status(element("state"), element("note"), element("explanation"));
 const debugging = new Debugging(element("debug"), (command) => void host.debug(command, (why) => debugging.fail(why)), () => shown);
+const breakpoints = new Breakpoints(element("menu"), (command) => void host.debug(command, (why) => debugging.fail(why)), open);
 const search = new Search(element("find"), element("names"), find, () => canvas.focus());
 let titles = {};
 let drawn; // { id, svg, names, foldable }
@@ -60,6 +63,7 @@ function draw() {
 
 function update() {
   highlight.show(picture, drawn?.id);
+  breakpoints.mark(picture, drawn?.id);
 }
 
 /** Request the picture to show; an editor may answer with another one. */
@@ -114,6 +118,10 @@ function receive(message) {
   }
   if (message.taken || message.entered) {
     highlight.flash(picture, drawn?.id, message.taken ?? {}, message.entered ?? {});
+  }
+  if (message.breakpoints) {
+    breakpoints.learn(message.breakpoints);
+    update();
   }
   if (message.debug !== undefined) {
     debugging.show(message.debug);
@@ -280,6 +288,14 @@ picture.addEventListener("focusin", ({ target }) => {
     view.reveal(target);
   }
 });
+if (!host.isInEditor) { // an editor has breakpoints of its own
+  picture.addEventListener("contextmenu", (event) => breakpoints.offer(event, picture, drawn?.id));
+  canvas.addEventListener("keydown", (event) => {
+    if (event.key === "F9" && breakpoints.toggle(focused(picture), drawn?.id)) {
+      event.preventDefault();
+    }
+  });
+}
 which.addEventListener("change", () => show(which.value));
 for (const [id, act] of Object.entries({
   "zoom-out": () => view.zoom(0.8),
