@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 
 from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Segment, Vertex
 from swarmdsl.tools.diagram.layout.simplex import Constraint
@@ -17,7 +16,7 @@ from swarmdsl.tools.diagram.layout.simplex import Constraint
 NODE_GAP, LINE_GAP, LABEL_GAP = 26, 12, 12
 _PATIENCE = 4
 """Number of rounds after which twice as many parts bend."""
-_BROAD = 1.3
+_BROAD = 1.2
 """Breadth of a level, relative to its broadest layer, above which straight parts may bend."""
 
 
@@ -113,9 +112,9 @@ class Chains:
         while number >= 0:
             before, left = self._before[number]
             low, high = min(at, left), max(at, left)
-            if low < high:
+            if low < high and not (part := self._parts[number][(low + high + 1) // 2]).fixed:
                 # The chain is between two others in different layers.
-                found.append(self._parts[number][(low + high + 1) // 2])
+                found.append(part)
             number, at = before, left
         return found
 
@@ -124,7 +123,7 @@ def make_chains(layers: Layers) -> Chains:
     """Find parts of edges that stay straight."""
     straight = list(_straight(layers))
     chains = Chains(layers, straight)
-    limit = _BROAD * max(map(_least_breadth, layers.layers), default=0)
+    limit = _BROAD * Chains(layers, [segment for segment in straight if segment.fixed]).breadth
     # The more rounds, the more parts bend in each, so that large levels need few.
     rounds = 0
     while bent := chains.broader(limit, 1 << rounds // _PATIENCE):
@@ -132,11 +131,6 @@ def make_chains(layers: Layers) -> Chains:
         chains = Chains(layers, straight)
         rounds += 1
     return chains
-
-
-def _least_breadth(layer: Sequence[Vertex]) -> int:
-    gaps = sum(_gap(one, other) for one, other in pairwise(layer))
-    return gaps + sum(vertex.breadth for vertex in layer)
 
 
 def upper_and_lower(segment: Segment) -> tuple[End, End]:

@@ -110,13 +110,15 @@ class End:
 class Segment:
     """Part of a link in gap `gap`, which precedes the layer of that number.
 
-    The ends are ordered from the source of the link to its target.
+    The ends are ordered from the source of the link to its target. A part of a lane between two
+    rows is `fixed`: it stays straight, so that the rows are apart.
     """
 
     gap: int
     link: int
     start: End
     end: End
+    fixed: bool = False
 
     @property
     def turns(self) -> bool:
@@ -131,13 +133,9 @@ class Segment:
 
 @dataclass
 class Layers:
-    """Ordered vertices of each layer, segments between layers, and lanes.
-
-    The layers of a wrapped graph have the vertices of several `rows`.
-    """
+    """Ordered vertices of each layer, segments between layers, and lanes."""
 
     layers: list[list[Vertex]]
     segments: list[Segment]
     cells: list[Vertex]
     lanes: list[Vertex]
-    rows: int = 1

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from itertools import groupby, pairwise
+from heapq import nsmallest
+from itertools import groupby, pairwise, zip_longest
 
 from swarmdsl.tools.diagram.layout.chains import upper_and_lower
 from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Segment, Vertex
@@ -19,6 +20,8 @@ LANE_COST = 40
 """Difference in length of two rows that counts like an edge between them."""
 MAX_LANES = 20
 """Number of edges between two rows at most."""
+_CHOICES = 4
+"""Number of places for the start of a row for which the lengths of its layers are compared."""
 _GAP = 40
 """Approximate space between two layers."""
 
@@ -27,13 +30,14 @@ def starts_of_rows(lengths: Sequence[int], crossed: Sequence[int], rows: int) ->
     """Return the layers with which rows begin, for layers of these lengths.
 
     `crossed` are the numbers of edges before each layer. The rows have similar lengths and few
-    edges between them; there are fewer if there are no such.
+    edges between them, and long layers beside long ones; there are fewer if there are no such.
     """
     ends = [0]
     for length in lengths:
         ends.append(ends[-1] + length)
     row = ends[-1] / rows
     starts = [0]
+    beside: list[int] = []
     for number in range(1, rows):
         first = bisect_left(ends, row * (number - 0.5))
         last = bisect_left(ends, row * (number + 0.5))
@@ -42,9 +46,20 @@ def starts_of_rows(lengths: Sequence[int], crossed: Sequence[int], rows: int) ->
             for at in range(max(first, starts[-1] + 1), min(last, len(lengths)))
             if crossed[at] <= MAX_LANES
         ]
-        if choices:
-            starts.append(min(choices)[1])
+        if not choices:
+            continue
+        likely = nsmallest(_CHOICES, choices)
+        beside = lay_beside(beside, lengths[starts[-1] : likely[0][1]])
+        longer = [
+            cost + sum(lay_beside(beside, lengths[at : at + len(beside)])) for cost, at in likely
+        ]
+        starts.append(likely[longer.index(min(longer))][1])
     return starts
+
+
+def lay_beside(lengths: Sequence[int], row: Sequence[int]) -> list[int]:
+    """Return the lengths of layers that a further row shares."""
+    return [max(pair) for pair in zip_longest(lengths, row, fillvalue=0)]
 
 
 def wrap(graph: Layers, rows: int) -> None:
@@ -94,7 +109,6 @@ class _Wrapping:
             for place, vertex in enumerate(layer):
                 vertex.layer, vertex.order = at, place
         self.graph.layers, self.graph.segments = layers, segments
-        self.graph.rows = len(self.starts)
 
     def _wrapped(self, segments: Sequence[Segment]) -> list[Segment]:
         """Segments of a link, with lanes in place of the rows between its ends."""
@@ -121,7 +135,9 @@ class _Wrapping:
             self._move_label(pairs, found, downwards)
         if downwards:
             return found
-        return [Segment(each.gap, link, each.end, each.start) for each in reversed(found)]
+        return [
+            Segment(each.gap, link, each.end, each.start, each.fixed) for each in reversed(found)
+        ]
 
     def _lane(self, link: int, row: int, leaving: End, entering: End) -> list[Segment]:
         """Segments on a new lane after a row."""
@@ -131,7 +147,7 @@ class _Wrapping:
         found = [Segment(len(lane), link, leaving, last)]
         for upper, lower in pairwise(reversed(lane)):
             ends = End(upper, "first", 0), End(lower, "last", 0)
-            found.append(Segment(upper.layer, link, *ends))
+            found.append(Segment(upper.layer, link, *ends, fixed=True))
         found.append(Segment(0, link, End(lane[0], "first", 0), entering))
         return found
 

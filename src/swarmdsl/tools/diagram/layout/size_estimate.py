@@ -10,7 +10,7 @@ from swarmdsl.tools.diagram.layout.chains import LABEL_GAP, LINE_GAP, NODE_GAP
 from swarmdsl.tools.diagram.layout.container_layout import along_across
 from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
 from swarmdsl.tools.diagram.layout.routing import TRACK
-from swarmdsl.tools.diagram.layout.rows import starts_of_rows
+from swarmdsl.tools.diagram.layout.rows import lay_beside, starts_of_rows
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
 from swarmdsl.tools.diagram.layout.texts import Texts
 from swarmdsl.tools.diagram.shapes import Direction
@@ -193,8 +193,7 @@ def wrapped_size(layers: Sequence[Size], crossed: Sequence[int], rows: int) -> S
     breadth = NODE_GAP * (len(starts) - 1)
     for start, stop in zip(starts, (*starts[1:], len(layers)), strict=True):
         breadth += max((across for _, across in layers[start:stop]), default=0)
-        for at in range(stop - start):
-            lengths[at : at + 1] = [max([layers[start + at][0], *lengths[at : at + 1]])]
+        lengths = lay_beside(lengths, [length for length, _ in layers[start:stop]])
         if stop < len(layers):
             breadth += LINE_GAP * crossed[stop]
     return sum(lengths), breadth

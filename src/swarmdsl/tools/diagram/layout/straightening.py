@@ -18,7 +18,7 @@ from swarmdsl.tools.diagram.layout.relaxation import relax
 from swarmdsl.tools.diagram.layout.simplex import Network
 
 _NARROW = 8
-"""Cost of the breadth of a level, per pixel; half the number of vertices in a row is added."""
+"""Cost of the breadth of a level, per pixel; half the number of vertices is added."""
 
 _SHORT, _SHORT_COST = 14, 10_000
 """Extent below which a bend looks like a mistake, and its cost then."""
@@ -109,7 +109,7 @@ class Straightener:
             self.constraints.append((number[id(last)], bottom, room, 0))
             start = min(start, self.places[number[id(first)]] + offset[id(first)])
             stop = max(stop, self.places[number[id(last)]] + room)
-        count = sum(map(len, self.layers.layers)) // self.layers.rows
+        count = sum(map(len, self.layers.layers))
         self.constraints.append((top, bottom, 0, _NARROW + count // 2))
         self.places += (start, stop)
 
