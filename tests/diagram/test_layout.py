@@ -252,6 +252,14 @@ def test_a_long_chain_has_rows_of_states_that_follow_each_other() -> None:
     assert 5 < turned < 20
 
 
+def test_rows_begin_so_that_long_layers_are_beside_long_ones() -> None:
+    # States and labels in turn, of which a share of a quarter ends between two.
+    lengths = [250, 20] * 49
+    starts = rows.starts_of_rows(lengths, [1] * 99, 4)
+    assert len(starts) == 4
+    assert all(start % 2 == 0 for start in starts), starts
+
+
 def test_a_transition_to_a_row_far_away_passes_those_between() -> None:
     near, far = chain(100), chain(100, [(99, 0), (10, 90)])
     plain, picture = lay_out(near), lay_out(far)

@@ -9,7 +9,7 @@ from swarmdsl.tools.diagram.layout.layered_graph import Cell, End, Layers, Side
 
 END_GAP = 12
 """Preferred distance between two ends on one side of a cell."""
-_CORNER = 7
+_CORNER = 5
 _BEYOND, _SMALL = 2, 14
 """Distance that an end may go beyond its bounds, and the size of the bend that this avoids."""
 _NARROW = 24

@@ -16,7 +16,7 @@ def assign_coordinates(
 ) -> None:
     """Set the positions of vertices and ends across.
 
-    `before` selects the side for the label of a single edge, or of the middle one.
+    `before` selects the side for the label of an edge with as many others on either side.
     """
     sides = cell_sides(layers, cells)
     _choose_label_sides(sides, layers, links, pitch, before)
@@ -52,15 +52,17 @@ def _choose_label_sides(
     """Put each label on the side of its line that faces away from other edges."""
     labels = {vertex.link: vertex for layer in layers.layers for vertex in layer if vertex.is_label}
     for side in sides:
-        with_label = [
-            labels[number]
-            for end, number in zip(side.ends, side.links, strict=True)
+        labelled = [
+            at
+            for at, (end, number) in enumerate(zip(side.ends, side.links, strict=True))
             if number in labels and links[number].source == end.vertex.cell
         ]
-        count = len(with_label)
-        for at, vertex in enumerate(with_label):
-            if at < count // 2 or (before and count % 2 and at == count // 2):
-                vertex.line = vertex.breadth
+        turned = (len(labelled) + before) // 2
+        if len(labelled) == 1 < len(side.ends) and labelled[0] in (0, len(side.ends) - 1):
+            turned = int(labelled[0] == 0)
+        for at in labelled[:turned]:
+            vertex = labels[side.links[at]]
+            vertex.line = vertex.breadth
     for segment in layers.segments:
         for end in (segment.start, segment.end):
             if end.vertex.is_label:

@@ -19,6 +19,10 @@ from swarmdsl.tools.diagram.layout.simplex import Network
 
 _NARROW = 8
 """Cost of the breadth of a level, per pixel; half the number of vertices is added."""
+_LONG, _SHARE = 1_000, 8
+"""Length from which on a level leaves large areas empty, and its share that is added then."""
+_GAP = 40
+"""Approximate space between two layers."""
 
 _SHORT, _SHORT_COST = 14, 10_000
 """Extent below which a bend looks like a mistake, and its cost then."""
@@ -109,8 +113,10 @@ class Straightener:
             self.constraints.append((number[id(last)], bottom, room, 0))
             start = min(start, self.places[number[id(first)]] + offset[id(first)])
             stop = max(stop, self.places[number[id(last)]] + room)
-        count = sum(map(len, self.layers.layers))
-        self.constraints.append((top, bottom, 0, _NARROW + count // 2))
+        cost = _NARROW + sum(map(len, self.layers.layers)) // 2
+        lengths = (max((each.length for each in layer), default=0) for layer in self.layers.layers)
+        cost += max(0, sum(lengths) + _GAP * len(self.layers.layers) - _LONG) // _SHARE
+        self.constraints.append((top, bottom, 0, cost))
         self.places += (start, stop)
 
     def _add_ends(self, side: CellSide) -> None:
