@@ -23,8 +23,8 @@ from swarmdsl.execution.simulate.machines.subject import Subject, choose
 from swarmdsl.execution.simulate.run.prepare import Prepared, Request, prepare
 from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.world.line import as_json
 from swarmdsl.execution.simulate.world.runner import run
-from swarmdsl.execution.simulate.world.trace import as_json
 from swarmdsl.execution.simulate.world.world import World
 
 ROUNDS = 3

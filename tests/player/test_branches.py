@@ -13,8 +13,8 @@ from swarmdsl.base.source import Source
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.run.prepare import Request, prepare
 from swarmdsl.execution.simulate.scenario.durations import MILLISECOND, SECOND
+from swarmdsl.execution.simulate.world.line import Line, as_json
 from swarmdsl.execution.simulate.world.runner import run
-from swarmdsl.execution.simulate.world.trace import Line, as_json
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.testing.case import InvalidTest
 from swarmdsl.execution.testing.models import Models

@@ -23,8 +23,8 @@ from swarmdsl.execution.simulate.inputs.scenario_file import read_scenario
 from swarmdsl.execution.simulate.machines.actors import actors
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.replay.replay import replay
+from swarmdsl.execution.simulate.world.line import Line, as_json
 from swarmdsl.execution.simulate.world.runner import run
-from swarmdsl.execution.simulate.world.trace import Line, as_json
 from swarmdsl.execution.simulate.world.world import World
 
 from .conftest import Ran, Simulate

@@ -21,7 +21,7 @@ from swarmdsl.execution.simulate.run.live_table import Board
 from swarmdsl.execution.simulate.scenario.clock import Clock
 from swarmdsl.execution.simulate.scenario.durations import SECOND, duration, format_duration
 from swarmdsl.execution.simulate.scenario.scenario import Robot
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 
 from .conftest import Simulate
 

@@ -21,8 +21,8 @@ from swarmdsl.execution.simulate.inputs.events import Input
 from swarmdsl.execution.simulate.inputs.scenario_file import read_scenario
 from swarmdsl.execution.simulate.machines.actors import actors
 from swarmdsl.execution.simulate.machines.subject import Subject
+from swarmdsl.execution.simulate.world.line import as_text
 from swarmdsl.execution.simulate.world.runner import run
-from swarmdsl.execution.simulate.world.trace import as_text
 from swarmdsl.execution.simulate.world.world import World
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"

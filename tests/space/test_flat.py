@@ -13,8 +13,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.simulate.machines.actors import actors
 from swarmdsl.execution.simulate.scenario.durations import SECOND, Fixed
 from swarmdsl.execution.simulate.scenario.scenario import Fault, Scenario
+from swarmdsl.execution.simulate.world.line import as_json
 from swarmdsl.execution.simulate.world.runner import run, run_by_steps
-from swarmdsl.execution.simulate.world.trace import as_json
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.space.ensemble import Ensemble
 from swarmdsl.ir import (

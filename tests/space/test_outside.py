@@ -17,8 +17,8 @@ from swarmdsl.execution.simulate.machines.actors import actors
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
+from swarmdsl.execution.simulate.world.line import as_json
 from swarmdsl.execution.simulate.world.runner import run
-from swarmdsl.execution.simulate.world.trace import as_json
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.space.ensemble import Ensemble
 from swarmdsl.execution.space.outside import OutsideError, OutsideMotion

@@ -15,8 +15,8 @@ from swarmdsl.execution.simulate.machines.actors import actors
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
+from swarmdsl.execution.simulate.world.line import as_json
 from swarmdsl.execution.simulate.world.runner import run
-from swarmdsl.execution.simulate.world.trace import as_json
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ir import FLOAT, Expression, Literal, ModelUse, System
 

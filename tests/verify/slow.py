@@ -23,7 +23,8 @@ from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.network.members import DEPARTED, Roster, following
 from swarmdsl.execution.simulate.scenario.clock import Clock
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
-from swarmdsl.execution.simulate.world.trace import Line, Trace
+from swarmdsl.execution.simulate.world.line import Line
+from swarmdsl.execution.simulate.world.trace import Trace
 from swarmdsl.ir import Property, System
 
 Choice = tuple[Any, ...]

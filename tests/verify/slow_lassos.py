@@ -16,7 +16,7 @@ from swarmdsl.execution.simulate.evaluation.properties import watchable
 from swarmdsl.execution.simulate.machines.actors import actors
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.ir import System
 
 from .slow import Choice, Swarm

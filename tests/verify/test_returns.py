@@ -18,8 +18,8 @@ from swarmdsl.execution.simulate.machines.actors import actors
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import SECOND, Fixed, Uniform
 from swarmdsl.execution.simulate.scenario.scenario import EVERY_FUNCTION, Fault, Message, Scenario
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.simulate.world.runner import run as simulate
-from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.proofs.prove import prove

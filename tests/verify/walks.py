@@ -19,8 +19,8 @@ from swarmdsl.execution.simulate.machines.actors import Actor, actors
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import SECOND, Uniform
 from swarmdsl.execution.simulate.scenario.scenario import EVERY_FUNCTION, Scenario
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.simulate.world.runner import run
-from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.simulate.world.world import World
 
 from ..agreement.values import Values

@@ -40,8 +40,8 @@ from swarmdsl.execution.simulate.run.outputs import Outputs
 from swarmdsl.execution.simulate.run.prepare import STANDARD_INPUT, Prepared, Request, prepare
 from swarmdsl.execution.simulate.scenario.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.scenario.space import ModelError
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.simulate.world.runner import DEFAULT_UNTIL, Ending, Pace, run, run_live
-from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.project.read_source import read_source
 

@@ -13,7 +13,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.write_stream import report_unwritten, write_stream
 from swarmdsl.execution.simulate.evaluation.coverage import Coverage
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.testing.case import Case, InvalidTest
 from swarmdsl.execution.testing.console import Console
 from swarmdsl.execution.testing.models import Models

@@ -12,7 +12,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostic
 from swarmdsl.base.diagnostics.render import DOCUMENTS, counted, render
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.execution.simulate.evaluation.coverage import Coverage, MachineCoverage
-from swarmdsl.execution.simulate.world.trace import Line, as_text
+from swarmdsl.execution.simulate.world.line import Line, as_text
 from swarmdsl.execution.testing.case import InvalidTest
 from swarmdsl.execution.testing.outcome import FileOutcome
 from swarmdsl.execution.testing.verdict import Verdict

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.execution.junit import Case, Remark, Suite, class_name, document
-from swarmdsl.execution.simulate.world.trace import as_text
+from swarmdsl.execution.simulate.world.line import as_text
 from swarmdsl.execution.testing.discovery import SUFFIX
 from swarmdsl.execution.testing.outcome import FileOutcome
 from swarmdsl.execution.testing.verdict import Verdict

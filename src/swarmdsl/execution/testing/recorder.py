@@ -10,7 +10,7 @@ from swarmdsl.base.diagnostics.collector import listed
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.machines.actors import Actor
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.testing.case import ActionKind, Claim
 from swarmdsl.execution.testing.data import describe_fields, matches
 

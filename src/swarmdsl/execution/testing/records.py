@@ -11,7 +11,7 @@ from swarmdsl.base.diagnostics.render.json_lines import as_json, place_as_json
 from swarmdsl.base.source import Span
 from swarmdsl.execution.simulate.evaluation.coverage import Coverage, Key, place_of
 from swarmdsl.execution.simulate.machines.subject import Subject
-from swarmdsl.execution.simulate.world.trace import as_text
+from swarmdsl.execution.simulate.world.line import as_text
 from swarmdsl.execution.testing.case import Case, InvalidTest
 from swarmdsl.execution.testing.outline import Outlined
 from swarmdsl.execution.testing.selection import id_of

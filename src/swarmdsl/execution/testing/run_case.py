@@ -16,8 +16,8 @@ from swarmdsl.execution.simulate.recording.run_lines import Recorder as Recordin
 from swarmdsl.execution.simulate.recording.run_lines import RunLines
 from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.execution.simulate.scenario.space import ModelError
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.simulate.world.runner import Pace
-from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.execution.testing.case import (
     Arrive,

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from functools import partial
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.testing.case import Case
 from swarmdsl.execution.testing.run_case import run_case
 from swarmdsl.execution.testing.run_result import Failure, RunResult

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 
 
 class RunAgainError(BaseException):

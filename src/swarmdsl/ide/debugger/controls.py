@@ -17,8 +17,8 @@ from swarmdsl.execution.engine import Event, Instance, InstanceLike, State, Tran
 from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import SECOND, format_duration
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.simulate.world.runner import Pace
-from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ide.debugger.breakpoints import Breakpoints
 from swarmdsl.ide.debugger.client import Client, RunAgainError

@@ -6,7 +6,8 @@ from typing import Literal
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.engine import Event, InstanceLike, Observer, Run, State, Transition
-from swarmdsl.execution.simulate.world.trace import Line, Trace
+from swarmdsl.execution.simulate.world.line import Line
+from swarmdsl.execution.simulate.world.trace import Trace
 
 Kind = Literal["microstep", "moment", "between", "idle", "failed"]
 Element = State | Transition

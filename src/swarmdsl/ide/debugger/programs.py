@@ -17,8 +17,8 @@ from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.run.prepare import Prepared, Request, prepare
 from swarmdsl.execution.simulate.scenario.durations import duration
 from swarmdsl.execution.simulate.scenario.space import ModelError
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.simulate.world.runner import Pace, run
-from swarmdsl.execution.simulate.world.trace import Line
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ide.debugger.messages import Arguments, RequestError, as_path, optional, texts
 

@@ -15,7 +15,7 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
 from swarmdsl.execution.simulate.scenario.durations import SECOND
-from swarmdsl.execution.simulate.world.trace import Line, as_text
+from swarmdsl.execution.simulate.world.line import Line, as_text
 from swarmdsl.ide.debugger import answers, courses
 from swarmdsl.ide.debugger.behaviour_test import load_test
 from swarmdsl.ide.debugger.breakpoints import Breakpoints, Places

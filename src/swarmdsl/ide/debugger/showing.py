@@ -7,7 +7,7 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostic
 from swarmdsl.execution.simulate.scenario.durations import SECOND
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.ide.debugger.controls import Controls
 from swarmdsl.ide.debugger.inspection import Inspection
 from swarmdsl.ide.debugger.sending import enabled

@@ -13,7 +13,7 @@ from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.recording.run_lines import Changes
 from swarmdsl.execution.simulate.replay.replay import replay
 from swarmdsl.execution.simulate.scenario.scenario import Robot, Scenario
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.tools.player.judged_lines import Judge
 
 _INVALID = "bad-trace-line"

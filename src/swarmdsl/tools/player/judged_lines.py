@@ -15,7 +15,7 @@ from swarmdsl.execution.simulate.recording.measure_lines import MeasureLines, te
 from swarmdsl.execution.simulate.replay.replay import Replayed
 from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
 from swarmdsl.execution.simulate.scenario.space import ABSTRACT
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 
 
 class Judge:

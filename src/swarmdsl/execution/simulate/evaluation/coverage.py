@@ -11,7 +11,7 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Kind, Machine, Transition
 from swarmdsl.execution.simulate.machines.subject import Subject
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.ir import State as ModelState
 from swarmdsl.ir import Transition as ModelTransition
 

@@ -12,7 +12,7 @@ from swarmdsl.execution.monitor import Verdict, Watch
 from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.simulate.machines.expressions import Value, function_of
 from swarmdsl.execution.simulate.machines.subject import Subject
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 
 Data = Callable[[Actor], Mapping[str, Any]]
 

@@ -19,8 +19,9 @@ from swarmdsl.execution.monitor import Watch
 from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.simulate.scenario.clock import Clock
 from swarmdsl.execution.simulate.scenario.scenario import Robot
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.simulate.world.statistics import Life
-from swarmdsl.execution.simulate.world.trace import Audience, Line, ReportingLife, Trace
+from swarmdsl.execution.simulate.world.trace import Audience, ReportingLife, Trace
 
 
 def observe(trace: Trace, watch: Watch, clock: Clock) -> None:

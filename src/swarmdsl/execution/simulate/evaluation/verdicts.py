@@ -20,7 +20,7 @@ from swarmdsl.execution.simulate.evaluation.properties import plan, watch
 from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.execution.simulate.scenario.space import ABSTRACT, Space
-from swarmdsl.execution.simulate.world.trace import Line, as_text
+from swarmdsl.execution.simulate.world.line import Line, as_text
 from swarmdsl.ir import Fitness, Property
 
 _SHOWN = 4

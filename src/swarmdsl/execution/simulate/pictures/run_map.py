@@ -23,7 +23,7 @@ from swarmdsl.execution.simulate.scenario.clock import Clock
 from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.simulate.scenario.scenario import Robot
 from swarmdsl.execution.simulate.scenario.space import Space
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.ir import Environment
 from swarmdsl.ir.space import Point
 

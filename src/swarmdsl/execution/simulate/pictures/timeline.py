@@ -16,7 +16,7 @@ from swarmdsl.execution.simulate.pictures.timeline_arrows import Crossing, Fate,
 from swarmdsl.execution.simulate.pictures.timeline_legend import HATCHED, MERGED, Legend, Shown
 from swarmdsl.execution.simulate.scenario.durations import SECOND, format_duration
 from swarmdsl.execution.simulate.scenario.scenario import Robot
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 
 _WIDTH = 1200
 """Width of the time axis."""

@@ -12,7 +12,7 @@ from swarmdsl.execution.simulate.evaluation.results import fitness_values
 from swarmdsl.execution.simulate.machines.json_numbers import named_numbers
 from swarmdsl.execution.simulate.scenario.durations import MILLISECOND, SECOND
 from swarmdsl.execution.simulate.scenario.space import Space
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.ir import Fitness
 
 

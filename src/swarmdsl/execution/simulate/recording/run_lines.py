@@ -13,7 +13,7 @@ from swarmdsl.execution.simulate.machines.json_numbers import named_numbers
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.network.packets import Transmission
 from swarmdsl.execution.simulate.scenario.durations import MILLISECOND
-from swarmdsl.execution.simulate.world.trace import Line, as_json
+from swarmdsl.execution.simulate.world.line import Line, as_json
 from swarmdsl.execution.simulate.world.world import World
 
 

@@ -1,4 +1,5 @@
 """Replay of traces of robots and simulations on the model.
 
-In: trace lines. Out: the place at which a robot deviated from its model. Read `replay.py` first.
+In: trace lines. Out: the place at which a robot deviated from its model. Read `replay.py`
+first, then `machine_replay.py`.
 """

@@ -14,7 +14,7 @@ from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.simulate.scenario.clock import Clock
 from swarmdsl.execution.simulate.scenario.durations import format_duration
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 
 _REFRESHED = 8
 """Refresh rate per second."""

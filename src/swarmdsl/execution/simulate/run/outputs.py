@@ -23,7 +23,7 @@ from swarmdsl.execution.simulate.recording.run_lines import RunLines
 from swarmdsl.execution.simulate.recording.scene_lines import SceneLines
 from swarmdsl.execution.simulate.run.prepare import STANDARD_INPUT, Prepared, Request
 from swarmdsl.execution.simulate.scenario.space import NoPictureError
-from swarmdsl.execution.simulate.world.trace import Line, as_json, as_text
+from swarmdsl.execution.simulate.world.line import Line, as_json, as_text
 from swarmdsl.execution.simulate.world.world import World
 from swarmdsl.ir import Fitness
 

@@ -31,8 +31,9 @@ from swarmdsl.execution.simulate.world.activities import Activities
 from swarmdsl.execution.simulate.world.broadcasts import Broadcasts
 from swarmdsl.execution.simulate.world.cast import Cast
 from swarmdsl.execution.simulate.world.devices import Devices
+from swarmdsl.execution.simulate.world.line import LATE, Line
 from swarmdsl.execution.simulate.world.schedule import schedule
-from swarmdsl.execution.simulate.world.trace import Line, Trace
+from swarmdsl.execution.simulate.world.trace import Trace
 from swarmdsl.ir import Heartbeat, System
 
 _OF_ACTIVITIES = "do."
@@ -344,7 +345,3 @@ class World:
             if self._cast.instances[actor].running:
                 self.trace.begin(self._cast.instances[actor], f"{LATE}{event}")
                 self.trace.flush()
-
-
-LATE = "fault.late."
-"""Trace event of a missed deadline, before the name of the event."""

@@ -12,7 +12,7 @@ from swarmdsl.execution.engine import Envelope, Event
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED
 from swarmdsl.execution.simulate.scenario.clock import Clock
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet
 from swarmdsl.execution.verify.automata.bodies import Bodies, is_unchanged, take_back
 from swarmdsl.execution.verify.automata.labels import Look, Move, Slot

@@ -8,7 +8,7 @@ from typing import Any
 from swarmdsl.execution import monitor
 from swarmdsl.execution.simulate.evaluation.properties import claim_of, conditions
 from swarmdsl.execution.simulate.machines.actors import Actor
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.verify.robot.body import Body
 from swarmdsl.execution.verify.robot.robot_kind import Kind
 from swarmdsl.ir import Count, Fact

@@ -14,7 +14,7 @@ from swarmdsl.base.records import dataclass, replace
 from swarmdsl.execution.monitor import FALSE, Watch
 from swarmdsl.execution.simulate.evaluation.properties import plan
 from swarmdsl.execution.simulate.evaluation.properties import watch as watched
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.verify.replay.copies import Robot
 from swarmdsl.execution.verify.replay.lasso_times import lap_times
 from swarmdsl.execution.verify.replay.play import Play, play

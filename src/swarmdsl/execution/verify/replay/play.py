@@ -16,7 +16,7 @@ from swarmdsl.execution.simulate.evaluation.properties import watch as watched
 from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.simulate.network.members import DEPARTED
 from swarmdsl.execution.simulate.scenario.clock import Clock
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet, Message
 from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.replay.absences import absences

@@ -11,7 +11,7 @@ from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.source import Span
 from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.scenario.durations import format_duration
-from swarmdsl.execution.simulate.world.trace import Line, as_text
+from swarmdsl.execution.simulate.world.line import Line, as_text
 from swarmdsl.execution.verify.findings.finding import Fault, Finding
 from swarmdsl.execution.verify.findings.reached import transitions_of
 from swarmdsl.execution.verify.proofs.verdict import Verdict, not_run

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from swarmdsl import ir
 from swarmdsl.execution.engine import Kind, Machine, State
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.verify.search.run import Run
 
 

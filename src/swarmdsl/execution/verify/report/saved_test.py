@@ -21,7 +21,7 @@ from swarmdsl.execution.simulate.inputs.choose_space import has_geometry
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import MICROSECOND, SECOND
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
-from swarmdsl.execution.simulate.world.trace import Line
+from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.proofs.verdict import Verdict
 from swarmdsl.execution.verify.report.toml_text import step_text, time_text, toml_text

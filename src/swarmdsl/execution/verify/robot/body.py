@@ -25,7 +25,8 @@ from swarmdsl.execution.simulate.machines.expressions import PRESENT
 from swarmdsl.execution.simulate.machines.headers import signed
 from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED, Roster
 from swarmdsl.execution.simulate.scenario.clock import Clock
-from swarmdsl.execution.simulate.world.trace import Line, Trace
+from swarmdsl.execution.simulate.world.line import Line
+from swarmdsl.execution.simulate.world.trace import Trace
 from swarmdsl.execution.verify.robot.choices import Nearness
 from swarmdsl.execution.verify.robot.membership import Crew
 from swarmdsl.execution.verify.robot.tasks import Absence, Delay, Input, Task, Wait

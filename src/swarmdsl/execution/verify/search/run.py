@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.execution.simulate.world.trace import Line, as_json
+from swarmdsl.execution.simulate.world.line import Line, as_json
 from swarmdsl.execution.verify.swarm.groups import Step
 
 
