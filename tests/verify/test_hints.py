@@ -66,6 +66,15 @@ def test_a_lost_event_that_nothing_follows_is_named(verified: Verified) -> None:
     assert helps(verified(mended, "CanLand", "--lossy")) == []
 
 
+def test_an_ignored_event_after_which_nothing_happens_is_named(verified: Verified) -> None:
+    text = LANDING.replace("AllDown  of", "Ends of Drones : each drone : eventually in Down //")
+    out = verified(text, "Ends")
+
+    assert "nothing happens to `drone[0]` and `drone[1]` any more" in out
+    (told,) = helps(out)
+    assert told.startswith("`drone[1]` ignores `Free` in `Circle`: handle it there with `on Free`")
+
+
 def test_nothing_is_hinted_where_the_run_does_not_show_it(verified: Verified) -> None:
     out = verified(LANDING, "OneLands")
 

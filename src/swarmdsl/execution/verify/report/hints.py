@@ -13,13 +13,15 @@ from swarmdsl.execution.verify.search.run import Run
 def hint(run: Run) -> str | None:
     """Return a hint at the event that a robot ignores, or at the loss that none notices.
 
-    In a run that goes on for ever, an ignored event may matter to nobody.
+    In a run that goes on for ever, an ignored event may matter to nobody; in one after which nothing
+    happens, any of several may.
     """
-    if run.loop is not None:
+    if run.loop:
         return None
-    ignored = (each for each in reversed(run.lines) if each.ignored and each.envelope.sender)
-    line = next(ignored, None)
-    return _handling(line) if line is not None else _repeating(run)
+    ignored = [each for each in reversed(run.lines) if each.ignored and each.envelope.sender]
+    if run.loop is not None and len({(each.actor, each.event) for each in ignored}) != 1:
+        return None
+    return _handling(ignored[0]) if ignored else _repeating(run)
 
 
 def _handling(line: Line) -> str:
