@@ -71,6 +71,9 @@ def test_a_swarm_of_nobody_is_told(capsys: pytest.CaptureFixture[str], tmp_path:
     assert "choose a member: `--size seeker=1`" in capsys.readouterr().out
     assert run(["verify", str(model), "--size", "seeker=0..1"]) == 0
     assert capsys.readouterr().out.startswith("Seekers: 1 seeker\n")
+    # Where nobody is not allowed, one may not be enough.
+    assert run(["verify", ABSENT, "--size", "seeker=0"]) == 1
+    assert re.findall(r"error\[(\w+)\]", capsys.readouterr().out) == ["SW1709"]
 
 
 def test_a_machine_alone_hears_what_other_robots_send(

@@ -75,6 +75,18 @@ def test_an_ignored_event_after_which_nothing_happens_is_named(verified: Verifie
     assert told.startswith("`drone[1]` ignores `Free` in `Circle`: handle it there with `on Free`")
 
 
+def test_robots_that_only_start_are_left_out_of_long_runs(verified: Verified) -> None:
+    out = verified(LANDING.replace("[2..4]", "[2..*]"), "OneLands", "--size", "drone=50")
+
+    assert "note: 48 robots only start, and are left out here\n" in out
+    assert re.findall(r"note: +\d\.000  (\S+) +(\S+)", out) == [
+        ("drone[0]", "(start)"),
+        ("drone[1]", "(start)"),
+        ("drone[0]", "do.Circle.succeeded"),
+        ("drone[1]", "do.Circle.succeeded"),
+    ]
+
+
 def test_nothing_is_hinted_where_the_run_does_not_show_it(verified: Verified) -> None:
     out = verified(LANDING, "OneLands")
 

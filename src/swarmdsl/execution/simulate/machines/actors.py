@@ -51,7 +51,7 @@ def actors(
     """Create the actors in the order of the robots; report params without a value."""
     size = subject.size(scenario.counts)
     if size > MOST_MEMBERS:
-        help_ = "reduce the numbers in `[count]` of a scenario, or run one machine: `--machine`"
+        help_ = "ask for fewer members, or for one state machine: `--machine`"
         report.report("too-many-members", count=size, help=help_)
         return []
     if subject.document is not None:

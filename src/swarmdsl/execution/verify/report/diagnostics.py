@@ -100,19 +100,26 @@ def _lines(run: Run) -> Iterator[str]:
     """Format a run: a line a step, with the place of its transition."""
     width = max((len(line.actor.name or "") for line in run.lines), default=0)
     again = len(run.lines) - run.loop if run.loop else None
-    for number, line in enumerate(run.lines[:_MOST_LINES]):
+    told = list(enumerate(run.lines))
+    if len(told) > _MOST_LINES:
+        busy = {line.actor.robot for line in run.lines if line.event is not None or line.sent}
+        told = [each for each in told if each[1].actor.robot in busy]
+        rest = len({line.actor.robot for line in run.lines} - busy)
+        if rest:
+            yield f"{counted(rest, 'robot')} only start, and are left out here"
+    for number, line in told[:_MOST_LINES]:
         if number == again:
             yield "from here on, again and again:"
         yield from _losses(run, number)
         yield from _quiet_losses(run, number)
         place = place_of(line)
-        told = [f"from {line.envelope.sender}"] if line.envelope.sender else []
+        about = [f"from {line.envelope.sender}"] if line.envelope.sender else []
         if place is not None:
-            told.append(f"{printable(place.source.name)}:{place.line}")
-        where = f"  ({', '.join(told)})" if told else ""
+            about.append(f"{printable(place.source.name)}:{place.line}")
+        where = f"  ({', '.join(about)})" if about else ""
         yield f"{as_text(line, width)}{where}"
-    if len(run.lines) > _MOST_LINES:
-        yield f"... and {len(run.lines) - _MOST_LINES} more"
+    if len(told) > _MOST_LINES:
+        yield f"... and {len(told) - _MOST_LINES} more"
     else:
         yield from _losses(run, len(run.lines))
         yield from _quiet_losses(run, len(run.lines))

@@ -13,8 +13,8 @@ from swarmdsl.execution.verify.search.run import Run
 def hint(run: Run) -> str | None:
     """Return a hint at the event that a robot ignores, or at the loss that none notices.
 
-    In a run that goes on for ever, an ignored event may matter to nobody; in one after which nothing
-    happens, any of several may.
+    In a run that goes on for ever, an ignored event may matter to nobody; in one after which
+    nothing happens, any of several may.
     """
     if run.loop:
         return None

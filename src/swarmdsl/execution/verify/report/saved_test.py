@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -26,6 +26,9 @@ from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.proofs.verdict import Verdict
 from swarmdsl.execution.verify.report.toml_text import step_text, time_text, toml_text
 from swarmdsl.execution.verify.search.run import Run
+
+if TYPE_CHECKING:
+    from swarmdsl.execution.testing.models import Models
 
 _PATIENCE = '"10 min"'
 """Time that a mended model has to go on after the run."""
@@ -118,6 +121,10 @@ def tests_of(
 
     Each test was run, and fails.
     """
+    # Most calls of the command write no test, and need not wait for this.
+    from swarmdsl.execution.testing.models import Models
+
+    compiled = Models()
     chosen: list[str] = []
     left: list[str] = []
     names: list[str] = []
@@ -129,8 +136,8 @@ def tests_of(
             "".join(f"{line}\n" for line in _Test(subject, each, setting, early).lines())
             for early in (0, MICROSECOND)
         )
-        fails = (test for test in variants if _fails(_file(subject, models, path, [test]), path))
-        test = next(fails, None)
+        files = ((test, _file(subject, models, path, [test])) for test in variants)
+        test = next((test for test, text in files if _fails(text, path, compiled)), None)
         if test is not None:
             chosen.append(test)
         else:
@@ -151,16 +158,14 @@ def _file(subject: Subject, models: Sequence[Path], path: Path, tests: Sequence[
     return "".join([*head, *(f"\n{test}" for test in tests)])
 
 
-def _fails(text: str, path: Path) -> bool:
+def _fails(text: str, path: Path, compiled: Models) -> bool:
     """Return True if the only test of a file fails."""
-    # Most calls of the command write no test, and need not wait for this.
     from swarmdsl.execution.testing.case import InvalidTest
-    from swarmdsl.execution.testing.models import Models
     from swarmdsl.execution.testing.reading import read_tests
     from swarmdsl.execution.testing.verdict import judge
 
     report = Diagnostics()
-    tests = read_tests(Source(path.as_posix(), text, path), Models(), report)
+    tests = read_tests(Source(path.as_posix(), text, path), compiled, report)
     if tests is None:
         return False
     (case,) = tests.cases

@@ -70,7 +70,7 @@ def sizes(
     if by_name and all(0 in wanted.get(name, ()) for name in by_name):
         # A swarm of nobody does nothing.
         found = [each for each in found if any(each.values())]
-        if not found:
+        if not found and not report.has_errors:
             name = next(iter(by_name))
             report.report("nothing-to-simulate", help=f"choose a member: `--size {name}=1`")
     return sorted(found, key=lambda each: sum(each.values()))
