@@ -5,19 +5,27 @@ Usage: `python -m tests.verify.seeded [WALKS] [EXAMPLE...]`
 Random walks decide which mutants of an example do anything else than it does; of these, `swarmc
 verify` shall report as many as it can. A walk knows how functions end, which nobody can see. So the
 share is also shown of those mutants that an observer can convict: they have a run that the original
-has not. The others only leave out some of its runs. Ctrl-C ends it with the figures so far.
+has not. The others only leave out some of its runs. All processors judge mutants. Ctrl-C ends it
+with the figures so far.
 """
 
 from __future__ import annotations
 
 import io
 import json
+import multiprocessing
+import os
+import signal
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 from contextlib import redirect_stderr, redirect_stdout
+from functools import lru_cache, partial
+from multiprocessing.pool import Pool
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import monotonic
 from typing import Literal, NamedTuple, get_args
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
@@ -36,7 +44,6 @@ _MORE = 20
 """Number of walks that look for a violation, though the first one already is different."""
 _LIMIT = "60k"
 """Limit of states for a mutant."""
-_INTERRUPTED = 130
 
 Report = tuple[str, str]
 """Code and message of a diagnostic."""
@@ -58,32 +65,40 @@ class Case(NamedTuple):
     more: bool = False
 
 
-class Original:
-    """A swarm of an example, with its walks."""
+class Known(NamedTuple):
+    """Behaviour of an original in its walks, and what `swarmc verify` reports on it."""
 
-    def __init__(self, folder: Path, swarm: str, number: int) -> None:
+    walks: Sequence[Walk]
+    alarms: AbstractSet[Report]
+
+
+class Original:
+    """A swarm of an example, whose mutants are judged."""
+
+    def __init__(self, folder: Path, swarm: str) -> None:
         self.folder = folder
         self.system = system_of(folder)
         self.swarm = _swarm(self.system, swarm)
-        self.alarms = reports(folder, swarm)
         self._views = Views(self.system, self.swarm)
         self._around = Surroundings(self.system, self.swarm)
-        self._walks = [walk(self.system, self.swarm, self._around, n) for n in range(number)]
-        self._violated = frozenset[str]().union(*(each.violated for each in self._walks))
 
     def mutants(self) -> list[Mutant]:
         """Return the mutants of the machines of the swarm."""
         return [m for m in mutants(self.system, self.folder) if m.machine in self._machines()]
 
-    def judge(self, mutant: Mutant, folder: Path) -> Case:
+    def walk(self, seed: int) -> Walk:
+        """Let the swarm walk."""
+        return walk(self.system, self.swarm, self._around, seed)
+
+    def judge(self, mutant: Mutant, folder: Path, known: Known) -> Case:
         """Let a mutant, written to a folder, walk, and verify it."""
         system = _checked(mutant.write(self.folder, folder))
         if system is None:
             return Case(mutant, "refused")
-        different, wrong = self._tell_apart(system)
+        different, wrong = self._tell_apart(system, known.walks)
         if not different:
             return Case(mutant, "same")
-        new = sorted({code for code, _ in reports(folder, self.swarm.name) - self.alarms})
+        new = sorted({code for code, _ in reports(folder, self.swarm.name) - known.alarms})
         found = any(code.startswith("SW17") for code in new)
         fate: Fate = "verified" if found else "checked" if new else "missed"
         more = does_more(self._views, Views(system, _swarm(system, self.swarm.name)))
@@ -96,29 +111,31 @@ class Original:
             for _, machine in self._around.subject.behaviours(robot)
         }
 
-    def _tell_apart(self, system: System) -> tuple[bool, bool]:
+    def _tell_apart(self, system: System, walks: Sequence[Walk]) -> tuple[bool, bool]:
         """Return if a walk differs, and if one violates a property as none of the original."""
         swarm = _swarm(system, self.swarm.name)
+        violated = frozenset[str]().union(*(each.violated for each in walks))
         different = False
-        for seed, mine in enumerate(self._walks):
+        for seed, mine in enumerate(walks):
             other: Walk = walk(system, swarm, self._around, seed)
             different |= other.deeds != mine.deeds
-            if other.violated - self._violated:
+            if other.violated - violated:
                 return True, True
             if different and seed >= _MORE:
                 break
         return different, False
 
 
-def reports(folder: Path, swarm: str) -> set[Report]:
+def reports(folder: Path, swarm: str) -> frozenset[Report]:
     """Return what `swarmc verify` reports on a swarm of a model."""
     printed = io.StringIO()
     with redirect_stdout(printed), redirect_stderr(io.StringIO()):
         words = ["verify", str(folder), "--swarm", swarm, "--limit", _LIMIT, "--format", "json"]
-        if run(words) == _INTERRUPTED:
-            raise KeyboardInterrupt
+        run(words)
     lines = map(json.loads, printed.getvalue().splitlines())
-    return {(each["code"], each["message"]) for each in lines if each["severity"] != "note"}
+    return frozenset(
+        (each["code"], each["message"]) for each in lines if each["severity"] != "note"
+    )
 
 
 def system_of(folder: Path) -> System:
@@ -142,42 +159,78 @@ def main() -> None:
     number = int(words.pop(0)) if words and words[0].isdigit() else _WALKS
     names = words or sorted(path.parent.name for path in EXAMPLES.glob("*/README.md"))
     total: Counter[str] = Counter()
-    alarms = 0
-    swarms = [(name, each.name) for name in names for each in system_of(EXAMPLES / name).swarms]
-    for name, swarm in swarms:
-        original = Original(EXAMPLES / name, swarm, number)
-        alarms += len(original.alarms)
-        for code, message in sorted(original.alarms):
-            _say(f"{name} {swarm}: of the example itself, {code}: {message}")
-        count = _judged(original, f"{name} {swarm}")
-        total += count
-        _say(f"{name} {swarm}: {_summary(count)}")
-        if count["left"]:
-            break
+    # A process of its own for each, not a copy: threads of this one could hold locks.
+    processes = multiprocessing.get_context("spawn").Pool(_processors(), _leave_interrupts)
+    with processes as pool:
+        for name in names:
+            for swarm in system_of(EXAMPLES / name).swarms:
+                total += _judged(pool, name, swarm.name, number)
+                if total["left"]:
+                    break
+            if total["left"]:
+                break
     _say(f"\nmutants that {number:,} random walks tell from the original: {_summary(total)}")
-    _say(f"reported about the examples themselves: {alarms}")
+    _say(f"reported about the examples themselves: {total['alarms']}")
 
 
-def _judged(original: Original, about: str) -> Counter[str]:
+def _judged(pool: Pool, example: str, swarm: str, number: int) -> Counter[str]:
     """Judge the mutants of a swarm, until it is interrupted; return how many are of each kind."""
+    begun = monotonic()
+    folder, about = EXAMPLES / example, f"{example} {swarm}"
     count: Counter[str] = Counter()
+    original = Original(folder, swarm)
     every = original.mutants()
     try:
-        with TemporaryDirectory() as temporary:
-            for mutant in every:
-                case = original.judge(mutant, Path(temporary) / "mutant")
-                count[case.fate] += 1
-                count["wrong"] += case.wrong
-                count["wrong and found"] += case.wrong and case.fate != "missed"
-                count["more"] += case.more
-                count["more and found"] += case.more and case.fate != "missed"
-                if case.fate == "missed":
-                    wrong = ", though a walk violates a property" if case.wrong else ""
-                    less = "" if case.more else " (only leaves out runs)"
-                    _say(f"{about}: missed {mutant}{less}{wrong}")
+        alarms = pool.apply_async(reports, (folder, swarm))
+        walks = tuple(pool.imap(partial(_walk, folder, swarm), range(number), chunksize=20))
+        known = Known(walks, alarms.get())
+        for code, message in sorted(known.alarms):
+            _say(f"{about}: of the example itself, {code}: {message}")
+        count["alarms"] = len(known.alarms)
+        judge = partial(_judge, folder, swarm, known)
+        for mutant, case in zip(every, pool.imap(judge, range(len(every))), strict=True):
+            _count(count, case)
+            if case.fate == "missed":
+                wrong = ", though a walk violates a property" if case.wrong else ""
+                less = "" if case.more else " (only leaves out runs)"
+                _say(f"{about}: missed {mutant}{less}{wrong}")
     except KeyboardInterrupt:
         count["left"] = len(every) - sum(count[fate] for fate in get_args(Fate))
+    _say(f"{about}: {_summary(count)}; in {monotonic() - begun:.0f} s")
     return count
+
+
+def _count(count: Counter[str], case: Case) -> None:
+    found = case.fate != "missed"
+    count[case.fate] += 1
+    count["wrong"] += case.wrong
+    count["wrong and found"] += case.wrong and found
+    count["more"] += case.more
+    count["more and found"] += case.more and found
+
+
+def _processors() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _leave_interrupts() -> None:
+    """Leave Ctrl-C to the process that prints the figures."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@lru_cache(maxsize=1)
+def _original(folder: Path, swarm: str) -> Original:
+    return Original(folder, swarm)
+
+
+def _walk(folder: Path, swarm: str, seed: int) -> Walk:
+    return _original(folder, swarm).walk(seed)
+
+
+def _judge(folder: Path, swarm: str, known: Known, number: int) -> Case:
+    original = _original(folder, swarm)
+    with TemporaryDirectory() as temporary:
+        return original.judge(original.mutants()[number], Path(temporary) / "mutant", known)
 
 
 def _say(line: str) -> None:

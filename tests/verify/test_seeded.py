@@ -8,7 +8,7 @@ import pytest
 
 from .mutants import mutants
 from .observable import Views, does_more
-from .seeded import EXAMPLES, Case, Original, system_of
+from .seeded import EXAMPLES, Case, Known, Original, reports, system_of
 
 # Kind of mistake, and the text in which it is made. The rest is for `make mutants`.
 FATES = {
@@ -24,14 +24,16 @@ WALKS = 4
 
 
 def test_mistakes_are_found_and_nothing_else(examples: Path, tmp_path: Path) -> None:
-    original = Original(examples / "emergency_exit", "Crowd", WALKS)
+    folder = examples / "emergency_exit"
+    original = Original(folder, "Crowd")
+    known = Known([original.walk(seed) for seed in range(WALKS)], reports(folder, "Crowd"))
     found: dict[tuple[str, str], Case] = {}
     for mutant in original.mutants():
         what = (mutant.kind, mutant.place.text)
         if what in FATES and what not in found:
-            found[what] = original.judge(mutant, tmp_path / "mutant")
+            found[what] = original.judge(mutant, tmp_path / "mutant", known)
 
-    assert original.alarms == set()
+    assert known.alarms == set()
     assert {what: case.fate for what, case in found.items()} == FATES
 
 

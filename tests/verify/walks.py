@@ -6,6 +6,7 @@ them apart.
 
 from __future__ import annotations
 
+from hashlib import sha256
 from random import Random
 from typing import Any, NamedTuple
 
@@ -33,9 +34,9 @@ _RESULTS = 8
 
 
 class Walk(NamedTuple):
-    """Lines of what robots do, and the properties that are violated."""
+    """Digest of what robots do, and the properties that are violated."""
 
-    deeds: tuple[Any, ...]
+    deeds: bytes
     violated: frozenset[str]
 
 
@@ -113,10 +114,14 @@ def walk(system: ir.System, swarm: ir.Swarm, around: Surroundings, seed: int) ->
     try:
         ending = run(world, around.inputs(chance, cast), _LENGTH)
     except LoopError:
-        return Walk((*deeds, "endless"), frozenset())
+        return Walk(_digest(*deeds, "endless"), frozenset())
     results = monitors.results(world.clock.now, ended=ending == "ended")
     wrong = frozenset(each.property.name for each in results if each.verdict == FALSE)
-    return Walk((*deeds, ending), wrong)
+    return Walk(_digest(*deeds, ending), wrong)
+
+
+def _digest(*deeds: Any) -> bytes:
+    return sha256(repr(deeds).encode()).digest()
 
 
 def _sends(machine: ir.StateMachine) -> list[ir.Send]:
