@@ -26,14 +26,16 @@ def robot_alone(
     """Return the model of one robot, to which others may send anything at any time.
 
     Only what decides on this robot and some properties counts. With `is_open`, conditions on its
-    variables hold or not, each time: None if the properties are about them, or delays depend on
-    them.
+    variables hold or not, each time, and it is about the properties that do not read them: None if
+    there is none, or if delays depend on them.
     """
     key = (robot, tuple(each.name for each in properties), is_open)
     if key not in model.wider:
-        subject = _without_variables(model, properties) if is_open else model.subject
-        shown = (_VARIABLES,) if is_open else ()
-        model.wider[key] = _of(model, subject, properties, budget, robot, shown)
+        model.wider[key] = (
+            _with_open_variables(model, properties, budget, robot)
+            if is_open
+            else _of(model, model.subject, properties, budget, robot, ())
+        )
     return model.wider[key]
 
 
@@ -63,16 +65,20 @@ def _with_open_data(model: Model, budget: Budget) -> Model | None:
     return _of(model, subject, properties, budget, None, tuple(f"`{each}`" for each in shown))
 
 
-def _without_variables(model: Model, properties: Sequence[ir.Property]) -> Subject | None:
+def _with_open_variables(
+    model: Model, properties: Sequence[ir.Property], budget: Budget, robot: str | None
+) -> Model | None:
     variables = {
         ("var", f"{machine.name}.{each.name}", ())
         for machine in model.machines.values()
         for each in machine.variables
     }
     data = model.demands.reached_from(variables | _uncovered(model))
-    if any(is_about(each, model.cast, data) for each in properties):
+    properties = [each for each in properties if not is_about(each, model.cast, data)]
+    if not properties:
         return None
-    return loosened(model.subject, model.machines.values(), data)
+    subject = loosened(model.subject, model.machines.values(), data)
+    return _of(model, subject, properties, budget, robot, (_VARIABLES,))
 
 
 def _uncovered(model: Model) -> set[Node]:

@@ -30,21 +30,23 @@ def without_others(
     """Prove a property of one robot of which not all is known, whatever the others send.
 
     Return None if it may be violated so. First the robot is looked at for all such properties at
-    once, then, if it has too many states, for one, and then with open variables.
+    once. If it has too many states, so it is with open variables, and in the end for one property.
     """
     like = [each for each in model.properties if each.each == property_.each and is_alone(each)]
-    for properties, is_open in ((like, False), ([property_], False), ([property_], True)):
+    one = [property_]
+    for properties, is_open in ((like, False), (like, True), (one, True), (one, False)):
         alone = robot_alone(model, properties, me, budget, is_open=is_open)
-        if alone is None:
+        if alone is None or property_ not in alone.properties or not alone.complete:
             continue
         (own,) = alone.groups([property_], me=me)
-        if alone.complete and not alone.doubts([own]):
+        if not alone.doubts([own]):
             states = hearing_all(property_, own.automaton)
             if states is not None:
                 return Verdict(property_, "holds", states, robot=me, alone=True, open=alone.open)
-            if not is_open:
-                # It has all its data: without them, more would be possible.
-                return None
+        if not is_open:
+            # Without its data more would be possible. Those that are not covered are left open for
+            # the whole swarm.
+            return None
     return None
 
 
