@@ -62,7 +62,7 @@ swarm Night { robot : Robot[2] }
         (
             "each robot : in Assist only after hears Help [event.size > 1.0]",
             "holds",
-            ("its variables",),
+            ("`Seen.id`", "`Seen.size`"),
         ),
         # It is about the data.
         ("never some robot has [len(known) > 2]", "unknown", ()),
