@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import partial
 
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.findings.finding import Finding
-from swarmdsl.execution.verify.findings.reached import place_of_taken
+from swarmdsl.execution.verify.findings.reached import place_of_change
 from swarmdsl.execution.verify.search.explore import Graph
 from swarmdsl.execution.verify.search.run import Run
 from swarmdsl.execution.verify.swarm.groups import Group
@@ -34,25 +35,35 @@ class Failures:
             del self.flaws[key]
 
 
-def failures(graph: Graph, played: Callable[[int, Move], Run]) -> Failures:
-    """Find faults in the moves of robots; `played` returns a run to a place, and a move there."""
+def failures(
+    graph: Graph, begun: Callable[[], Run], played: Callable[[int, Move], Run]
+) -> Failures:
+    """Find faults in the moves of robots.
+
+    `begun` returns a run of their start, `played` one to a place, and a move there.
+    """
     result = Failures()
     tried: Counter[Key] = Counter()
     network = graph.network
+
+    def show(group: Group, move: Move, run_of: Callable[[], Run]) -> None:
+        for key, fault in _faults(group, move):
+            if key in result.found or tried[key] == MOST_RUNS:
+                continue
+            tried[key] += 1
+            run = run_of()
+            if run.flaw:
+                result.flaws.setdefault(key, (fault, run.flaw))
+            else:
+                result.found[key] = replace(fault, run=run)
+
+    for group in network.groups:
+        show(group, group.automaton.first, begun)
     for number in sorted(graph.first, key=graph.first.__getitem__):
         group = network.groups[network.places[number].group]
         for step in network.row(number):
-            move = step.move
-            for key, fault in _faults(group, move) if move is not None else ():
-                if key in result.found or tried[key] == MOST_RUNS:
-                    continue
-                assert move is not None
-                tried[key] += 1
-                run = played(number, move)
-                if run.flaw:
-                    result.flaws.setdefault(key, (fault, run.flaw))
-                else:
-                    result.found[key] = replace(fault, run=run)
+            if step.move is not None:
+                show(group, step.move, partial(played, number, step.move))
     for key in result.found:
         result.flaws.pop(key, None)
     return result
@@ -62,7 +73,7 @@ def _faults(group: Group, move: Move) -> Iterator[tuple[Key, Finding]]:
     """Yield what goes wrong in a move, without a run."""
     for moment in move.moments:
         machine = group.automaton.whole.kind.cast[moment.actor].machine
-        place = place_of_taken(machine, moment.taken)
+        place = place_of_change(machine, moment)
         if moment.loops:
             key = ("loops", machine.name, "")
             yield key, Finding("loops", machine.name, group.role, place)

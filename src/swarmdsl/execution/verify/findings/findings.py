@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Hashable, Iterable, Iterator
+from functools import partial
 from typing import Any
 
 from swarmdsl.base.records import dataclass, replace
@@ -14,7 +15,7 @@ from swarmdsl.execution.verify.automata.limits import Budget
 from swarmdsl.execution.verify.findings.failures import MOST_RUNS, Failures, failures
 from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.findings.livelock import livelock
-from swarmdsl.execution.verify.findings.reached import Reached, place_of_taken
+from swarmdsl.execution.verify.findings.reached import Reached, place_of_change
 from swarmdsl.execution.verify.proofs.verdict import unfinished
 from swarmdsl.execution.verify.replay.play import play
 from swarmdsl.execution.verify.replay.spurious import OPEN
@@ -115,7 +116,7 @@ class _Part:
 
     def failures(self) -> Failures:
         """Find guards and effects without a value, and machines that do not come to rest."""
-        return failures(self._graph, self._run)
+        return failures(self._graph, partial(play, self._network, []), self._run)
 
     def findings(self, *, sure: bool, budget: Budget) -> Iterator[Finding]:
         """Yield what else is wrong; what is missing only if the search has seen all."""
@@ -163,7 +164,7 @@ class _Part:
         place = None
         for moment in step.move.moments:
             machine = group.automaton.whole.kind.cast[moment.actor].machine
-            place = place or place_of_taken(machine, moment.taken)
+            place = place or place_of_change(machine, moment)
         yield Finding("answers", step.move.given.name, group.role, place, run=run)
 
     def _trapped(self) -> Iterator[tuple[tuple[int, int], Finding]]:

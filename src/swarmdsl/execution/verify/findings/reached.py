@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterator
 from swarmdsl import ir
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.verify.automata.labels import Moment
 from swarmdsl.execution.verify.findings.finding import Finding
 
 
@@ -20,11 +21,14 @@ def transitions_of(machine: Machine) -> dict[str, ir.Transition]:
     return found
 
 
-def place_of_taken(machine: Machine, taken: Collection[str]) -> Span | None:
-    """Return the place of the first of some transitions, by their names in traces."""
+def place_of_change(machine: Machine, moment: Moment) -> Span | None:
+    """Return the place of the first transition of a moment, else of the last state entered."""
     for name, transition in transitions_of(machine).items():
-        if name in taken:
+        if name in moment.taken:
             return transition.origin
+    for name in moment.entered[-1:]:
+        origin = machine.states[machine.numbers[name]].origin
+        return origin.origin if isinstance(origin, ir.State) else None
     return None
 
 
