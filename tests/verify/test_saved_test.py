@@ -94,8 +94,8 @@ def test_data_results_and_delays_are_replayed(
 ) -> None:
     text = saved(
         """package model
-message Where { x : int32 }
-action Look { result { found : bool } }
+message Where { x : int32, wait : duration }
+action Look { result { found : bool, took : duration } }
 event Order : Where on "order"
 swarm event Seen : Where
 function look : abstraction { action "look" : Look }
@@ -117,8 +117,8 @@ swarm Scouts { scout : Scout[2] }
 property NotBoth of Scouts : never some scout in Both
 """
     )
-    assert '{ send = "Order", to = "scout[0]", data = { x = 4' in text
-    assert '{ end = "look", of = "scout[1]", result = { found = true' in text
+    assert '{ send = "Order", to = "scout[0]", data = { x = 4, wait = "0 s"' in text
+    assert '{ end = "look", of = "scout[1]", result = { found = true, took = "0 s"' in text
     assert '{ pass = "1501 ms" }' in text
     assert run(["test", "it.swarmtest.toml"]) == 1
     assert "property `NotBoth` is violated" in capsys.readouterr().out

@@ -16,7 +16,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import fresh
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Source
-from swarmdsl.codegen.shared.default_values import default_result, default_value
+from swarmdsl.codegen.shared.default_values import default_result, default_value, result_fields
 from swarmdsl.execution.simulate.inputs.choose_space import has_geometry
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import MICROSECOND, SECOND
@@ -24,7 +24,13 @@ from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.proofs.verdict import Verdict
-from swarmdsl.execution.verify.report.toml_text import step_text, time_text, toml_text
+from swarmdsl.execution.verify.report.toml_text import (
+    fields_with_times,
+    step_text,
+    time_text,
+    toml_text,
+    with_times,
+)
 from swarmdsl.execution.verify.search.run import Run
 
 if TYPE_CHECKING:
@@ -307,13 +313,16 @@ class _Test:
         call = self._system.function(activity.name).communication
         if outcome != "succeeded" or result == default_result(call, self._system):
             result = None
+        if result is not None:
+            result = fields_with_times(result_fields(call, self._system), result, self._system)
         as_ = outcome if outcome != "succeeded" else None
         who = line.actor.robot.name
         return step_text(end=activity.name, of=who, **{"as": as_}, result=result)
 
     def _data(self, event: str, data: Any) -> Any:
         type_ = self._system.event(event).type
-        return data if data and data != default_value(type_, self._system) else None
+        is_told = data and data != default_value(type_, self._system)
+        return with_times(type_, data, self._system) if is_told else None
 
     def _send(self, line: Line) -> None:
         """Put the events that a line sends on their way."""
