@@ -30,10 +30,20 @@ function openSettings(setting: string): Thenable<unknown> {
   );
 }
 
+/** What the bundled copy can do instead of something. */
+interface Instead {
+  readonly title: string;
+  readonly run: () => Thenable<unknown>;
+}
+
 /** Show that the bundled copy lacks a feature. */
-export function showBundledLimit(what: string): void {
+export function showBundledLimit(what: string, instead?: Instead): void {
   const text = `To ${what}, install the Python package swarmdsl, or select an interpreter that has it.`;
-  void vscode.window.showErrorMessage(text, INSTALL, SELECT).then((chosen) => {
+  const buttons = [...(instead ? [instead.title] : []), INSTALL, SELECT];
+  void vscode.window.showErrorMessage(text, ...buttons).then((chosen) => {
+    if (chosen === instead?.title) {
+      return instead?.run();
+    }
     if (chosen === INSTALL) {
       return vscode.commands.executeCommand("swarmdsl.install");
     }

@@ -37,7 +37,9 @@ export async function simulate(
     return;
   }
   if (launch.bundled) {
-    showBundledLimit("simulate a model");
+    // The debug adapter of the bundled copy simulates, and shows the run in the preview.
+    const debug = () => vscode.commands.executeCommand("swarmdsl.debug", file, subject);
+    showBundledLimit("simulate a model in a terminal", { title: "Debug", run: debug });
     return;
   }
   const chosen = subject ?? (await chooseSubject(file, "Simulate"));

@@ -561,6 +561,7 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
     window.server(__version__)
     window.command("Swarm: Simulate")
     told = window.page.locator(".notification-toast", has_text="install the Python package")
+    expect(told.get_by_role("button", name="Debug")).to_be_visible()
     told.get_by_role("button", name="Select Interpreter").click()
     window.choose("Browse...")
     window.choose_file(Path(sys.executable))
