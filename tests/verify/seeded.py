@@ -15,6 +15,7 @@ import io
 import json
 import multiprocessing
 import os
+import re
 import signal
 import sys
 from collections import Counter
@@ -42,6 +43,8 @@ EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 _WALKS = 1_000
 _MORE = 20
 """Number of walks that look for a violation, though the first one already is different."""
+_NAME = re.compile(r"`\w+`")
+"""Name of the property in a message that it does not hold."""
 _LIMIT = "60k"
 """Limit of states for a mutant."""
 
@@ -170,7 +173,10 @@ def main() -> None:
             if total["left"]:
                 break
     _say(f"\nmutants that {number:,} random walks tell from the original: {_summary(total)}")
-    _say(f"reported about the examples themselves: {total['alarms']}")
+    _say(
+        f"reported about the examples themselves: {total['alarms']},"
+        f" {total['named alarms']} of them explained in their READMEs"
+    )
 
 
 def _judged(pool: Pool, example: str, swarm: str, number: int) -> Counter[str]:
@@ -184,9 +190,7 @@ def _judged(pool: Pool, example: str, swarm: str, number: int) -> Counter[str]:
         alarms = pool.apply_async(reports, (folder, swarm))
         walks = tuple(pool.imap(partial(_walk, folder, swarm), range(number), chunksize=20))
         known = Known(walks, alarms.get())
-        for code, message in sorted(known.alarms):
-            _say(f"{about}: of the example itself, {code}: {message}")
-        count["alarms"] = len(known.alarms)
+        _tell_alarms(count, known.alarms, folder, about)
         judge = partial(_judge, folder, swarm, known)
         for mutant, case in zip(every, pool.imap(judge, range(len(every))), strict=True):
             _count(count, case)
@@ -198,6 +202,20 @@ def _judged(pool: Pool, example: str, swarm: str, number: int) -> Counter[str]:
         count["left"] = len(every) - sum(count[fate] for fate in get_args(Fate))
     _say(f"{about}: {_summary(count)}; in {monotonic() - begun:.0f} s")
     return count
+
+
+def _tell_alarms(
+    count: Counter[str], alarms: AbstractSet[Report], folder: Path, about: str
+) -> None:
+    """Print what is reported of an example, and if its page names the property that fails."""
+    page = (folder / "README.md").read_text(encoding="utf-8")
+    for code, message in sorted(alarms):
+        name = _NAME.search(message)
+        is_named = name is not None and name[0] in page
+        count["alarms"] += 1
+        count["named alarms"] += is_named
+        named = ", as its README says" if is_named else ""
+        _say(f"{about}: of the example itself, {code}: {message}{named}")
 
 
 def _count(count: Counter[str], case: Case) -> None:
