@@ -116,7 +116,7 @@ class Python:
         """`1.0`."""
         values = {"bool": "True", "str": "'map'", "float": "1.0"}
         if isinstance(type_, Array):
-            return f"[{self.example(type_.element)}]"  # type: ignore[arg-type]
+            return f"[{self.example(type_.element)}]"  # type: ignore[arg-type]  # a primitive
         return values.get(self.setting_type(type_), "1")
 
     def field(self, name: str) -> str:

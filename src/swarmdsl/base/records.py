@@ -286,6 +286,7 @@ class _Matched:
 
     def __get__(self, _instance: object, owner: type[Any]) -> tuple[str, ...]:
         found = tuple(_Shape(owner).positional)
+        # Type checkers let only the body of a class give them.
         owner.__match_args__ = found  # type: ignore[misc]
         return found
 

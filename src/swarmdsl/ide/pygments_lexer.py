@@ -34,7 +34,7 @@ def _words(group: str) -> Any:
     return words(sorted(GROUPS[group] & RESERVED), suffix=r"\b")
 
 
-class SwarmLexer(RegexLexer):  # type: ignore[misc]
+class SwarmLexer(RegexLexer):  # type: ignore[misc]  # Pygments has no types
     """Lexer of swarm models."""
 
     name = "Swarm"

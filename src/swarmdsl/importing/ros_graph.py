@@ -120,6 +120,7 @@ def import_graph(
             if not full.startswith(around):
                 continue
             server = full.removeprefix(around)
+            # Checkers take the names of both paradigms for any strings.
             call = Communication(paradigm, server, type_)  # type: ignore[arg-type]
             functions.append(Function(of_functions.new(server), "abstraction", call, (), ()))
     for full, type_ in graph.topics:

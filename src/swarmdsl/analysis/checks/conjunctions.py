@@ -103,6 +103,7 @@ class Conjunction:
 def satisfiable(*conditions: Condition) -> bool:
     """Return True if values exist for which all conditions hold."""
     if len(conditions) == 1 and isinstance(conditions[0], Atom):
+        # Values of one term are of one class.
         return conditions[0].range.meets(conditions[0].values)  # type: ignore[arg-type]
     return Conjunction(conditions).search() is not False
 
@@ -119,5 +120,6 @@ def _intersection(sets: list[Values]) -> Values:
     while len(sets) > 1:
         pairs = zip(sets[::2], sets[1::2], strict=False)
         rest = sets[len(sets) - len(sets) % 2 :]
+        # Sets of one term are of one class.
         sets = [one & other for one, other in pairs] + rest  # type: ignore[operator]
     return sets[0]

@@ -99,7 +99,7 @@ class FileScope:
             if of == package and last in names
         ]
 
-    def names(self, kind: type[Declaration]) -> list[str]:
+    def names(self, kind: type[Node]) -> list[str]:
         """Return the names of all visible declarations of a kind."""
         seen = [self.own, *(names for _, names in self._imported)]
         return [name for names in seen for name, node in names.items() if isinstance(node, kind)]

@@ -25,6 +25,7 @@ class Advice(str):
         made.act, made.arguments = act, arguments
         return made
 
+    # A string needs one argument.
     def __getnewargs__(self) -> tuple[object, ...]:  # type: ignore[override]
         """Copy and pickle with the change."""
         return str(self), self.act, *self.arguments

@@ -42,7 +42,9 @@ def evaluate(expression: Expression, params: Mapping[str, Param]) -> Value:
     Durations are in seconds, as in rospy. Raises UnknownValueError or UndefinedValueError.
     """
     value: Value = _value(expression, params)
-    return value / 1_000_000_000 if expression.type == DURATION else value  # type: ignore[operator]
+    if expression.type != DURATION:
+        return value
+    return value / 1_000_000_000  # type: ignore[operator]  # a duration is a number
 
 
 def params_by_name(params: tuple[Param, ...]) -> dict[str, Param]:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from threading import RLock
-from typing import Any
+from typing import Any, cast
 
 from swarmdsl.base.read_files import is_folder
 from swarmdsl.execution.simulate.inputs.scenario_files import scenarios_in
@@ -195,8 +195,8 @@ class Simulation:
                 return  # one that was ended
             match event:
                 case "swarmMoved":
-                    steps: Steps = {key: body[key] for key in ("taken", "entered") if key in body}  # type: ignore[assignment]
-                    self._snapshot.move(_TRACE, body["active"], steps)
+                    steps = {key: body[key] for key in ("taken", "entered") if key in body}
+                    self._snapshot.move(_TRACE, body["active"], cast("Steps", steps))
                     self._show(**_state(body), starts=False)
                 case "output" if body["category"] == "console":
                     self._told = body["output"].rstrip("\n")

@@ -69,6 +69,7 @@ from swarmdsl.syntax.ast import (
     Targets,
     TopLevel,
     Variable,
+    name_of,
     nodes_of,
     references,
     walk,
@@ -173,7 +174,7 @@ class Candidates:
         return [
             node
             for node in self._visible((kind,))
-            if not package or self._scope.find(f"{package}.{node.name}")  # type: ignore[attr-defined]
+            if not package or self._scope.find(f"{package}.{name_of(node)}")
         ]
 
     def _in_space(self, kind: type[Node]) -> Iterable[Node]:
@@ -276,7 +277,7 @@ def visible(scope: FileScope, kinds: tuple[type[Node], ...]) -> list[Node]:
     """Return the declarations of some kinds that are visible in a file."""
     found: list[Node] = []
     for kind in kinds:
-        for name in scope.names(kind):  # type: ignore[arg-type]
+        for name in scope.names(kind):
             found += [node for _, node in scope.find(name) if isinstance(node, kind)]
     return found
 

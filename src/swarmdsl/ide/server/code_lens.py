@@ -18,6 +18,7 @@ from swarmdsl.syntax.ast import (
     StateMachine,
     Swarm,
     TopLevel,
+    name_of,
 )
 
 Kind = Literal["machine", "member", "swarm", "component", "property"]
@@ -51,7 +52,7 @@ def code_lenses(file: File) -> Iterator[CodeLens]:
     for owner in owners(file):
         if isinstance(owner, Optimization):
             continue
-        name = owner.name.span.absolute  # type: ignore[attr-defined]
+        name = name_of(owner).span.absolute
         kind = _KINDS.get(type(owner))
         if kind != "property":  # only tests name properties
             yield CodeLens("references", name)

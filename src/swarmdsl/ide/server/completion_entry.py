@@ -5,7 +5,7 @@ from __future__ import annotations
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
-from swarmdsl.syntax.ast import Node, TypeRef
+from swarmdsl.syntax.ast import Node, TypeRef, name_of
 
 # Places in the list; entries of the same rank stay in order.
 BEST, LIKELY, POSSIBLE, KEYWORD, FUNCTION, UNLIKELY, IMPORTED = range(7)
@@ -36,4 +36,4 @@ def entry_of(node: Node, text: str | None = None, word: str = "", rank: int = LI
     detail = kind_name(node)
     if isinstance(type_, TypeRef):
         detail += f" : {type_.span.text}"
-    return Completion(word or str(node.name), detail, node, text, rank)  # type: ignore[attr-defined]
+    return Completion(word or str(name_of(node)), detail, node, text, rank)

@@ -63,11 +63,10 @@ class ExpectedValue:
         if self.type is None or found is None:
             return CONVERTED
         if found == self.type:
-            units = declared_unit(found), declared_unit(self.type)
-            if None in units or units[0] == units[1]:
+            unit, wanted = declared_unit(found), declared_unit(self.type)
+            if unit is None or wanted is None or unit == wanted:
                 return EXACT
-            alike = units[0].dimension == units[1].dimension  # type: ignore[union-attr]
-            return EXACT if alike else MISFIT
+            return EXACT if unit.dimension == wanted.dimension else MISFIT
         if fits(found, self.type):
             return CONVERTED
         if self.is_stored:

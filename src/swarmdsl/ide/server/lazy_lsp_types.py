@@ -28,7 +28,7 @@ def load() -> None:
     """
     if find_spec("lsprotocol._hooks") is None:
         return
-    attrs.define = _define_lazily  # type: ignore[assignment]
+    attrs.define = _define_lazily  # type: ignore[assignment]  # it has overloads
     try:
         from lsprotocol import types
     finally:

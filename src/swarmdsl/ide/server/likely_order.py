@@ -20,6 +20,7 @@ from swarmdsl.syntax.ast import (
     StateMachine,
     TopLevel,
     Transition,
+    name_of,
     references,
 )
 
@@ -57,7 +58,7 @@ def by_use(
     own = getattr(inner, "name", None) if isinstance(inner, (State, Parallel)) else None
 
     def order(node: Node) -> tuple[bool, bool]:
-        name = str(node.name)  # type: ignore[attr-defined]
+        name = str(name_of(node))
         return ref.kind == "Vertex" and name == own, used[name] > 0
 
     return sorted(found, key=order)

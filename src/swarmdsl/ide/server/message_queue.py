@@ -159,6 +159,7 @@ class SerialProtocol(LanguageServerProtocol):
     def _reject(self, invalid: InvalidMessage, error: JsonRpcException) -> None:
         if invalid.expects_response:
             identity = invalid.id if isinstance(invalid.id, (int, str)) else None
+            # JSON-RPC has null for a request without a valid one.
             self._send_response(identity, error=error.to_response_error())  # type: ignore[arg-type]
         else:
             self._server.log(f"{invalid.method}: {error}")

@@ -10,7 +10,7 @@ from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Node, Optimization, children
+from swarmdsl.syntax.ast import Node, Optimization, children, name_of
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ def symbols_of(node: Node) -> Iterator[Symbol]:
     if not isinstance(node, Optimization) and type(node) not in KINDS:
         yield from inside
         return
-    if not isinstance(node, Optimization) and not node.name.span.text:  # type: ignore[attr-defined]
+    if not isinstance(node, Optimization) and not name_of(node).span.text:
         yield from inside  # the name is not typed yet, and editors refuse an empty one
         return
     span = node.span.absolute
@@ -62,5 +62,5 @@ def symbols_of(node: Node) -> Iterator[Symbol]:
         name = node.swarm.span.absolute
         yield Symbol(f"optimize {node.swarm.name}", type(node), "", span, name, inside)
     else:
-        name = node.name.span.absolute  # type: ignore[attr-defined]
+        name = name_of(node).span.absolute
         yield Symbol(name.text, type(node), kind_name(node), span, name, inside)

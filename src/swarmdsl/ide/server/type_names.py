@@ -24,6 +24,7 @@ from swarmdsl.syntax.ast import (
     StructType,
     TopLevel,
     TypeRef,
+    name_of,
     nodes_of,
 )
 from swarmdsl.syntax.types import PRIMITIVES
@@ -54,7 +55,7 @@ def type_names(
     package, slash, _ = before.rpartition("/")
     found: list[Named] = []
     for node in visible(scope, kinds):
-        name = str(node.name)  # type: ignore[attr-defined]
+        name = str(name_of(node))
         of, _, last = name.rpartition("/")
         if slash and of == package:
             found.append((last, "", node))

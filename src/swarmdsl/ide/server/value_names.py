@@ -25,6 +25,7 @@ from swarmdsl.syntax.ast import (
     Node,
     TypeRef,
     Variable,
+    name_of,
 )
 from swarmdsl.syntax.types import BOOL, Named, Type
 
@@ -58,7 +59,7 @@ def value_entries(nodes: Iterable[Node], expected: ExpectedValue) -> Iterator[Co
             fit = min(fit + 1, MISFIT)
         yield entry_of(node, rank=_RANKS[fit])
         if not isinstance(node, EnumType):
-            yield from _fields(str(node.name), type_, expected)  # type: ignore[attr-defined]
+            yield from _fields(str(name_of(node)), type_, expected)
     if expected.typing.has_event and not (expected.is_constant or expected.is_stored):
         yield from _fields("event", expected.typing.event, expected)
 

@@ -22,7 +22,7 @@ from swarmdsl.syntax.ast import (
     space,
     values,
 )
-from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel
+from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, Word
 from swarmdsl.syntax.ast.values import Input
 
 _MODULES = (
@@ -89,6 +89,12 @@ _PARTS = _Parts()
 _REFERENCES = _References()
 
 N = TypeVar("N", bound=Node)
+
+
+def name_of(node: Node) -> Word:
+    """Return the name of a node of a class with names."""
+    name: Word = node.name  # type: ignore[attr-defined]  # classes with names have no base class
+    return name
 
 
 def children(node: Node) -> Iterator[Node]:

@@ -98,10 +98,11 @@ class _OperatorStack:
                 return
             _, word, is_prefix = self._waiting.pop()
             right, _, end = self.values.pop()
-            start, operands = word.span.start, (right,)
+            start = word.span.start
+            operands: tuple[ExpressionTree, ...] = (right,)
             if not is_prefix:
                 left, start, _ = self.values.pop()
-                operands = (left, right)  # type: ignore[assignment]
+                operands = (left, right)
             tree = _operation(word.span, start, end, word, operands)
             self.values.append((tree, start, end))
 

@@ -45,7 +45,7 @@ def editor_files(root: Path, keywords: Keywords) -> Iterator[tuple[Path, str]]:
     for path, lines in marked.items():
         text = (root / path).read_text(encoding="utf-8")
         generated = "".join(f"{line}\n" for line in lines(keywords))
-        replaced, count = _MARKED.subn(lambda _, new=generated: new, text)  # type: ignore[misc]
+        replaced, count = _MARKED.subn(generated.replace("\\", r"\\"), text)
         if count != 1:
             raise MarksMissingError(f"{path}: the lines made by `make parser` are not marked")
         yield root / path, replaced

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from typing import Any
 
 from swarmdsl.base.diagnostics.advice import Advice, write
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
@@ -116,8 +117,8 @@ class _Scanner:
             code,
         )
 
-    def _fault(self, name: str, start: int, end: int, repair: Repair, **more: object) -> None:
-        self._report.report(name, Span(self._source, start, end), **more)  # type: ignore[arg-type]
+    def _fault(self, name: str, start: int, end: int, repair: Repair, **more: Any) -> None:
+        self._report.report(name, Span(self._source, start, end), **more)
         self._found.append((start, repair))
 
     def _blank(self, start: int, end: int) -> None:

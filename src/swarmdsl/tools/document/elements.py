@@ -23,6 +23,7 @@ from swarmdsl.syntax.ast import (
     ServiceType,
     TopLevel,
     children,
+    name_of,
 )
 
 _PARTS: dict[type[Node], tuple[str, ...]] = {
@@ -102,7 +103,7 @@ class Elements:
         element = Element(anchor, path, name, _kind(node), node, file, parent)
         self.anchors[anchor] = self._by_node[node] = element
         for inner, prefix in _named_children(node):
-            inner_name = str(inner.name)  # type: ignore[attr-defined]
+            inner_name = str(name_of(inner))
             inside = self._add(f"{path}.{prefix}{inner_name}", inner_name, inner, file, element)
             element.children.append(inside)
         return element
@@ -112,7 +113,7 @@ def _name(node: TopLevel) -> str:
     if isinstance(node, Optimization):
         # No other element can have a keyword as its name.
         return f"optimize.{node.swarm.name.rpartition('.')[2]}"
-    return str(node.name)  # type: ignore[attr-defined]
+    return str(name_of(node))
 
 
 def _kind(node: Node) -> str:

@@ -63,7 +63,7 @@ def common_transitions(states: Sequence[Vertex]) -> list[Common]:
         if kept == keys:
             break
         keys = kept
-    orders = [sorted(keys, key=lambda key, t=table: t[key].span.start) for table in tables]  # type: ignore[misc]
+    orders = [sorted(keys, key=lambda key: table[key].span.start) for table in tables]
     if any(order != orders[0] for order in orders):
         return []  # of two on one event, the first is taken
     return [Common(tuple(table[key] for table in tables)) for key in orders[0]]

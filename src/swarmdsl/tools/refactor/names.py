@@ -12,7 +12,7 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.field_references import part_with
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import Field, Node, Region, children
+from swarmdsl.syntax.ast import Field, Node, Region, children, name_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,8 +26,7 @@ class NamedElement:
     @property
     def name_span(self) -> Span:
         """Span of the name in the declaration."""
-        span: Span = self.node.name.span.absolute  # type: ignore[attr-defined]
-        return span
+        return name_of(self.node).span.absolute
 
     def __str__(self) -> str:
         return f"{kind_of(self.node)} `{'.'.join(self.path)}`"
@@ -72,7 +71,7 @@ def suggest_path(
 def _elements_in(file: File, node: Node, around: Sequence[str]) -> Iterator[NamedElement]:
     path = (*around,)
     if type(node) in KINDS:
-        own = (*around, str(node.name))  # type: ignore[attr-defined]
+        own = (*around, str(name_of(node)))
         yield NamedElement(file, node, own)
         path = path if isinstance(node, Region) else own
     for child in children(node):

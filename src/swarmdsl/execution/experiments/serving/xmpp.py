@@ -33,7 +33,7 @@ _WAIT = 10
 """Seconds to log in."""
 
 
-class Account(ClientXMPP):  # type: ignore[misc]
+class Account(ClientXMPP):  # type: ignore[misc]  # slixmpp has no types
     """Account of a simulation manager, in a thread of its own."""
 
     def __init__(self, address: str, password: str) -> None:

@@ -16,14 +16,14 @@ from swarmdsl.ide.server.call_hierarchy import CALLABLE, incoming_calls, outgoin
 from swarmdsl.ide.server.links import document_links
 from swarmdsl.ide.server.session import Place, Session
 from swarmdsl.ide.server.symbol_kinds import SYMBOL_KINDS
-from swarmdsl.syntax.ast import Node, Optimization
+from swarmdsl.syntax.ast import Node, Optimization, name_of
 
 
 def _definition(session: Session, params: lsp.DefinitionParams) -> lsp.Location | None:
     place = session.place(params.text_document, params.position)
     found = occurrence_at(*place) if place is not None else None
     if found is not None:
-        return session.location(found.node.name.span)  # type: ignore[attr-defined]
+        return session.location(name_of(found.node).span)
     for span, path in document_links(place[1]) if place is not None else ():
         if place is not None and span.start <= place[2] <= span.end:
             start = lsp.Position(line=0, character=0)
@@ -86,7 +86,7 @@ def _as_item(session: Session, node: Node) -> lsp.CallHierarchyItem | None:
     """Convert a node into an item of the call hierarchy."""
     if isinstance(node, Optimization):
         return None
-    name = node.name.span  # type: ignore[attr-defined]
+    name = name_of(node).span
     whole, location = session.location(node.span), session.location(name)
     if whole is None or location is None:
         return None
