@@ -35,6 +35,7 @@ class Quotient:
             count = found
             blocks = _numbered([(blocks[n], self._signature(n, blocks)) for n in range(size)])
         self.classes = blocks
+        self._moves: dict[int, list[Move]] = {}
         self.count = count
         first: dict[int, int] = {}
         for number, block in enumerate(blocks):
@@ -51,7 +52,9 @@ class Quotient:
         found = self.whole.steps[self._representatives[state]]
         if found is None:
             return None
-        return self._chosen(found)
+        if state not in self._moves:
+            self._moves[state] = self._chosen(found)
+        return self._moves[state]
 
     def moves_on(self, state: int, message: int) -> list[Move]:
         """Return the moves of a state when a message arrives; none if they are not known."""
