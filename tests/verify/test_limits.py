@@ -98,3 +98,52 @@ property P of S : never some rover in D
     reason = unfinished(model, Budget(Limits()))
 
     assert reason == "a `rover` has too many states: 3 combinations of active states"
+
+
+GATHERING = """package test
+swarm event Call : std_msgs/Empty
+swarm event Here : std_msgs/Empty
+function come : abstraction { service "come" : std_srvs/Empty }
+endless statemachine Coming {
+  initial Away
+  state Away { on Call -> Way }
+  state Way {
+    do come
+    on succeeded / send Here -> There
+    on aborted -> Away
+  }
+  state There { on Call -> Away }
+}
+statemachine Gathering {
+  var here : uint32 = 0
+  initial Wait
+  state Wait {
+    entry / send Call
+    on Here [here < 5] / here = here + 1
+    on Here -> Full
+    after 10 s -> Wait
+  }
+  final Full
+}
+member Guest { behavior Coming }
+member Host { behavior Gathering }
+swarm Party { guest : Guest[6]; host : Host }
+property Early of Party : each host : never in Full
+property Never of Party : each host : in Full only after has [here == 5]
+"""
+
+
+def test_a_robot_near_to_a_violation_is_followed_where_the_search_came_to_its_limit(
+    modelled: Callable[..., Model],
+) -> None:
+    model = modelled(GATHERING)
+
+    early, never = (
+        prove(each, model, Budget(Limits(states=5_000))) for each in watchable(model.subject)
+    )
+
+    assert early.outcome == "fails"
+    assert early.run is not None
+    assert not early.run.shortest
+    assert early.run.lines[-1].configuration == ["Full"]
+    assert never.outcome == "holds"

@@ -16,7 +16,7 @@ from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.composition.plain_data import Composition, Letter, Local, Team, Turn
 from swarmdsl.execution.verify.composition.watching import holding, is_owed, watch_of
 from swarmdsl.execution.verify.findings.reached import transitions_of
-from swarmdsl.execution.verify.proofs.prove import observer_of
+from swarmdsl.execution.verify.proofs.observation import observer_of
 from swarmdsl.execution.verify.proofs.verdict import unfinished
 from swarmdsl.execution.verify.properties.observer import Observer, is_silent
 from swarmdsl.execution.verify.properties.sentence import not_covered

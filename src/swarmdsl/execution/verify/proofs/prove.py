@@ -8,9 +8,15 @@ from itertools import islice
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.proofs.observation import observer_of, run_to
 from swarmdsl.execution.verify.proofs.overapproximation import with_open_data
 from swarmdsl.execution.verify.proofs.possible import prove_possible
-from swarmdsl.execution.verify.proofs.single_robot import hearing_all, is_alone, without_others
+from swarmdsl.execution.verify.proofs.single_robot import (
+    distances,
+    hearing_all,
+    is_alone,
+    without_others,
+)
 from swarmdsl.execution.verify.proofs.timed import not_with_clocks, prove_exactly
 from swarmdsl.execution.verify.proofs.verdict import (
     ESTIMATE,
@@ -21,21 +27,15 @@ from swarmdsl.execution.verify.proofs.verdict import (
     unfinished,
     violated,
 )
-from swarmdsl.execution.verify.properties.observer import Observer
 from swarmdsl.execution.verify.properties.sentence import (
     is_about_ends,
-    length_of,
     not_shown,
-    table_of,
 )
-from swarmdsl.execution.verify.properties.timed_observer import LateObserver
 from swarmdsl.execution.verify.replay.lasso_replay import endless
-from swarmdsl.execution.verify.replay.late_runs import late
-from swarmdsl.execution.verify.replay.play import play
 from swarmdsl.execution.verify.replay.spurious import OPEN
 from swarmdsl.execution.verify.search.explore import Graph, observe
 from swarmdsl.execution.verify.search.lassos import Lassos
-from swarmdsl.execution.verify.search.run import Run, steps_between
+from swarmdsl.execution.verify.search.nearest import observe_nearest
 from swarmdsl.execution.verify.swarm.groups import Group
 from swarmdsl.execution.verify.swarm.influence import cone
 from swarmdsl.execution.verify.swarm.model import Model
@@ -199,8 +199,12 @@ def _searched(
         observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
         graph = observe(observer.network, observer, budget)
     if graph.bad is None:
-        return _not_violated(property_, model, graph, groups, me, budget)
-    found = violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+        near = None
+        if not graph.complete and not budget.interrupted:
+            all_or_some = every if observer.others else groups
+            near = _near(property_, model, all_or_some, me, budget, lonely=lonely)
+        return near or _not_violated(property_, model, graph, groups, me, budget)
+    found = violated(property_, run_to(property_, observer, graph, graph.bad), graph, me)
     if found.run is None and property_.chance is None:
         # A longer run, in which messages arrive first, may be one that can be.
         observer = observer_of(
@@ -208,9 +212,32 @@ def _searched(
         )
         graph = observe(observer.network, observer, budget)
         if graph.bad is not None:
-            again = violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+            again = violated(property_, run_to(property_, observer, graph, graph.bad), graph, me)
             found = again if again.run is not None else found
     return found
+
+
+def _near(
+    property_: ir.Property,
+    model: Model,
+    groups: Sequence[Group],
+    me: str | None,
+    budget: Budget,
+    *,
+    lonely: bool,
+) -> Verdict | None:
+    """Look for a run where the robot that a property is about has few steps to violate it."""
+    mine = place_of(me, groups)
+    if mine is None or not is_alone(property_):
+        return None
+    observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
+    steps = distances(property_, groups[mine].automaton)
+    graph = observe_nearest(observer, mine, steps, budget)
+    if graph.bad is None:
+        return None
+    run = replace(run_to(property_, observer, graph, graph.bad), shortest=False)
+    found = violated(property_, run, graph, me)
+    return found if found.run is not None else None
 
 
 def _in_the_end(
@@ -249,7 +276,7 @@ def _in_the_end(
             )
         graph = observe(observer.network, observer, budget)
         if graph.bad is not None:
-            return violated(property_, _run(property_, observer, graph, graph.bad), graph, me)
+            return violated(property_, run_to(property_, observer, graph, graph.bad), graph, me)
         lassos = Lassos(graph, observer, budget)
         doubts = model.doubts(groups)
         found = 0
@@ -268,51 +295,6 @@ def _in_the_end(
         if all(len(group.robots) == 1 for group in groups):
             break
     return Verdict(property_, "unknown", len(graph.seen), not_run(flaw), robot=me)
-
-
-def _run(property_: ir.Property, observer: Observer, graph: Graph, bad: int) -> Run:
-    """Return a run to a state that violates a property, at once or if nothing follows."""
-    way = graph.way(bad)
-    steps = steps_between(way, lambda state: list(observer.successors(state)))
-    is_bad = observer.is_bad(way[-1])
-    within = length_of(property_)
-    if within is not None:
-        return late(observer.network, steps, property_, within, ended=not is_bad)
-    run = play(observer.network, steps, property_, ended=not is_bad)
-    return run if is_bad else replace(run, loop=0)
-
-
-def observer_of(
-    property_: ir.Property,
-    model: Model,
-    groups: Sequence[Group],
-    me: str | None,
-    *,
-    others: bool,
-    eager: bool = False,
-    lonely: bool = False,
-    timed: bool = False,
-) -> Observer:
-    """Return the observer of a property in some groups, of one robot if it is about each.
-
-    Runs of a property with `within` must fit times, and all runs with `timed`.
-    """
-    table = table_of(property_)
-    is_timed = property_.within is not None
-    # What must happen is asked of robots that are there.
-    spared = me if is_about_ends(property_) else None
-    network = model.network(
-        groups,
-        base=max(table.size, 2).bit_length(),
-        timed=is_timed or timed,
-        spared=spared,
-        eager=eager,
-        lonely=lonely,
-    )
-    mine = place_of(me, groups)
-    if is_timed:
-        return LateObserver(property_, table, network, mine, others=others)
-    return Observer(property_, table, network, mine, others=others)
 
 
 def _not_violated(

@@ -57,44 +57,86 @@ def hearing_all(property_: ir.Property, automaton: Local) -> int | None:
     need happen.
     Return the number of states that were looked at, or None if it may be violated so.
     """
-    group = Group(automaton, ("",))
-    table = table_of(property_)
-    terms = Terms(property_, Network([group], automaton.whole.alphabet, 0, lossy=False))
-    scope = property_.scope.claims if property_.scope is not None else ()
-    claims = [terms.truth(each) for each in (*property_.claims, *scope)]
-    outside = list(arriving(terms.facts))
-
-    def step(memory: int, bits: int, others: frozenset[int] = frozenset()) -> int:
-        holding = [terms.holds(t, 0, bits) or int(t in others) for t in range(len(terms))]
-        return table.step(memory, tuple(bool(each(holding, holding)) for each in claims))
-
-    def after(memory: int, move: Move) -> int:
-        for moment in move.moments:
-            memory = step(memory, moment.holding)
-        return memory
-
-    first = automaton.first
-    bits = 0
-    for moment in first.moments:
-        bits |= moment.holding
-    seen = {(first.target, step(0, bits))}
+    alone = _Alone(property_, automaton)
+    table = alone.table
+    seen = {alone.start()}
     todo = list(seen)
     while todo:
         state, memory = todo.pop()
         if table.is_bad(memory) or table.fails_at_end(memory):
             return None
-        if table.is_settled(memory):
-            continue
+        if not table.is_settled(memory):
+            found = alone.following(state, memory)
+            todo += found - seen
+            seen |= found
+    return len(seen)
+
+
+def distances(property_: ir.Property, automaton: Local) -> dict[tuple[int, int], int]:
+    """Return how many steps a robot that hears all messages is from violating a property.
+
+    They are those of each of its states with the memory of the monitor, if it can get there.
+    """
+    alone = _Alone(property_, automaton)
+    before: dict[tuple[int, int], list[tuple[int, int]]] = {alone.start(): []}
+    todo = list(before)
+    for each in todo:
+        if not alone.table.is_bad(each[1]) and not alone.table.is_settled(each[1]):
+            for following in alone.following(*each):
+                if following not in before:
+                    before[following] = []
+                    todo.append(following)
+                before[following].append(each)
+    found = {each: 0 for each in before if alone.table.is_bad(each[1])}
+    todo = list(found)
+    for each in todo:
+        for earlier in before[each]:
+            if earlier not in found:
+                found[earlier] = found[each] + 1
+                todo.append(earlier)
+    return found
+
+
+class _Alone:
+    """Steps of one robot that hears all messages at any time, with the monitor of a property."""
+
+    def __init__(self, property_: ir.Property, automaton: Local) -> None:
+        network = Network([Group(automaton, ("",))], automaton.whole.alphabet, 0, lossy=False)
+        self.table = table_of(property_)
+        self._automaton = automaton
+        self._terms = Terms(property_, network)
+        scope = property_.scope.claims if property_.scope is not None else ()
+        self._claims = [self._terms.truth(each) for each in (*property_.claims, *scope)]
+        self._outside = list(arriving(self._terms.facts))
+
+    def start(self) -> tuple[int, int]:
+        """Return the first state, with the memory of the monitor."""
+        first = self._automaton.first
+        bits = 0
+        for moment in first.moments:
+            bits |= moment.holding
+        return first.target, self._step(0, bits)
+
+    def following(self, state: int, memory: int) -> set[tuple[int, int]]:
+        """Return the states after a step, each with the memory of the monitor."""
+        automaton = self._automaton
         # A line of another robot, on which an event may arrive from outside.
         holding = automaton.look(state).holding
-        found = {(state, step(memory, holding, others)) for others in outside}
+        found = {(state, self._step(memory, holding, others)) for others in self._outside}
         moves = list(automaton.moves(state) or ())
         loss = automaton.loss(state)
         if loss is not None:
             moves.append(loss)
         for message in range(len(automaton.whole.alphabet.messages)):
             moves += automaton.moves_on(state, message)
-        found |= {(move.target, after(memory, move)) for move in moves}
-        todo += found - seen
-        seen |= found
-    return len(seen)
+        return found | {(move.target, self._after(memory, move)) for move in moves}
+
+    def _step(self, memory: int, bits: int, others: frozenset[int] = frozenset()) -> int:
+        terms = self._terms
+        holding = [terms.holds(t, 0, bits) or int(t in others) for t in range(len(terms))]
+        return self.table.step(memory, tuple(bool(each(holding, holding)) for each in self._claims))
+
+    def _after(self, memory: int, move: Move) -> int:
+        for moment in move.moments:
+            memory = self._step(memory, moment.holding)
+        return memory

@@ -93,7 +93,9 @@ def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
 
 
 def _head(run: Run, size: str) -> str:
-    return f"a run that goes on for ever, of {size}:" if run.loop else f"a shortest run, of {size}:"
+    if run.loop:
+        return f"a run that goes on for ever, of {size}:"
+    return f"a shortest run, of {size}:" if run.shortest else f"a run, of {size}:"
 
 
 def _lines(run: Run) -> Iterator[str]:

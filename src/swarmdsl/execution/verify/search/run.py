@@ -26,7 +26,8 @@ class Run:
     `lost` has the event and the receiver of each, with the number of lines before, `gone` the
     robots that are lost. `flaw` says why
     no swarm can run so, or is empty: then the model itself has run so. The last `loop` lines repeat
-    for ever; 0 says that nothing happens after the run, None that it can go on in any way.
+    for ever; 0 says that nothing happens after the run, None that it can go on in any way. There
+    may be others that are shorter unless it is a `shortest` one.
     """
 
     lines: tuple[Line, ...]
@@ -34,6 +35,7 @@ class Run:
     gone: tuple[Loss, ...] = ()
     flaw: str = ""
     loop: int | None = None
+    shortest: bool = True
     causes: Mapping[int, int] = field(default_factory=dict)
     """For lines on which events of other robots arrive, those on which they were sent."""
 

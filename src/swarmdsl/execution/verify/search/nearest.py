@@ -1,0 +1,58 @@
+"""Search of a swarm where one of its robots is nearest to violating a property."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from heapq import heappop, heappush
+
+from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.properties.observer import Observer
+from swarmdsl.execution.verify.search.explore import Graph
+
+_OFTEN = 4096
+"""Number of states between two looks at the limits."""
+
+
+def observe_nearest(
+    observer: Observer, me: int, distances: Mapping[tuple[int, int], int], budget: Budget
+) -> Graph:
+    """Look for a violation by the robot of a group, first where it has the fewest steps to it.
+
+    The distances are those of its states with the memory of the monitor. Where it has none, no
+    run violates the property any more.
+    """
+    network = observer.network
+    graph = Graph(network)
+    seen, parents = graph.seen, graph.parents
+    first = observer.start(network.start())
+    seen[first] = None
+    parents.append(0)
+    todo = [(0, 0, first)]
+    turns = 0
+    try:
+        while todo:
+            _, number, state = heappop(todo)
+            for news in (observer.following(state), observer.risking(state)):
+                for new in news:
+                    graph.transitions += 1
+                    if new in seen:
+                        continue
+                    seen[new] = None
+                    parents.append(number)
+                    if observer.is_bad(new):
+                        graph.bad = len(seen) - 1
+                        return graph
+                    own = next(
+                        network.places[place].state
+                        for place, _ in network.present(new)
+                        if network.places[place].group == me
+                    )
+                    distance = distances.get((own, new & observer.mine))
+                    if distance is not None:
+                        heappush(todo, (distance, len(seen) - 1, new))
+            turns += 1
+            if (not turns % _OFTEN and not budget.allows(len(seen))) or len(seen) > budget.most:
+                return graph
+    except KeyboardInterrupt:
+        budget.interrupted = True
+    return graph
