@@ -34,6 +34,7 @@ _SOON = 10_000
 SIZE = {"width": 1280, "height": 800}
 _SETTINGS = {
     "chat.disableAIFeatures": True,
+    "editor.cursorBlinking": "solid",
     "editor.minimap.enabled": False,
     "extensions.ignoreRecommendations": True,
     "git.enabled": False,
@@ -42,6 +43,7 @@ _SETTINGS = {
     "update.mode": "none",
     "window.autoDetectColorScheme": True,
     "workbench.layoutControl.enabled": False,
+    "workbench.reduceMotion": "on",  # each frame of an animation takes a processor
     # Late changes of focus must not close an input.
     "workbench.quickOpen.closeOnFocusLost": False,
     "workbench.preferredDarkColorTheme": "Default Dark Modern",
