@@ -153,7 +153,7 @@ clean: ## Remove what was built, except .venv.
 	find src generators tests benchmarks -name __pycache__ -prune -exec rm -rf {} +
 
 $(READY): pyproject.toml
-	$(PYTHON) -m venv $(VENV)
+	$(if $(UV),$(UV) venv --quiet --seed --allow-existing --python $(PYTHON),$(PYTHON) -m venv) $(VENV)
 	$(INSTALL) --editable '.[dev]'
 	touch $@
 
