@@ -9,6 +9,7 @@ UV :=
 PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 INSTALL = $(if $(UV),$(UV) pip install --quiet --python $(BIN)/python,$(PIP))
 READY := $(VENV)/.ready
+EXTRAS := $(VENV)/.agreement $(VENV)/.storm $(VENV)/.editor $(VENV)/.docs
 # More for pytest: make test ARGS="-x tests/syntax"
 ARGS :=
 # How many tests run at the same time: make test WORKERS=1
@@ -32,7 +33,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-xmpp test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser tree-sitter schemas dist vsix clean
+.PHONY: demo extras help test test-long test-all test-ros1 ros2 test-ros2 test-ray test-xmpp test-editor vscode agreement witnesses proofs w3c check fmt docs bench fuzz properties mutants bless parser tree-sitter schemas dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o build/demo
@@ -157,8 +158,13 @@ $(READY): pyproject.toml
 	$(INSTALL) --editable '.[dev]'
 	touch $@
 
+# All at once, if all can be had: each call of an installer builds the project anew.
+extras: $(READY)
+	$(INSTALL) --editable '.[agreement,storm,editor,docs]'
+	touch $(EXTRAS)
+
 # Tests say what is missing where an extra cannot be installed.
-$(VENV)/.agreement $(VENV)/.storm $(VENV)/.editor $(VENV)/.docs: $(VENV)/.%: pyproject.toml | $(READY)
+$(EXTRAS): $(VENV)/.%: pyproject.toml | $(READY)
 	-$(INSTALL) --editable '.[$*]' && touch $@
 
 # What cannot be installed is not measured, and the page says so.
