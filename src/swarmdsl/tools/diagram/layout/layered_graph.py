@@ -139,3 +139,25 @@ class Layers:
     segments: list[Segment]
     cells: list[Vertex]
     lanes: list[Vertex]
+
+
+@dataclass
+class LayerPositions:
+    """Start and length of each layer along, and the total length."""
+
+    starts: list[int]
+    lengths: list[int]
+    end: int
+    in_row: bool
+
+    def cell(self, cell: Cell, layer: int, length: int) -> int:
+        """Position of a cell in its layer or at the border."""
+        if cell.border == "first":
+            return 0
+        if cell.border == "last":
+            return self.end - length
+        return self.starts[layer] if self.in_row else self.middle(layer, length)
+
+    def middle(self, layer: int, length: int) -> int:
+        """Position of something in the middle of a layer."""
+        return self.starts[layer] + (self.lengths[layer] - length) // 2

@@ -11,8 +11,10 @@ from collections.abc import Sequence
 from heapq import heappop, heappush
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.tools.diagram.layout.label_places import LABEL_MARGIN, place_labels
 from swarmdsl.tools.diagram.layout.layered_graph import (
     Cell,
+    LayerPositions,
     Layers,
     Link,
     Placement,
@@ -24,7 +26,6 @@ TRACK = 10
 """Distance between adjacent parallel lines."""
 _MARGIN = 16
 """Distance between a line and a node, with space for an arrow head."""
-_LABEL_MARGIN = 8
 _NEAR = 6
 """Lines closer than this look like one."""
 _MAX_ORDERED = 80
@@ -77,7 +78,7 @@ def route(
             starts.append(along)
             lengths.append(length)
             along += length
-    placed = _LayerPositions(starts, lengths, along, in_row)
+    placed = LayerPositions(starts, lengths, along, in_row)
     tracks_of = {
         id(bar.segment): firsts[gap] + bar.track * TRACK
         for gap in range(count + 1)
@@ -96,29 +97,8 @@ def route(
         breadth,
         [(placed.cell(cells[v.cell or 0], v.layer, v.length), v.across) for v in layers.cells],
         routes,
-        _labels(layers, links, placed, pitch),
+        place_labels(layers, cells, links, placed, pitch),
     )
-
-
-@dataclass
-class _LayerPositions:
-    """Start and length of each layer along, and the total length."""
-
-    starts: list[int]
-    lengths: list[int]
-    end: int
-    in_row: bool
-
-    def cell(self, cell: Cell, layer: int, length: int) -> int:
-        """Position of a cell in its layer or at the border."""
-        if cell.border == "first":
-            return 0
-        if cell.border == "last":
-            return self.end - length
-        return self.starts[layer] if self.in_row else self.middle(layer, length)
-
-    def middle(self, layer: int, length: int) -> int:
-        return self.starts[layer] + (self.lengths[layer] - length) // 2
 
 
 def _crossbar(segment: Segment) -> _Crossbar | None:
@@ -139,7 +119,7 @@ def _margins(layers: Layers, gap: int) -> tuple[int, int]:
         if not 0 <= layer < len(layers.layers):
             return 0
         inner = [vertex for vertex in layers.layers[layer] if vertex.length]
-        return _MARGIN if any(vertex.cell is not None for vertex in inner) else _LABEL_MARGIN
+        return _MARGIN if any(vertex.cell is not None for vertex in inner) else LABEL_MARGIN
 
     return margin(gap - 1), margin(gap)
 
@@ -243,7 +223,7 @@ def _routes(
     layers: Layers,
     cells: Sequence[Cell],
     links: Sequence[Link],
-    placed: _LayerPositions,
+    placed: LayerPositions,
     tracks_of: dict[int, int],
 ) -> list[list[Point]]:
     """Points of each link from source to target."""
@@ -282,15 +262,3 @@ def simplify(path: Sequence[Point]) -> list[Point]:
             found.pop()
         found.append(point)
     return found
-
-
-def _labels(
-    layers: Layers, links: Sequence[Link], placed: _LayerPositions, pitch: int
-) -> list[Point | None]:
-    labels: list[Point | None] = [None] * len(links)
-    for layer in layers.layers:
-        for vertex in layer:
-            if vertex.is_label and vertex.link is not None:
-                across = vertex.across + (0 if vertex.line else pitch)
-                labels[vertex.link] = (placed.middle(vertex.layer, vertex.length), across)
-    return labels
