@@ -7,9 +7,13 @@ from collections.abc import Callable
 import pytest
 
 from swarmdsl.execution.simulate.evaluation.properties import watchable
+from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
+from swarmdsl.execution.verify.findings.failures import failures
 from swarmdsl.execution.verify.proofs.prove import prove
 from swarmdsl.execution.verify.proofs.verdict import unfinished
+from swarmdsl.execution.verify.search.explore import explore
+from swarmdsl.execution.verify.search.run import Run
 from swarmdsl.execution.verify.swarm import model as models
 from swarmdsl.execution.verify.swarm.model import Model
 
@@ -147,3 +151,36 @@ def test_a_robot_near_to_a_violation_is_followed_where_the_search_came_to_its_li
     assert not early.run.shortest
     assert early.run.lines[-1].configuration == ["Full"]
     assert never.outcome == "holds"
+
+
+def test_after_the_limits_one_run_to_each_fault_is_tried(modelled: Callable[..., Model]) -> None:
+    model = modelled(
+        """package test
+event Go : std_msgs/Empty
+event Tick : std_msgs/Empty
+endless statemachine M {
+  var n : uint8 = 0
+  initial S0
+  state S0 {
+    on Go / n = n - 1 -> S1
+    on Tick / n = n - 1 -> S0
+  }
+  state S1 { on Go / n = n - 1 -> S0 }
+}
+member A { behavior M }
+swarm S { a : A }
+"""
+    )
+    graph = explore(model.network(model.groups()), Budget(Limits()))
+    tried: list[int] = []
+
+    def played(number: int, _move: Move) -> Run:
+        tried.append(number)
+        return Run((), flaw="impossible")
+
+    for seconds, tries in ((None, 3), (0.0, 1)):
+        tried.clear()
+        budget = Budget(Limits(seconds=seconds))
+        found = failures(graph, budget, lambda: Run(()), played)
+        assert len(tried) == tries
+        assert [flaw for _, flaw in found.flaws.values()] == ["impossible"]

@@ -8,6 +8,7 @@ from functools import partial
 
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.execution.verify.automata.labels import Move
+from swarmdsl.execution.verify.automata.limits import Budget
 from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.findings.reached import place_of_change
 from swarmdsl.execution.verify.search.explore import Graph
@@ -36,9 +37,9 @@ class Failures:
 
 
 def failures(
-    graph: Graph, begun: Callable[[], Run], played: Callable[[int, Move], Run]
+    graph: Graph, budget: Budget, begun: Callable[[], Run], played: Callable[[int, Move], Run]
 ) -> Failures:
-    """Find faults in the moves of robots.
+    """Find faults in the moves of robots; after the limits, one run to each fault is tried.
 
     `begun` returns a run of their start, `played` one to a place, and a move there.
     """
@@ -49,6 +50,8 @@ def failures(
     def show(group: Group, move: Move, run_of: Callable[[], Run]) -> None:
         for key, fault in _faults(group, move):
             if key in result.found or tried[key] == MOST_RUNS:
+                continue
+            if tried[key] and not budget.allows(0):
                 continue
             tried[key] += 1
             run = run_of()

@@ -59,11 +59,11 @@ def survey(model: Model, budget: Budget) -> Survey:
         complete &= graph.complete
         full |= network.full
         part = _Part(model, graph)
-        failed = part.failures()
+        failed = part.failures(budget)
         if any(flaw in OPEN for _, flaw in failed.flaws.values()):
             # A longer run, in which robots are far from each other and hear of all, may show it.
             lonely = explore(model.network(groups, lonely=True), budget)
-            failed.add(_Part(model, lonely).failures())
+            failed.add(_Part(model, lonely).failures(budget))
         found = [*failed.found.values(), *part.findings(sure=sure, budget=budget)]
         findings += found
         open_ += [*failed.flaws.values(), *part.open.values()]
@@ -114,9 +114,9 @@ class _Part:
         self.open: dict[Hashable, tuple[Finding, str]] = {}
         """Findings without a run that could be played, with the flaw of the first one."""
 
-    def failures(self) -> Failures:
+    def failures(self, budget: Budget) -> Failures:
         """Find guards and effects without a value, and machines that do not come to rest."""
-        return failures(self._graph, partial(play, self._network, []), self._run)
+        return failures(self._graph, budget, partial(play, self._network, []), self._run)
 
     def findings(self, *, sure: bool, budget: Budget) -> Iterator[Finding]:
         """Yield what else is wrong; what is missing only if the search has seen all."""
