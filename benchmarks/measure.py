@@ -32,8 +32,8 @@ class FailedError(Exception):
     """A measured program failed; the message is its output."""
 
 
-def process(command: Sequence[str]) -> Cost:
-    """Run a program to its end. Raises FailedError unless it succeeds."""
+def process(command: Sequence[str], *codes: int) -> Cost:
+    """Run a program to its end. Raises FailedError unless its exit code is 0 or one of some."""
     start = perf_counter()
     with subprocess.Popen(
         command,
@@ -47,7 +47,7 @@ def process(command: Sequence[str]) -> Cost:
         _, status, used = os.wait4(running.pid, 0)
         running.returncode = os.waitstatus_to_exitcode(status)
     wall = perf_counter() - start
-    if running.returncode:
+    if running.returncode not in (0, *codes):
         raise FailedError(f"{' '.join(command)}\n{output}")
     return Cost(used.ru_utime + used.ru_stime, wall, used.ru_maxrss * 1024, output)
 
