@@ -22,6 +22,8 @@ _OFTEN = 1024
 """Number of states between two looks at the limits."""
 _MOST_BEGINNINGS, _MOST_LOOPS = 12, 4
 """Maximum number of states of a component in which loops begin, twice, and of these loops."""
+_MOST_FOLLOWING = 10_000
+"""Maximum number of states whose steps are kept."""
 _Delay = tuple[int, int, str]
 """Delay of the robots of a group: group, machine, and timer."""
 
@@ -48,6 +50,8 @@ class Lassos:
         self._fairness = Fairness(observer.network)
         self._mine = (1 << observer.network.base) - 1
         self._open: dict[int, bool] = {}
+        self._following: dict[int, list[tuple[int, Step]]] = {}
+        """Steps of some states: loops from several states of a component share them."""
         self._states: list[int] = []
         """States in which the property is open, in the order of their distance from the start."""
         self._numbers: dict[int, int] = {}
@@ -87,13 +91,20 @@ class Lassos:
             self._open[memory] = not table.is_bad(memory) and table.fails_at_end(memory)
         return self._open[memory]
 
-    def _steps(self, number: int, without: _Delay | None = None) -> Iterator[tuple[int, Step]]:
-        """Yield the states to which a step leads while the property stays open."""
-        for after, step, passed in self._observer.passing(self._states[number]):
-            found = self._numbers.get(after)
-            is_open = found is not None and all(map(self._is_open, passed))
-            if found is not None and is_open and (not without or self._delay(step) != without):
-                yield found, step
+    def _steps(self, number: int, without: _Delay | None = None) -> list[tuple[int, Step]]:
+        """Return the states to which a step leads while the property stays open."""
+        found = self._following.get(number)
+        if found is None:
+            found = [
+                (self._numbers[after], step)
+                for after, step, passed in self._observer.passing(self._states[number])
+                if after in self._numbers and all(map(self._is_open, passed))
+            ]
+            if len(self._following) < _MOST_FOLLOWING:
+                self._following[number] = found
+        if without is None:
+            return found
+        return [each for each in found if self._delay(each[1]) != without]
 
     def _delay(self, step: Step) -> _Delay | None:
         """Return the delay that ends at a step."""
