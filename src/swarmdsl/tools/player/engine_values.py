@@ -59,7 +59,7 @@ def encoded(value: Any) -> Any:
 
 
 def tree_of(expression: Expression) -> Tree:
-    """Return an expression as a tree, as `simulate.expressions` compiles it."""
+    """Return an expression as a tree, as `machines/expressions.py` compiles it."""
     match expression:
         case Literal(value=literal):
             return ["value", encoded(literal)]
@@ -100,7 +100,7 @@ def tree_of(expression: Expression) -> Tree:
 
 
 def stored_tree(expression: Expression, wanted: Type | None, system: System) -> Tree:
-    """Return an expression whose value is stored or sent, as `simulate.machine_data.stored`."""
+    """Return an expression whose value is stored or sent, as `machine_data.stored` has it."""
     match expression:
         case Construction(type=type_, values=values):
             fields = [

@@ -1,4 +1,4 @@
-"""Abstraction of data: places that decide on behavior, and values that stand for all others.
+"""Abstraction of data: places that decide on behaviour, and values that stand for all others.
 
 In: `ir.System`, state machines, conditions of properties. Out: sliced machines, representatives of
 data from outside, the letters of messages, and doubts about what they leave out. Imports no other

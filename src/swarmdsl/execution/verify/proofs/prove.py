@@ -27,10 +27,7 @@ from swarmdsl.execution.verify.proofs.verdict import (
     unfinished,
     violated,
 )
-from swarmdsl.execution.verify.properties.sentence import (
-    is_about_ends,
-    not_shown,
-)
+from swarmdsl.execution.verify.properties.sentence import is_about_ends, not_shown
 from swarmdsl.execution.verify.replay.lasso_replay import endless
 from swarmdsl.execution.verify.replay.spurious import OPEN
 from swarmdsl.execution.verify.search.explore import Graph, observe

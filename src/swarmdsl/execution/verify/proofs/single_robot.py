@@ -29,8 +29,8 @@ def without_others(
 ) -> Verdict | None:
     """Prove a property of one robot of which not all is known, whatever the others send.
 
-    Return None if it may be violated so. First the robot is looked at for all such properties at
-    once. If it has too many states, so it is with open variables, and in the end for one property.
+    Return None if it may be violated so. The robot is looked at for all such properties at once; if
+    it has too many states, with open variables, then for this property alone.
     """
     like = [each for each in model.properties if each.each == property_.each and is_alone(each)]
     one = [property_]
@@ -44,8 +44,8 @@ def without_others(
             if states is not None:
                 return Verdict(property_, "holds", states, robot=me, alone=True, open=alone.open)
         if not is_open:
-            # Without its data more would be possible. Those that are not covered are left open for
-            # the whole swarm.
+            # With open variables even more would be possible. Data that are not covered are left
+            # open afterwards, for the whole swarm.
             return None
     return None
 
@@ -54,8 +54,7 @@ def hearing_all(property_: ir.Property, automaton: Local) -> int | None:
     """Prove a property of one robot that hears all messages at any time.
 
     What must happen must do so in the same step: then no time passes before it, and nothing else
-    need happen.
-    Return the number of states that were looked at, or None if it may be violated so.
+    need happen. Return the number of states that were looked at, or None if it may be violated so.
     """
     alone = _Alone(property_, automaton)
     table = alone.table
@@ -73,9 +72,10 @@ def hearing_all(property_: ir.Property, automaton: Local) -> int | None:
 
 
 def distances(property_: ir.Property, automaton: Local) -> dict[tuple[int, int], int]:
-    """Return how many steps a robot that hears all messages is from violating a property.
+    """Return the number of steps to a violation by a robot that hears all messages.
 
-    They are those of each of its states with the memory of the monitor, if it can get there.
+    The keys are its states, each with the memory of the monitor. Those from which it cannot violate
+    the property are left out.
     """
     alone = _Alone(property_, automaton)
     before: dict[tuple[int, int], list[tuple[int, int]]] = {alone.start(): []}

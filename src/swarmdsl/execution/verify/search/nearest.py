@@ -18,8 +18,8 @@ def observe_nearest(
 ) -> Graph:
     """Look for a violation by the robot of a group, first where it has the fewest steps to it.
 
-    The distances are those of its states with the memory of the monitor. Where it has none, no
-    run violates the property any more.
+    The distances are by its state and the memory of the monitor. From a state without one, no run
+    violates the property any more.
     """
     network = observer.network
     graph = Graph(network)
