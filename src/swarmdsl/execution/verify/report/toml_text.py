@@ -43,7 +43,7 @@ def with_times(type_: ir.Type | None, data: Any, system: ir.System) -> Any:
 def fields_with_times(
     fields: Iterable[ir.Field] | None, data: Mapping[str, Any], system: ir.System
 ) -> dict[str, Any]:
-    """Return the values of fields likewise."""
+    """Return the values of fields as tests have them, with times as text."""
     types = {field.name: field.type for field in fields or ()}
     return {name: with_times(types.get(name), each, system) for name, each in data.items()}
 

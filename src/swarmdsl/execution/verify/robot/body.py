@@ -301,13 +301,11 @@ class Body:
         robot, to = self.cast[actor].robot, event.envelope.to
         declared = system.event(event.name)
         data = signed(declared, event.data, system, robot.name or "", self.clock.now)
-        if to is None:
-            for each in system.events:
-                if each.incoming_topic == declared.topic and any(
-                    one.listens(each.name) for one in self.cast
-                ):
-                    self.inside.append(Event(each.name, data))
-                    self.waits.append(Wait(self.inside[-1], None, self.steps))
+        heard = [each for each in system.events if each.incoming_topic == declared.topic]
+        for each in heard if to is None else ():
+            if any(one.listens(each.name) for one in self.cast):
+                self.inside.append(Event(each.name, data))
+                self.waits.append(Wait(self.inside[-1], None, self.steps))
         if declared.swarm:
             envelope = Envelope(robot.name or "", self.clock.now, to)
             self.sent.append(Event(event.name, data, envelope=envelope))

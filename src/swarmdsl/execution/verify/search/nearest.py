@@ -24,6 +24,15 @@ def observe_nearest(
     network = observer.network
     graph = Graph(network)
     seen, parents = graph.seen, graph.parents
+
+    def distance_of(state: int) -> int | None:
+        own = next(
+            network.places[place].state
+            for place, _ in network.present(state)
+            if network.places[place].group == me
+        )
+        return distances.get((own, state & observer.mine))
+
     first = observer.start(network.start())
     seen[first] = None
     parents.append(0)
@@ -42,12 +51,7 @@ def observe_nearest(
                     if observer.is_bad(new):
                         graph.bad = len(seen) - 1
                         return graph
-                    own = next(
-                        network.places[place].state
-                        for place, _ in network.present(new)
-                        if network.places[place].group == me
-                    )
-                    distance = distances.get((own, new & observer.mine))
+                    distance = distance_of(new)
                     if distance is not None:
                         heappush(todo, (distance, len(seen) - 1, new))
             turns += 1
