@@ -28,7 +28,7 @@ syn keyword swarmBoolean false true
 syn keyword swarmType bool byte char int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32
 syn keyword swarmType float64 string wstring time duration
 syn match swarmDeclaration #\<abstraction\>\ze[ \t]*[{]#
-syn match swarmDeclaration #\<again\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<again\>\ze[ \t]*[(*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<all\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<always\>\ze[ \t]*\%(possible\)\>#
 syn match swarmDeclaration #\<append\>\ze[ \t]*[A-Za-z_0-9"-]#
@@ -36,9 +36,9 @@ syn match swarmDeclaration #\<area\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<as\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<at\>\ze[ \t]*\%(\%(all\|least\|most\|random\)\>\|[(]\)#
 syn match swarmDeclaration #\<battery\>\ze[ \t]*[{]#
-syn match swarmDeclaration #\<before\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<before\>\ze[ \t]*[(*A-Za-z_0-9"]#
 syn match swarmStatement #\<best\>\ze[ \t]*\%(effort\)\>#
-syn match swarmDeclaration #\<between\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<between\>\ze[ \t]*[(*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<body\>\ze[ \t]*[{]#
 syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<call\>\ze[ \t]*[A-Za-z_]#
@@ -58,7 +58,7 @@ syn match swarmStatement #\<effort\>\ze[ \t]*\%([,;}]\|$\)#
 syn match swarmDeclaration #\<ends\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<energy\>\ze[ \t]*[(]#
 syn match swarmStatement #\<evaluations\>\ze[ \t]*[A-Za-z_0-9"-]#
-syn match swarmDeclaration #\<eventually\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<eventually\>\ze[ \t]*[(*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<feedback\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<found\>\ze[ \t]*[(]#
 syn match swarmDeclaration #\<from\>\ze[ \t]*[A-Za-z_0-9"-]#
@@ -82,14 +82,14 @@ syn match swarmStatement #\<minimize\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<model\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<most\>\ze[ \t]*[0-9"]#
 syn match swarmDeclaration #\<neighbors\>\ze[ \t]*\%(within\)\>#
-syn match swarmDeclaration #\<never\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<never\>\ze[ \t]*[(*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<no\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<obstacle\>\ze[ \t]*[A-Za-z_]#
 syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
 syn match swarmDeclaration #\<only\>\ze[ \t]*\%(after\)\>#
 syn match swarmDeclaration #\<operator\>\ze[ \t]*\%(event\)\>#
 syn match swarmDeclaration #\<other\>\ze[ \t]*[A-Za-z_]#
-syn match swarmDeclaration #\<possible\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<possible\>\ze[ \t]*[(*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<radio\>\ze[ \t]*[{]#
 syn match swarmDeclaration #\<radius\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<rain\>\ze[ \t]*\%(from\|until\)\>#
@@ -112,12 +112,12 @@ syn match swarmStatement #\<steps\>\ze[ \t]*[A-Za-z_0-9"-]#
 syn match swarmStatement #\<subject\>\ze[ \t]*\%(to\)\>#
 syn match swarmDeclaration #\<sum\>\ze[ \t]*\%(each\)\>#
 syn match swarmDeclaration #\<target\>\ze[ \t]*[A-Za-z_]#
-syn match swarmDeclaration #\<then\>\ze[ \t]*[*A-Za-z_0-9"]#
+syn match swarmDeclaration #\<then\>\ze[ \t]*[(*A-Za-z_0-9"]#
 syn match swarmDeclaration #\<time\>\ze[ \t]*\%(\%(until\)\>\|[(]\)#
 syn match swarmDeclaration #\<times\>\ze[ \t]*\%([,;}]\|$\)#
-syn match swarmStatement #\<to\>\ze[ \t]*[*A-Za-z_0-9"-]#
+syn match swarmStatement #\<to\>\ze[ \t]*[(*A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<total\>\ze[ \t]*[(]#
-syn match swarmDeclaration #\<until\>\ze[ \t]*[*A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<until\>\ze[ \t]*[(*A-Za-z_0-9"-]#
 syn match swarmDeclaration #\<wall\>\ze[ \t]*[:]#
 syn match swarmDeclaration #\<when\>\ze[ \t]*\%(dead\)\>#
 syn match swarmDeclaration #\<where\>\ze[ \t]*[A-Za-z_0-9"-]#
