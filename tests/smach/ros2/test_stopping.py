@@ -96,6 +96,7 @@ def test_what_fails_in_a_region_ends_the_other(
         except Exception as error:
             errors.append(error)
 
+    before = set(threading.enumerate())
     thread = threading.Thread(target=run, daemon=True)
     thread.start()
     end = time.monotonic() + PATIENCE
@@ -107,3 +108,6 @@ def test_what_fails_in_a_region_ends_the_other(
     thread.join(PATIENCE)
     assert errors
     assert not host.model.instance.running
+    # SMACH does not wait for the other region, which still prints how it ends.
+    for region_thread in set(threading.enumerate()) - before:
+        region_thread.join(PATIENCE)
