@@ -161,8 +161,8 @@ class Keywords:
         """Pattern of the tokens that can follow a keyword, for editors to tell it from a name."""
         after = self.after[word]
         words = frozenset(filter(str.isalpha, after.tokens))
-        # A word before `(` is mostly the name of an argument or a call, where values can follow. Where
-        # `*` can follow, too, it is before claims.
+        # A word before `(` is mostly the name of an argument or a call, where values can follow.
+        # Where `*` can follow, too, it is before claims.
         values = (after.but is not None or "" in after.tokens) and "*" not in after.tokens
         symbols = "".join(sorted(after.tokens - words - set("[-(" if values else "[-")))
         if after.but is not None:
