@@ -3,7 +3,8 @@
 Usage: `python -m tests.verify.seeded [WALKS] [EXAMPLE...]`
 
 Random walks decide which mutants of an example do anything else than it does; of these, `swarmc
-verify` shall report as many as it can. A walk knows how functions end, which nobody can see. So the
+verify` shall report as many as it can, without options or with the scenarios that the page of the
+example verifies it with. A walk knows how functions end, which nobody can see. So the
 share is also shown of those mutants that an observer can convict: they have a run that the original
 has not. The others only leave out some of its runs. All processors judge mutants. Ctrl-C ends it
 with the figures so far.
@@ -19,7 +20,7 @@ import re
 import signal
 import sys
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from contextlib import redirect_stderr, redirect_stdout
 from functools import lru_cache, partial
@@ -45,11 +46,17 @@ _MORE = 20
 """Number of walks that look for a violation, though the first one already is different."""
 _NAME = re.compile(r"`\w+`")
 """Name of the property in a message that it does not hold."""
+_COMMAND = re.compile(
+    r"^\$ swarmc verify .*--scenario (?P<scenario>\S+)(?P<more>.*)$", re.MULTILINE
+)
+"""A command of a page, with what follows its scenario."""
 _LIMIT = "60k"
 """Limit of states for a mutant."""
 
 Report = tuple[str, str]
 """Code and message of a diagnostic."""
+Options = tuple[str, ...]
+"""More words for `swarmc verify`."""
 Fate = Literal["refused", "same", "checked", "verified", "missed"]
 
 
@@ -69,10 +76,10 @@ class Case(NamedTuple):
 
 
 class Known(NamedTuple):
-    """Behaviour of an original in its walks, and what `swarmc verify` reports on it."""
+    """Behaviour of an original in its walks, and what `swarmc verify` reports with each options."""
 
     walks: Sequence[Walk]
-    alarms: AbstractSet[Report]
+    alarms: Mapping[Options, AbstractSet[Report]]
 
 
 class Original:
@@ -101,7 +108,12 @@ class Original:
         different, wrong = self._tell_apart(system, known.walks)
         if not different:
             return Case(mutant, "same")
-        new = sorted({code for code, _ in reports(folder, self.swarm.name) - known.alarms})
+        new: list[str] = []
+        for options, alarms in known.alarms.items():
+            found_now = reports(folder, self.swarm.name, options)
+            new = sorted({code for code, _ in found_now - alarms})
+            if new:
+                break
         found = any(code.startswith("SW17") for code in new)
         fate: Fate = "verified" if found else "checked" if new else "missed"
         more = does_more(self._views, Views(system, _swarm(system, self.swarm.name)))
@@ -129,12 +141,23 @@ class Original:
         return different, False
 
 
-def reports(folder: Path, swarm: str) -> frozenset[Report]:
+def options_of(folder: Path) -> list[Options]:
+    """Return no options, and those with scenarios that the page of an example verifies it with."""
+    page = (folder / "README.md").read_text(encoding="utf-8")
+    found: dict[Options, None] = {(): None}
+    for command in _COMMAND.finditer(page):
+        scenario = str(folder / Path(command["scenario"]).name)
+        options = ("--scenario", scenario, *command["more"].split())
+        found[options] = None
+    return list(found)
+
+
+def reports(folder: Path, swarm: str, options: Options = ()) -> frozenset[Report]:
     """Return what `swarmc verify` reports on a swarm of a model."""
     printed = io.StringIO()
     with redirect_stdout(printed), redirect_stderr(io.StringIO()):
         words = ["verify", str(folder), "--swarm", swarm, "--limit", _LIMIT, "--format", "json"]
-        run(words)
+        run([*words, *options])
     lines = map(json.loads, printed.getvalue().splitlines())
     return frozenset(
         (each["code"], each["message"]) for each in lines if each["severity"] != "note"
@@ -187,10 +210,13 @@ def _judged(pool: Pool, example: str, swarm: str, number: int) -> Counter[str]:
     original = Original(folder, swarm)
     every = original.mutants()
     try:
-        alarms = pool.apply_async(reports, (folder, swarm))
+        alarms = {
+            options: pool.apply_async(reports, (folder, swarm, options))
+            for options in options_of(folder)
+        }
         walks = tuple(pool.imap(partial(_walk, folder, swarm), range(number), chunksize=20))
-        known = Known(walks, alarms.get())
-        _tell_alarms(count, known.alarms, folder, about)
+        known = Known(walks, {options: each.get() for options, each in alarms.items()})
+        _tell_alarms(count, frozenset().union(*known.alarms.values()), folder, about)
         judge = partial(_judge, folder, swarm, known)
         for mutant, case in zip(every, pool.imap(judge, range(len(every))), strict=True):
             _count(count, case)

@@ -184,3 +184,44 @@ swarm S { a : A }
         found = failures(graph, budget, lambda: Run(()), played)
         assert len(tried) == tries
         assert [flaw for _, flaw in found.flaws.values()] == ["impossible"]
+
+
+def test_a_plan_finds_runs_in_which_roles_need_each_other(modelled: Callable[..., Model]) -> None:
+    """Each of ten robots waits for the one before it, while twenty others count."""
+    machines = "".join(
+        f"statemachine M{n} {{ initial A; state A {{ on E{n} / send E{n + 1} -> B }}; final B }}\n"
+        f"member R{n} {{ behavior M{n} }}\n"
+        for n in range(10)
+    )
+    events = "".join(f"swarm event E{n} : std_msgs/Empty\n" for n in range(11))
+    roles = "".join(f"  r{n} : R{n}\n" for n in range(10))
+    model = modelled(
+        f"""package test
+{events}{machines}
+statemachine Start {{ initial A; state A {{ after 1 s / send E0 -> B }}; final B }}
+member First {{ behavior Start }}
+statemachine End {{ initial A; state A {{ on E10 -> B }}; final B }}
+member Last {{ behavior End }}
+endless statemachine Count {{
+  initial A
+  state A {{ after 1 s -> B; on E0 -> B }}
+  state B {{ after 1 s -> C; on E10 -> A }}
+  state C {{ after 2 s -> A; on E5 -> B }}
+}}
+member Counter {{ behavior Count }}
+swarm S {{
+  first : First
+{roles}  last : Last
+  counter : Counter[20]
+}}
+property P of S : each last : never in B
+"""
+    )
+    (property_,) = watchable(model.subject)
+
+    verdict = prove(property_, model, Budget(Limits(states=300)))
+
+    assert verdict.outcome == "fails"
+    assert verdict.run is not None
+    assert not verdict.run.shortest
+    assert verdict.run.lines[-1].member == "last[0]"

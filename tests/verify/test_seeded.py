@@ -8,7 +8,7 @@ import pytest
 
 from .mutants import mutants
 from .observable import Views, does_more
-from .seeded import EXAMPLES, Case, Known, Original, reports, system_of
+from .seeded import EXAMPLES, Case, Known, Original, options_of, reports, system_of
 
 # Kind of mistake, and the text in which it is made. The rest is for `make mutants`.
 FATES = {
@@ -26,15 +26,29 @@ WALKS = 4
 def test_mistakes_are_found_and_nothing_else(examples: Path, tmp_path: Path) -> None:
     folder = examples / "emergency_exit"
     original = Original(folder, "Crowd")
-    known = Known([original.walk(seed) for seed in range(WALKS)], reports(folder, "Crowd"))
+    walks = [original.walk(seed) for seed in range(WALKS)]
+    known = Known(walks, {(): reports(folder, "Crowd")})
     found: dict[tuple[str, str], Case] = {}
     for mutant in original.mutants():
         what = (mutant.kind, mutant.place.text)
         if what in FATES and what not in found:
             found[what] = original.judge(mutant, tmp_path / "mutant", known)
 
-    assert known.alarms == set()
+    assert known.alarms == {(): set()}
     assert {what: case.fate for what, case in found.items()} == FATES
+
+
+def test_scenarios_of_the_page_of_an_example_are_used() -> None:
+    folder = EXAMPLES / "agriculture"
+
+    assert options_of(EXAMPLES / "minimal") == [()]
+    assert options_of(folder) == [
+        (),
+        ("--scenario", str(folder / "dock.toml")),
+        ("--scenario", str(folder / "treat.toml")),
+        ("--scenario", str(folder / "rain.toml"), "--time", "exact"),
+        ("--scenario", str(folder / "weed.toml"), "--time", "exact"),
+    ]
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from swarmdsl.execution.verify.proofs.observation import observer_of, run_to
 from swarmdsl.execution.verify.proofs.overapproximation import with_open_data
 from swarmdsl.execution.verify.proofs.possible import prove_possible
 from swarmdsl.execution.verify.proofs.single_robot import (
+    Alone,
     distances,
     hearing_all,
     is_alone,
@@ -27,12 +28,14 @@ from swarmdsl.execution.verify.proofs.verdict import (
     unfinished,
     violated,
 )
+from swarmdsl.execution.verify.properties.observer import Observer
 from swarmdsl.execution.verify.properties.sentence import is_about_ends, not_shown
 from swarmdsl.execution.verify.replay.lasso_replay import endless
 from swarmdsl.execution.verify.replay.spurious import OPEN
 from swarmdsl.execution.verify.search.explore import Graph, observe
 from swarmdsl.execution.verify.search.lassos import Lassos
 from swarmdsl.execution.verify.search.nearest import observe_nearest
+from swarmdsl.execution.verify.search.relaxed_plan import observe_planned
 from swarmdsl.execution.verify.swarm.groups import Group
 from swarmdsl.execution.verify.swarm.influence import cone
 from swarmdsl.execution.verify.swarm.model import Model
@@ -223,13 +226,30 @@ def _near(
     *,
     lonely: bool,
 ) -> Verdict | None:
-    """Look for a run where the robot that a property is about has few steps to violate it."""
+    """Look for a run to a violation by the robot that a property is about.
+
+    First with the moves of a plan, then where the robot has few steps to violate it.
+    """
     mine = place_of(me, groups)
     if mine is None or not is_alone(property_):
         return None
+    automaton = groups[mine].automaton
+    # A run in which robots are far from each other may be one that can be.
+    for far in dict.fromkeys((lonely, True)):
+        observer = observer_of(property_, model, groups, me, lonely=far, others=False)
+        graph = observe_planned(observer, mine, Alone(property_, automaton), budget)
+        found = _tried(property_, observer, graph, me)
+        if found is not None:
+            return found
     observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
-    steps = distances(property_, groups[mine].automaton)
-    graph = observe_nearest(observer, mine, steps, budget)
+    graph = observe_nearest(observer, mine, distances(property_, automaton), budget)
+    return _tried(property_, observer, graph, me)
+
+
+def _tried(
+    property_: ir.Property, observer: Observer, graph: Graph, me: str | None
+) -> Verdict | None:
+    """Return the verdict of a search that does not look for a shortest run, if it can be played."""
     if graph.bad is None:
         return None
     run = replace(run_to(property_, observer, graph, graph.bad), shortest=False)

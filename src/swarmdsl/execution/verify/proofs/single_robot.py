@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from swarmdsl import ir
 from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.automata.limits import Budget
@@ -56,7 +58,7 @@ def hearing_all(property_: ir.Property, automaton: Local) -> int | None:
     What must happen must do so in the same step: then no time passes before it, and nothing else
     need happen. Return the number of states that were looked at, or None if it may be violated so.
     """
-    alone = _Alone(property_, automaton)
+    alone = Alone(property_, automaton)
     table = alone.table
     seen = {alone.start()}
     todo = list(seen)
@@ -77,7 +79,7 @@ def distances(property_: ir.Property, automaton: Local) -> dict[tuple[int, int],
     The keys are its states, each with the memory of the monitor. Those from which it cannot violate
     the property are left out.
     """
-    alone = _Alone(property_, automaton)
+    alone = Alone(property_, automaton)
     before: dict[tuple[int, int], list[tuple[int, int]]] = {alone.start(): []}
     todo = list(before)
     for each in todo:
@@ -97,7 +99,7 @@ def distances(property_: ir.Property, automaton: Local) -> dict[tuple[int, int],
     return found
 
 
-class _Alone:
+class Alone:
     """Steps of one robot that hears all messages at any time, with the monitor of a property."""
 
     def __init__(self, property_: ir.Property, automaton: Local) -> None:
@@ -119,17 +121,27 @@ class _Alone:
 
     def following(self, state: int, memory: int) -> set[tuple[int, int]]:
         """Return the states after a step, each with the memory of the monitor."""
-        automaton = self._automaton
         # A line of another robot, on which an event may arrive from outside.
-        holding = automaton.look(state).holding
+        holding = self._automaton.look(state).holding
         found = {(state, self._step(memory, holding, others)) for others in self._outside}
+        return found | {(move.target, after) for _, move, after in self.steps(state, memory)}
+
+    def steps(self, state: int, memory: int) -> Iterator[tuple[int | None, Move, int]]:
+        """Yield moves, each with the message that it is about and the memory after it."""
+        automaton = self._automaton
         moves = list(automaton.moves(state) or ())
         loss = automaton.loss(state)
         if loss is not None:
             moves.append(loss)
+        for move in moves:
+            yield None, move, self._after(memory, move)
         for message in range(len(automaton.whole.alphabet.messages)):
-            moves += automaton.moves_on(state, message)
-        return found | {(move.target, self._after(memory, move)) for move in moves}
+            for move in automaton.moves_on(state, message):
+                yield message, move, self._after(memory, move)
+
+    def is_bad(self, memory: int) -> bool:
+        """Return True if the property is violated."""
+        return self.table.is_bad(memory)
 
     def _step(self, memory: int, bits: int, others: frozenset[int] = frozenset()) -> int:
         terms = self._terms

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet
+from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.robot.timing import Timing
 from swarmdsl.execution.verify.swarm.groups import Group, Place, Step, without
 from swarmdsl.ir import Heartbeat
@@ -154,6 +155,10 @@ class Network:
         for step in self.risks(present):
             yield self.after(state, step), step
 
+    def is_looked_at(self, move: Move | None) -> bool:
+        """Return True if a move does not suppose what is left out here."""
+        return not (self._lonely and move is not None and move.supposes)
+
     def ended(self, state: int) -> bool:
         """Return True if all robots have ended."""
         return all(
@@ -204,7 +209,8 @@ class Network:
         """Return the steps of a robot at a place."""
         found = self.steps[number]
         if found is None:
-            found = self.steps[number] = [s for s in self._find(number) if self._is_looked_at(s)]
+            every = self._find(number)
+            found = self.steps[number] = [each for each in every if self.is_looked_at(each.move)]
             plain: dict[int, None] = {}
             casts: dict[tuple[int, tuple[int, ...], int], None] = {}
             group = self.places[number].group
@@ -258,9 +264,6 @@ class Network:
         sends = step.move.sends if step.move is not None else ()
         group = self.places[step.place].group
         return tuple(m for m in sends if self._somebody_hears(m, group))
-
-    def _is_looked_at(self, step: Step) -> bool:
-        return not (self._lonely and step.move is not None and step.move.supposes)
 
     def _find(self, number: int) -> Iterator[Step]:
         group, state, bag = self.places[number]
