@@ -23,9 +23,9 @@ def fill(window: Window) -> None:
     """Type each flow on its line of the open file, from the first line on."""
     line, missed = 1, 0
     for flow in flows():
-        for _ in range(flow.line - line):
-            window.press("ArrowDown")
-        line = flow.line
+        while line < flow.line:
+            line += 1
+            _move_down(window, line)
         window.press("End")
         window.page.keyboard.type(flow.typed, delay=_PACE)
         missed += not _choose(window, flow.wanted)
@@ -34,6 +34,16 @@ def fill(window: Window) -> None:
             window.page.keyboard.insert_text(flow.then)
         window.press("Escape")
     assert missed <= _MISSED
+
+
+def _move_down(window: Window, line: int) -> None:
+    """Move the cursor down to a line; a list that opens late takes the key, and is closed."""
+    moved = window.status("status.editor.selection").filter(has_text=f"Ln {line},")
+    window.press("ArrowDown")
+    if not _is_there(moved):
+        window.press("Escape")
+        window.press("ArrowDown")
+    expect(moved).to_be_visible()
 
 
 def write_patrol(window: Window) -> None:
@@ -84,9 +94,9 @@ def _choose(window: Window, wanted: str) -> bool:
     return opened
 
 
-def _is_there(row: Locator) -> bool:
+def _is_there(element: Locator) -> bool:
     try:
-        expect(row).to_be_visible(timeout=_SOON)
+        expect(element).to_be_visible(timeout=_SOON)
     except AssertionError:
         return False
     return True
