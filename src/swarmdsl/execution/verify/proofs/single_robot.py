@@ -124,20 +124,21 @@ class Alone:
         # A line of another robot, on which an event may arrive from outside.
         holding = self._automaton.look(state).holding
         found = {(state, self._step(memory, holding, others)) for others in self._outside}
-        return found | {(move.target, after) for _, move, after in self.steps(state, memory)}
+        for message in (None, *range(len(self._automaton.whole.alphabet.messages))):
+            steps = self.steps(state, memory, message)
+            found |= {(move.target, after) for move, after in steps}
+        return found
 
-    def steps(self, state: int, memory: int) -> Iterator[tuple[int | None, Move, int]]:
-        """Yield moves, each with the message that it is about and the memory after it."""
+    def steps(self, state: int, memory: int, message: int | None) -> Iterator[tuple[Move, int]]:
+        """Yield moves on a message, or without one, each with the memory after it."""
         automaton = self._automaton
-        moves = list(automaton.moves(state) or ())
-        loss = automaton.loss(state)
-        if loss is not None:
-            moves.append(loss)
+        if message is not None:
+            moves = list(automaton.moves_on(state, message))
+        else:
+            loss = automaton.loss(state)
+            moves = [*(automaton.moves(state) or ()), *([loss] if loss is not None else ())]
         for move in moves:
-            yield None, move, self._after(memory, move)
-        for message in range(len(automaton.whole.alphabet.messages)):
-            for move in automaton.moves_on(state, message):
-                yield message, move, self._after(memory, move)
+            yield move, self._after(memory, move)
 
     def is_bad(self, memory: int) -> bool:
         """Return True if the property is violated."""

@@ -31,8 +31,8 @@ class Watched(Protocol):
     def start(self) -> tuple[int, int]:
         """Return the first state, with the memory of the monitor."""
 
-    def steps(self, state: int, memory: int) -> Iterable[tuple[int | None, Move, int]]:
-        """Yield moves, each with the message that it is about and the memory after it."""
+    def steps(self, state: int, memory: int, message: int | None) -> Iterable[tuple[Move, int]]:
+        """Yield moves on a message, or without one, each with the memory after it."""
 
     def is_bad(self, memory: int) -> bool:
         """Return True if the property is violated."""
@@ -111,16 +111,11 @@ class _Plan:
 
     def _moves(self, at: _Fact, message: int | None) -> Iterable[tuple[Move, int]]:
         if at.group == self._me:
-            for about, move, memory in self._watched.steps(at.state, at.memory):
-                if about == message:
-                    yield move, memory
-            return
+            return self._watched.steps(at.state, at.memory, message)
         automaton = self._groups[at.group].automaton
-        found = automaton.moves(at.state) if message is None else None
-        if message is not None:
-            found = automaton.moves_on(at.state, message)
-        for move in found or ():
-            yield move, 0
+        if message is None:
+            return [(move, 0) for move in automaton.moves(at.state) or ()]
+        return [(move, 0) for move in automaton.moves_on(at.state, message)]
 
     def _send(
         self, cost: int, sender: int, messages: Sequence[int], support: _Support | None
