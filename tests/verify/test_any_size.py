@@ -204,6 +204,17 @@ def test_numbers_end_at_the_multiplicity(tmp_path: Path) -> None:
     assert for_every_number(property_, "drone", model, 5).reason == "it takes 5 drone"
 
 
+def test_of_a_role_without_a_fixed_number_some_may_be_missing(tmp_path: Path) -> None:
+    # A greatest number of robots does not tell how many are there.
+    busy = "some drone in Wait or some drone in Dock"
+    text = FIELD + f"property P of Field : {busy} or 2..* drone in Fly at all times\n"
+    (property_,), model = sized(text, tmp_path / "field.swarm")
+
+    assert for_every_number(property_, "drone", model, 1, 3).reason == "of 1 drone"
+    assert "more of `drone` can end" in for_every_number(property_, "drone", model, 2, 3).reason
+    assert for_every_number(property_, "drone", model, 3, 3).outcome == "holds"
+
+
 def test_a_property_of_robots_that_are_not_there_holds(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

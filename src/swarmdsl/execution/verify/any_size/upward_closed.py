@@ -166,10 +166,10 @@ class Wanted:
         size = 0
         for number in groups:
             population = self._swarm[number]
-            if population.most is None:
+            if population.most != population.least:
                 role = claim.role if isinstance(claim, Count) else self._groups[number].role
                 raise NotCoveredError(f"more of `{role}` can end what it is about")
-            size += population.most
+            size += population.least
         return Need(term, inverse, max(size - most, 0), groups)
 
     def _meaning(
