@@ -282,6 +282,41 @@ def test_losses_in_swarms_of_every_size(tmp_path: Path, capsys: pytest.CaptureFi
     assert "holds" in capsys.readouterr().out
 
 
+_TOLD = """package told
+endless statemachine M {
+  initial S0
+  state S0 { on member_lost -> S1 }
+  state S1 { on member_lost -> S2 }
+  state S2 { on member_lost -> S3 }
+  state S3 { on member_lost -> S4 }
+  state S4 { on member_lost -> S4 }
+}
+member A { behavior M }
+swarm S {
+  a : A[1..*]
+  heartbeat 1 s lost after 5 s
+}
+property P of S : each a : never in S4
+"""
+
+
+def test_in_swarms_of_every_size_each_robot_may_hear_of_all_losses(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, scenario = tmp_path / "told.swarm", tmp_path / "lost.toml"
+    path.write_text(_TOLD, encoding="utf-8")
+    scenario.write_text('[[faults]]\nat = "3 s"\nlost = "a"\n', encoding="utf-8")
+    told = []
+    for options in (["--faults", "3"], ["--faults", "4"], ["--scenario", str(scenario)]):
+        run(["verify", str(path), "--size", "a=any", "--property", "P", *options])
+        lines = capsys.readouterr().out.splitlines()
+        told.append(next(line for line in lines if line.startswith("  P  ")))
+
+    assert "holds  for 1 or more a" in told[0]
+    assert told[1].endswith("it takes 5 a")
+    assert "any number of `a` can be lost, and others are told" in told[2]
+
+
 def test_presence_is_not_covered_for_every_size(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -230,7 +230,7 @@ class _Session:
                 models[key] = made
             return models[key]
 
-        large = {**counts, **enough(free)}
+        large = {**counts, **enough(free, self._request.faults or 0)}
         return lambda property_: prove_any(
             property_,
             sized(large),

@@ -8,6 +8,7 @@ from typing import Any
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
+from swarmdsl.execution.simulate.network.members import DEPARTED
 from swarmdsl.execution.verify.abstraction.doubt import Doubt
 from swarmdsl.execution.verify.any_size.cover_problem import Bounds, question
 from swarmdsl.execution.verify.any_size.coverability import Cover, cover
@@ -33,9 +34,12 @@ _SPARE = 3
 _RANK: dict[Outcome, int] = {"fails": 0, "unknown": 1, "up to": 2, "holds": 3}
 
 
-def enough(bounds: Bounds) -> dict[str, int]:
-    """Return numbers of robots that show all kinds of robots of swarms of any size."""
-    return {role: least + _SPARE for role, (least, _) in bounds.items()}
+def enough(bounds: Bounds, faults: int = 0) -> dict[str, int]:
+    """Return numbers of robots that show all kinds of robots of swarms of any size.
+
+    Each of them has others that can be lost, as many as `faults`.
+    """
+    return {role: least + max(_SPARE, faults + 1) for role, (least, _) in bounds.items()}
 
 
 def prove_any(
@@ -109,10 +113,13 @@ def differs(property_: ir.Property, model: Model, bounds: Bounds) -> Doubt | Non
         place = _place_of(machine, _counts_near)
         if place is not None:
             return Doubt("the behavior depends on how many robots are near", *place)
+    are_told = any(kind.kind.listens(DEPARTED) for kind in model.kinds)
     for role, (least, _) in bounds.items():
         declared = next(each for each in _roles(model) if each.name == role)
         place = declared.origin
-        unseen = any(each.index >= least + _SPARE for each in declared.robots)
+        if are_told and model.environment.faults >= model.counts[role]:
+            return Doubt(f"any number of `{role}` can be lost, and others are told", place)
+        unseen = any(each.index >= model.counts[role] for each in declared.robots)
         if unseen or sum(kind.kind.role == role for kind in model.kinds) > 1:
             return Doubt(f"robots of `{role}` differ in their params", place)
         for name in sorted(model.named([property_]) | model.environment.named):
