@@ -256,6 +256,36 @@ endless statemachine N {{
         assert _outcome(modelled, text, times=scenario, exact=True) == expected
 
 
+def test_deferred_events_are_heard_together_though_one_has_come_later(modelled: Modelled) -> None:
+    text = f"""endless statemachine M {{
+  initial S0
+  state S0 {{ after 1 s / send Ask -> S1 }}
+  state S1 {{ after 6 s / send Ask -> S2 }}
+  state S2 {{ on Go -> S2 }}
+}}
+endless statemachine N {{
+  initial S0
+  state S0 {{
+    defer Ask
+    after 20 s -> S1
+  }}
+  state S1 {{ on Ask -> S2 }}
+  state S2 {{
+    on Ask -> Both
+    after 2 s -> Missed
+  }}
+  state Both {{ on Go -> Both }}
+  state Missed {{ on Go -> Missed }}
+}}
+{_TWO}"""
+    scenario = Scenario(latency=Fixed(5 * SECOND))
+    missed = f"{text}property P of S : never b in Missed"
+    both = f"{text}property P of S : never b in Both"
+
+    assert _outcome(modelled, missed, times=scenario, exact=True) == "holds"
+    assert _outcome(modelled, both, times=scenario, exact=True) != "holds"
+
+
 def test_a_reliable_event_is_late_where_robots_may_be_out_of_reach(modelled: Modelled) -> None:
     text = f"""swarm event Call : std_msgs/Empty {{ reliable }}
 endless statemachine M {{

@@ -81,13 +81,10 @@ class TimedNetwork(Network):
         for each in bag:
             age, message = divmod(each, _KINDS)
             least, most = self._time(message)
-            if automaton.is_late(state, message):
-                found.append(each)
-            elif age == most:
+            if age == most and not automaton.is_late(state, message):
                 return None
-            else:
-                oldest = least if most is None else most
-                found.append(min(age + 1, oldest) * _KINDS + message)
+            oldest = least if most is None else most
+            found.append(min(age + 1, oldest) * _KINDS + message)
         return tuple(sorted(found))
 
     # ---- internal
