@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from functools import reduce
+from itertools import chain
 from operator import or_
 from typing import Any, TypeVar
 
@@ -122,30 +123,28 @@ class Automaton:
                 values.setdefault(name, set()).add(value)
         return {name: len(found) for name, found in values.items()}
 
+    def every_move(self) -> Iterator[Move]:
+        """Yield the start and the moves of all states, whatever the other robots do."""
+        yield self.first
+        yield from (loss for loss in self.losses if loss is not None)
+        for steps, heard in zip(self.steps, self.heard, strict=True):
+            yield from steps or ()
+            yield from chain(*heard.values())
+
     def lengths(self) -> set[int]:
         """Return the lengths of all delays."""
-        heard = (move for known in self.heard for moves in known.values() for move in moves)
-        own = (move for moves in self.steps for move in moves or ())
         return {
             each.length
-            for move in (self.first, *heard, *own)
+            for move in self.every_move()
             for each in move.carried
             if each.length is not None
         }
 
-    def configurations(self) -> Iterator[Any]:
-        """Yield for each state which states of its machines are active, unless it is lost."""
-        yield from (tuple(each[:3] for each in key[0]) for key in self._there())
-
-    def waiting(self) -> Iterator[Any]:
-        """Yield for each state the deferred events, unless it is lost."""
-        yield from (tuple(each[4] for each in key[0]) for key in self._there())
-
-    def _there(self) -> Iterator[Any]:
-        """Yield the keys of all states in which the robot is not lost."""
-        yield from (
-            key for (key, _), lost in zip(self._keys, self.is_lost, strict=True) if not lost
-        )
+    def parts(self) -> Iterator[tuple[Any, Any]]:
+        """Yield the active states and the deferred events of each state, unless it is lost."""
+        for (key, _), lost in zip(self._keys, self.is_lost, strict=True):
+            if not lost:
+                yield tuple(each[:3] for each in key[0]), tuple(each[4] for each in key[0])
 
     @property
     def is_complete(self) -> bool:

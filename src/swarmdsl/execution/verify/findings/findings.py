@@ -22,7 +22,7 @@ from swarmdsl.execution.verify.replay.spurious import OPEN
 from swarmdsl.execution.verify.search.explore import Graph, explore
 from swarmdsl.execution.verify.search.run import Run, steps_between
 from swarmdsl.execution.verify.swarm.groups import Group, Local, Step
-from swarmdsl.execution.verify.swarm.influence import apart
+from swarmdsl.execution.verify.swarm.influence import apart, sent_by
 from swarmdsl.execution.verify.swarm.model import Model
 
 
@@ -57,7 +57,7 @@ def survey(model: Model, budget: Budget) -> Survey:
         transitions += graph.transitions
         sure = graph.complete and not model.doubts(groups) and not model.awaits_members(groups)
         complete &= graph.complete
-        full |= network.full
+        full.update(network.full)
         part = _Part(model, graph)
         failed = part.failures(budget)
         if any(flaw in OPEN for _, flaw in failed.flaws.values()):
@@ -102,15 +102,12 @@ class _Part:
         self._model = model
         self._graph = graph
         self._network = graph.network
-        self._sent = {
-            message
-            for steps in self._network.steps
-            for step in steps or ()
-            if step.move is not None
-            for message in step.move.sends
-        }
-        for group in self._network.groups:
-            self._sent.update(group.automaton.first.sends)
+        moves = [move for _, move in self._occurring()]
+        self._sent = {message for move in moves for message in move.sends}
+        self._perhaps_sent = set(self._sent)
+        """Also messages that others beyond the capacity may lead to."""
+        if self._network.full:
+            self._perhaps_sent.update(*map(sent_by, self._network.groups))
         self.open: dict[Hashable, tuple[Finding, str]] = {}
         """Findings without a run that could be played, with the flaw of the first one."""
 
@@ -137,18 +134,28 @@ class _Part:
                     reached[name] = Reached(machine, actor.machine)
                 reached[name].roles[group.role] = None
                 reached[name].sure &= sure
-        for number in range(len(self._network.places)):
-            if number not in self._graph.first:
-                continue
-            place = self._network.places[number]
-            group = self._network.groups[place.group]
+        for group, move in self._perhaps_occurring():
             cast = group.automaton.whole.kind.cast
-            moves = [step.move for step in self._network.row(number) if step.move is not None]
-            for move in (group.automaton.first, *moves):
-                for moment in move.moments:
-                    found = reached[cast[moment.actor].machine.name]
-                    found.taken.update(moment.taken)
-                    found.states.update(moment.entered)
+            for moment in move.moments:
+                found = reached[cast[moment.actor].machine.name]
+                found.taken.update(moment.taken)
+                found.states.update(moment.entered)
+
+    def _occurring(self) -> Iterator[tuple[Group, Move]]:
+        """Yield the moves of each group."""
+        for group in self._network.groups:
+            yield group, group.automaton.first
+        for number in self._graph.first:
+            group = self._network.groups[self._network.places[number].group]
+            for step in self._network.row(number):
+                if step.move is not None:
+                    yield group, step.move
+
+    def _perhaps_occurring(self) -> Iterator[tuple[Group, Move]]:
+        """Yield them, and if messages exceed the capacity, all that these may lead to."""
+        yield from self._occurring()
+        for group in self._network.groups if self._network.full else ():
+            yield from ((group, move) for move in group.automaton.whole.every_move())
 
     def _answers(self, budget: Budget) -> Iterator[Finding]:
         """Find robots that answer each other without end."""
@@ -199,7 +206,7 @@ class _Part:
             return False
         return all(
             _keeps(automaton, move, state)
-            for message in self._sent
+            for message in self._perhaps_sent
             if automaton.whole.listens(message)
             for move in automaton.moves_on(state, message)
         )
@@ -263,18 +270,16 @@ class _Part:
     def _lost(self) -> Iterator[Finding]:
         """Find events that are sent, but that no robot ever handles."""
         messages = self._model.alphabet.messages
-        handled: set[str] = set()
-        heard: set[str] = set()
-        for number in self._graph.first:
-            for step in self._network.row(number):
-                move = step.move
-                if move is not None and move.given.kind == "hear":
-                    heard.add(move.given.name)
-                    if not move.idle:
-                        handled.add(move.given.name)
+        hears = [move for _, move in self._occurring() if move.given.kind == "hear"]
+        heard = {move.given.name for move in hears}
+        handled = {
+            move.given.name
+            for _, move in self._perhaps_occurring()
+            if move.given.kind == "hear" and not move.idle
+        }
         sent = {messages[m].event.name for m in self._sent}
         astray = self._astray()
-        for name in sorted(sent & heard - handled | astray.keys() - heard):
+        for name in sorted(sent & heard - handled | sent & astray.keys() - heard):
             sends = self._model.sends(self._model.machines)
             place = next((send.origin for send in sends if send.event == name), None)
             first = next(
@@ -299,7 +304,7 @@ class _Part:
         kinds = [automaton.kind for automaton in self._model.kinds]
         found: dict[str, str] = {}
         reaching: set[str] = set()
-        for message in self._sent:
+        for message in self._perhaps_sent:
             event = self._model.alphabet.messages[message].event
             role = (event.envelope.to or "").partition("[")[0]
             there = [kind for kind in kinds if kind.role == role]

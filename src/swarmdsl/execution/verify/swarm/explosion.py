@@ -16,9 +16,10 @@ def explain(large: Automaton, model: Model) -> str:
         return f": bound `{growing}`"
     names = sorted({name for names in large.deferred for name in names})
     deferred = ", ".join(f"`{name}`" for name in names)
+    active, waiting = map(set, zip(*large.parts(), strict=True))
     parts = [
-        (len(set(large.configurations())), "combinations of active states"),
-        (len(set(large.waiting())), f"combinations of deferred events ({deferred})"),
+        (len(active), "combinations of active states"),
+        (len(waiting), f"combinations of deferred events ({deferred})"),
         *((n, f"values of `{name}`") for name, n in large.numbers_of_values().items()),
     ]
     largest = sorted((each for each in parts if each[0] > 1), reverse=True)[:_MOST]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain
 
 from swarmdsl.execution.verify.swarm.groups import Group
 from swarmdsl.execution.verify.swarm.model import Model
@@ -11,7 +10,7 @@ from swarmdsl.execution.verify.swarm.model import Model
 
 def influences(model: Model, groups: Sequence[Group]) -> list[set[int]]:
     """Return for each group those that can send it a message."""
-    sent = [_sent(each) for each in groups]
+    sent = list(map(sent_by, groups))
     more = [model.may_send(each) for each in groups]
     return [
         {
@@ -60,13 +59,6 @@ def apart(model: Model, groups: Sequence[Group]) -> Iterator[list[Group]]:
             yield [groups[number] for number in sorted(part)]
 
 
-def _sent(group: Group) -> set[int]:
+def sent_by(group: Group) -> set[int]:
     """Return the messages that a robot of a group was seen to send."""
-    automaton = group.automaton.whole
-    found = set(automaton.first.sends)
-    for loss in automaton.losses:
-        found.update(loss.sends if loss is not None else ())
-    for steps, heard in zip(automaton.steps, automaton.heard, strict=True):
-        for move in (*(steps or ()), *chain(*heard.values())):
-            found.update(move.sends)
-    return found
+    return {message for move in group.automaton.whole.every_move() for message in move.sends}

@@ -7,6 +7,7 @@ any order. Of more than `capacity` messages of one event, the rest is lost.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet
@@ -76,8 +77,10 @@ class Network:
         self.casts: list[list[tuple[int, dict[int, int], tuple[int, ...], int]]] = []
         """Those with messages: difference, differences that the messages make to robots by their
         places, as far as known, messages, and group of the sender."""
-        self.full: set[str] = set()
+        self.full: Counter[str] = Counter()
         """Events of which messages were lost because there were too many."""
+        self._overflows: set[tuple[int, tuple[int, ...], int]] = set()
+        """Places at which messages of a group exceed the capacity."""
         self.cut = False
         """True if a state was reached whose moves are not known."""
         self._numbers: dict[Place, int] = {}
@@ -240,11 +243,19 @@ class Network:
         found = shifts.get(place)
         if found is None:
             group, state, bag = self.places[place]
+            before = self.full.total()
             for message in sends:
                 bag = self._with(group, state, bag, message, sender)
+            if self.full.total() > before:
+                self._overflows.add((place, sends, sender))
             found = self.ones[self.number(group, state, bag)] - self.ones[place]
             shifts[place] = found
         return found
+
+    def overflows(self, state: int, step: Step) -> bool:
+        """Return True if messages of a step are lost for lack of capacity."""
+        heard, group = self.heard(step), self.places[step.place].group
+        return any((place, heard, group) in self._overflows for place, _ in self.present(state))
 
     def shifts(self, sends: tuple[int, ...], sender: int) -> dict[int, int]:
         """Return the known differences that messages make, by place."""
@@ -275,7 +286,7 @@ class Network:
         for move in moves:
             yield Step(number, move, self._target(group, move.target, bag))
         for each in dict.fromkeys(bag):
-            message = self._message(each)
+            message = self.message(each)
             rest = without(bag, each)
             heard = automaton.moves_on(state, message)
             if not heard and automaton.is_late(state, message):
@@ -288,7 +299,7 @@ class Network:
             if self.lossy and not self.alphabet.messages[message].reliable:
                 yield Step(number, None, self.number(group, state, rest), each)
 
-    def _message(self, each: int) -> int:
+    def message(self, each: int) -> int:
         """Return the message of an entry of a bag."""
         return each
 
@@ -320,7 +331,7 @@ class Network:
         name = messages[message].event.name
         is_rare = messages[message].is_heartbeat
         if not is_rare and sum(messages[each].event.name == name for each in bag) >= self.capacity:
-            self.full.add(name)
+            self.full[name] += 1
             return bag
         return tuple(sorted((*bag, message)))
 

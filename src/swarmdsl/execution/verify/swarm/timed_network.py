@@ -109,7 +109,8 @@ class TimedNetwork(Network):
             self._times[message] = _in_ticks(bounds, self.tick)
         return self._times[message]
 
-    def _message(self, each: int) -> int:
+    def message(self, each: int) -> int:
+        """Return the message of an entry of a bag, without its age."""
         return each % _KINDS
 
     def _arrives(self, group: int, each: int) -> bool:
