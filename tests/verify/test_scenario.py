@@ -142,6 +142,49 @@ def test_functions_end_as_in_the_scenario(
     assert verified(tmp_path, capsys, mine, *asked)[0] == ["fails", "fails", "fails"]
 
 
+_PLACES = """package places
+function put : abstraction {
+  service "put" : std_srvs/Empty
+  model place(time = 2 s)
+}
+statemachine Work {
+  initial Go
+  state Go {
+    do put
+    on succeeded -> Done
+    on aborted -> Failed
+  }
+  final Done
+  final Failed
+}
+member Robot {
+  behavior Work
+  body { radius = 0.2 m, speed = 1 m/s }
+}
+swarm Yard { robot : Robot }
+property P of Yard : never robot in Failed
+"""
+
+
+def test_functions_that_move_robots_end_in_any_way_where_these_have_places(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model, scenario = tmp_path / "yard.swarm", tmp_path / "yard.toml"
+    model.write_text(_PLACES, encoding="utf-8")
+    for text, outcome in {
+        "": "fails",
+        '[world]\nkind = "flat"\n': "fails",
+        '[world]\nkind = "abstract"\n': "holds",
+        "[functions.put]\naborted = 0.0\n": "holds",
+    }.items():
+        scenario.write_text(text, encoding="utf-8")
+        run(["verify", str(model), "--property", "P", "--scenario", str(scenario)])
+        told = capsys.readouterr().out
+        assert (text, f"P  {outcome}" in told) == (text, True)
+        assert ("a probability, `put` in any" in told) == (outcome == "fails")
+        assert ("places are left out" in told) == ("abstract" not in text)
+
+
 def test_loss_and_faults_are_those_of_the_scenario(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -19,7 +19,7 @@ from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.simulate.evaluation.properties import watchable
-from swarmdsl.execution.simulate.inputs.choose_space import has_geometry
+from swarmdsl.execution.simulate.inputs.choose_space import has_places
 from swarmdsl.execution.simulate.inputs.load_scenario import load_scenario
 from swarmdsl.execution.simulate.machines.subject import Subject, choose
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
@@ -161,10 +161,11 @@ class _Session:
             model.environment.faults,
             tuple(diagnostics.open_finding(*each) for found in surveys for each in found.open),
         )
+        scenario = self._scenario or Scenario()
         search = Search(
             tuple(surveys),
             left,
-            has_places=has_geometry(subject, self._scenario or Scenario()),
+            has_places=has_places(scenario.world, subject, scenario),
             interrupted=self._budget.interrupted,
         )
         for line in summary(subject, self._found, search):

@@ -55,6 +55,11 @@ def has_geometry(subject: Subject, scenario: Scenario) -> bool:
     return any(system.components_by_name[name].sights for name in parts)
 
 
+def has_places(kind: str | None, subject: Subject, scenario: Scenario) -> bool:
+    """Return True if robots have places: in a kind of space, or where something has geometry."""
+    return kind != "abstract" and (kind is not None or has_geometry(subject, scenario))
+
+
 def is_installed() -> bool:
     """Return True if there is NumPy, which spaces other than the abstract one need."""
     return find_spec("numpy") is not None
@@ -107,7 +112,7 @@ def choose_space(
     report: Diagnostics,
 ) -> Spaces:
     """Return the spaces of a subject: of a kind, or flat ones if it has geometry."""
-    if kind == "abstract" or (kind is None and not has_geometry(subject, scenario)):
+    if not has_places(kind, subject, scenario):
         return Spaces()
     if not is_installed():
         if kind is None:

@@ -214,7 +214,8 @@ def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str
     if options.scenario is None:
         yield "functions succeed or are aborted, actions are also preempted"
     else:
-        yield "functions end in the ways that the scenario gives a probability"
+        moving = f", {listed(list(environment.moving), 'and')} in any" if environment.moving else ""
+        yield f"functions end in the ways that the scenario gives a probability{moving}"
     silent = model.silent
     if fair:
         but = f", but {listed(silent, 'and')} may never end" if silent else ""

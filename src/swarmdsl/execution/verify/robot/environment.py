@@ -81,9 +81,10 @@ class Arrivals:
 
 
 class Environment:
-    """Events that can reach the robots of a swarm from outside.
+    """Ends of functions, losses, and events that can reach the robots of a swarm from outside.
 
-    `said` are conditions on data, `outside` the events from outside.
+    `said` are conditions on data, `outside` the events from outside. Where robots have places,
+    functions that move them end in any way, and are `moving`.
     """
 
     def __init__(
@@ -93,9 +94,13 @@ class Environment:
         options: Options,
         robots: Sequence[Robot],
         sends: Callable[[Iterable[str]], Iterable[ir.Send]],
+        *,
+        has_places: bool,
     ) -> None:
         self.said: dict[str, None] = {}
         self.outside: dict[str, None] = {}
+        self.moving: dict[str, None] = {}
+        self._has_places = has_places
         self._system = system
         self._demands = demands
         self._options = options
@@ -165,7 +170,7 @@ class Environment:
         if call.paradigm == "action":
             others = ("aborted", "preempted")
         silent = function in self._options.silent or self._falls_silent(function, robot)
-        if self._scenario is None:
+        if self._scenario is None or self._is_moving(function, robot):
             return Ends(self.noted(self._demands.results(function), doubts), others, silent)
         behavior = self._scenario.behavior(function, robot)
         shares = {"aborted": behavior.aborted, "preempted": behavior.preempted}
@@ -229,6 +234,16 @@ class Environment:
 
     def _losses_of(self, robot: Robot) -> Iterator[Fault]:
         yield from (f for f in self._faults if f.is_loss and is_selected(robot, f.of))
+
+    def _is_moving(self, function: str, robot: Robot) -> bool:
+        """Return True if a function ends as its model does, which says how a robot moves."""
+        if self._scenario is None or not self._has_places:
+            return False
+        said = self._scenario.model(function, robot)
+        known = self._system.function(function).model if said is None else said.model
+        if known is not None:
+            self.moving[function] = None
+        return known is not None
 
     def _falls_silent(self, function: str, robot: Robot) -> bool:
         return any(

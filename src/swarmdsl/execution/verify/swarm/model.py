@@ -9,6 +9,7 @@ from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
 from swarmdsl.execution.engine import Event
+from swarmdsl.execution.simulate.inputs.choose_space import has_places
 from swarmdsl.execution.simulate.machines.actors import Actor, actors
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED
@@ -96,6 +97,7 @@ class Model:
             options,
             robots,
             lambda names: self.sends(names or {each.machine.name for each in everybody}),
+            has_places=has_places(scenario.world, subject, scenario),
         )
         self.returns = any(map(self.environment.absences, robots))
         """True if a robot is lost for a time."""
