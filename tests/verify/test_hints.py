@@ -14,6 +14,7 @@ from .test_saved_test import EXAMPLES
 
 Verified = Callable[..., str]
 LANDING, ASKING = EXAMPLES["landing"], EXAMPLES["asking"]
+WATCHED = EXAMPLES["watched"] + "property Ends of Field : each drone : in Land leads to in Down\n"
 
 
 @pytest.fixture
@@ -64,6 +65,29 @@ def test_a_lost_event_that_nothing_follows_is_named(verified: Verified) -> None:
         "on Yes -> Land }", "on Yes -> Land\n    after 5 s / send Ask -> Wait }"
     )
     assert helps(verified(mended, "CanLand", "--lossy")) == []
+
+    ends = ASKING.replace("CanLand of", "Ends of Field : each drone : in Wait leads to in Down //")
+    out = verified(ends, "Ends", "--lossy")
+    assert "nothing happens to `drone[0]` and `tower[0]` any more" in out
+    assert helps(out) == [hint]
+
+
+def test_the_last_of_several_that_lose_an_event_is_named(verified: Verified) -> None:
+    two = ASKING.replace("drone : Drone", "drone : Drone[2]")
+    all_ = two.replace("CanLand of", "Ends of Field : always possible some drone in Down //")
+    hint = "`drone[1]` waits in `Wait`, though `Ask` is lost: add `after` a time there"
+    assert helps(verified(all_, "Ends", "--lossy")) == [hint]
+
+
+def test_a_function_that_never_ends_is_named(verified: Verified) -> None:
+    out = verified(WATCHED, "Ends", "--never", "land")
+    hint = "`drone[0]` waits in `Land` for `land`, which may never end: add `after` a time there"
+    assert helps(out) == [hint]
+
+
+def test_news_of_a_lost_robot_that_are_ignored_are_named(verified: Verified) -> None:
+    (told,) = helps(verified(WATCHED, "Lands", "--faults", "1"))
+    assert told.startswith("`drone[0]` ignores `member_lost` in `Circle`: handle it there with")
 
 
 def test_an_ignored_event_after_which_nothing_happens_is_named(verified: Verified) -> None:

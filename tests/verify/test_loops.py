@@ -89,7 +89,14 @@ def test_a_loop_that_no_times_fit_is_no_violation(modelled: Callable[..., Model]
     verdict = verdicts_of(modelled(_MODEL % (1, 1)))["Leaves"]
 
     assert verdict.outcome == "unknown"
-    assert verdict.reason.endswith("no times of its loop fit all delays")
+    told = (
+        "no times of its loop fit all delays; with a time, such as `within 1 min`, `--time exact`"
+    )
+    assert told in verdict.reason
+    timed = (_MODEL % (1, 1)).replace(
+        "in Hold leads to in Busy", "in Hold leads to in Busy within 1 min"
+    )
+    assert verdicts_of(modelled(timed, exact=True))["Leaves"].outcome == "holds"
 
 
 # One of two robots never comes to the end of its work, if only their number counts.

@@ -54,7 +54,7 @@ def compare(
         # Times or an order of messages may be such that a run cannot be: that is not a proof.
         assert (verdict.outcome != "holds") == (name in never), (seed, verdict)
         if verdict.outcome == "unknown":
-            assert "cannot be" in verdict.reason
+            assert "is impossible" in verdict.reason
         if verdict.run is not None:
             trace = path.with_suffix(".jsonl")
             trace.write_text("".join(f"{line}\n" for line in written(verdict.run)))

@@ -14,7 +14,7 @@ from swarmdsl.cli import run
 from .conftest import MODELS, ROOT
 
 PAGE = (ROOT / "docs" / "verify.md").read_text(encoding="utf-8")
-EXAMPLES = dict(re.findall(r"```swarm file=(\w+)\.swarm\n(.*?)```", PAGE, re.DOTALL))
+EXAMPLES = dict(re.findall(r"```swarm file=(\w+)\.swarm[^\n]*\n(.*?)```", PAGE, re.DOTALL))
 # What mends each example: drones land in turn, and ask again.
 IN_TURN = (
     ("  initial Circle\n", "  var turn : uint32 = 0\n  initial Circle\n"),

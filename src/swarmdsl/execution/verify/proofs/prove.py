@@ -46,6 +46,8 @@ _MOST_LASSOS = 60
 _MOST_NEAR = 2_000
 """Number of states among which a loop is looked for if a property is about time."""
 
+_WITH_A_TIME = "; with a time, such as `within 1 min`, `--time exact` may decide"
+
 
 def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     """Look for a run that violates a property."""
@@ -311,7 +313,14 @@ def _in_the_end(
             return _not_violated(property_, model, graph, groups, me, budget)
         if all(len(group.robots) == 1 for group in groups):
             break
-    return Verdict(property_, "unknown", len(graph.seen), not_run(flaw), robot=me)
+    reason = not_run(flaw)
+    if (
+        property_.kind in ("eventually", "leads")
+        and flaw not in OPEN
+        and not model.environment.faults
+    ):
+        reason += _WITH_A_TIME
+    return Verdict(property_, "unknown", len(graph.seen), reason, robot=me)
 
 
 def _not_violated(

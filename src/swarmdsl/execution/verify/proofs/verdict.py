@@ -65,7 +65,7 @@ def not_run(flaw: str) -> str:
     """Return the reason why a run that was found shows nothing."""
     if flaw in OPEN:
         return f"the run that was found may be impossible: {flaw}"
-    return f"the run that was found cannot be: {flaw}"
+    return f"the run that was found is impossible: {flaw}"
 
 
 def unfinished(model: Model, budget: Budget) -> str:

@@ -5,23 +5,53 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl import ir
-from swarmdsl.execution.engine import Kind, Machine, State
+from swarmdsl.execution.engine import Activity, Kind, Machine, State
+from swarmdsl.execution.simulate.machines.actors import Actor
+from swarmdsl.execution.simulate.network.members import DEPARTED, JOINED
 from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.verify.search.run import Run
 
 
 def hint(run: Run) -> str | None:
-    """Return a hint at the event that a robot ignores, or at the loss that none notices.
+    """Return a hint at a function that does not answer, an ignored event, or a loss unnoticed.
 
     In a run that goes on for ever, an ignored event may matter to nobody; in one after which
-    nothing happens, any of several may.
+    nothing happens, any of several may. News of who is there matter more than other events.
     """
     if run.loop:
         return None
-    ignored = [each for each in reversed(run.lines) if each.ignored and each.envelope.sender]
-    if run.loop is not None and len({(each.actor, each.event) for each in ignored}) != 1:
+    unanswered = _unanswered(run) if run.loop is not None else None
+    if unanswered is not None:
+        return unanswered
+    ignored = [each for each in reversed(run.lines) if each.ignored]
+    news = [each for each in ignored if each.event in (DEPARTED, JOINED)]
+    ignored = news or [each for each in ignored if each.envelope.sender]
+    if run.loop is not None and len({(each.actor, each.event) for each in ignored}) > 1:
         return None
     return _handling(ignored[0]) if ignored else _repeating(run)
+
+
+def _unanswered(run: Run) -> str | None:
+    """Return the hint for a function that is called when nothing happens any more."""
+    gone = {loss.robot for loss in run.gone}
+    last = {line.actor: line for line in run.lines if line.actor.robot.name not in gone}
+    for actor, line in last.items():
+        for state in _active(line):
+            if state.activity is not None and not _ended(run, actor, state.activity):
+                who = f"`{actor.name}` waits" if actor.name else "it waits"
+                what = f"for `{state.activity.name}`, which may never end"
+                return f"{who} in `{state.id}` {what}: add `after` a time there"
+    return None
+
+
+def _ended(run: Run, actor: Actor, activity: Activity) -> bool:
+    """Return True if the last call of a function has ended."""
+    ended = False
+    for line in run.lines:
+        if line.actor is actor:
+            ended |= line.event in activity.events.values()
+            ended &= activity.name not in line.started
+    return ended
 
 
 def _handling(line: Line) -> str:
@@ -41,11 +71,12 @@ def _repeating(run: Run) -> str | None:
     """Return the hint for a lost event whose sender waits without an end."""
     if not run.lost:
         return None
-    at, event, _ = run.lost[-1]
-    senders = {line.actor: line for line in run.lines[:at] if event in line.sent}
-    if len(senders) != 1:
+    at, event, receiver = run.lost[-1]
+    senders = [line.actor for line in run.lines[:at] if event in line.sent]
+    losses = sum(each[1:] == (event, receiver) for each in run.lost)
+    if len(set(senders)) not in (1, losses):
         return None
-    (sender,) = senders
+    sender = senders[-1]
     last = next(line for line in reversed(run.lines) if line.actor is sender)
     states = list(_active(last))
     if any(state.kind is Kind.FINAL or _goes_on(state) for state in states):
