@@ -95,7 +95,7 @@ def verdicts_as_in_all_runs(
                 assert name not in wanted, verdict
             case "unknown" if "counts" not in verdict.reason:
                 # Some run violates it, but for times or an order of messages that cannot be.
-                assert (name in wanted or owed) == ("cannot be" in verdict.reason), verdict
+                assert (name in wanted or owed) == ("is impossible" in verdict.reason), verdict
     return found
 
 

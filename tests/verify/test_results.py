@@ -34,7 +34,7 @@ def test_results_name_verdicts_and_their_runs(tmp_path: Path) -> None:
 
     assert found["subject"] == "Pair"
     assert found["sizes"] == [{"worker": 2}]
-    assert "functions and delays take any time" in found["conditions"]
+    assert "functions, delays and messages take any time" in found["conditions"]
     properties = {each["name"]: each for each in found["properties"]}
     assert properties["BothEnd"]["verdict"] == "fails"
     assert Path(properties["BothEnd"]["run"]) == runs / "BothEnd.jsonl"

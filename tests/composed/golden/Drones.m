@@ -1,7 +1,7 @@
 -- Drones: 2 drone (landing.swarm:27)
 --
 -- messages between robots arrive in any order, none is lost
--- functions and delays take any time
+-- functions, delays and messages take any time
 -- functions succeed or are aborted, actions are also preempted
 -- no robot and no answer of a function is lost
 --

@@ -3,7 +3,7 @@
 -- Property OneLands: never count(drone in Land) > 1
 --
 -- messages between robots arrive in any order, none is lost
--- functions and delays take any time
+-- functions, delays and messages take any time
 -- functions succeed or are aborted, actions are also preempted
 -- no robot and no answer of a function is lost
 --

@@ -150,6 +150,7 @@ class _Session:
         self._silent = tuple(model.silent)
         fair = any(is_about_ends(each.property) for each in verdicts.values())
         told = tuple(diagnostics.conditions(model, sorted(full), fair=fair))
+        faults = model.environment.faults
         self._found = Results(
             subject.name,
             tuple(whole(subject, counts) for counts in looked),
@@ -158,8 +159,8 @@ class _Session:
             self._findings,
             self._written,
             tuple(bounds(subject, self._request.sizes)),
-            model.environment.faults,
-            tuple(diagnostics.open_finding(*each) for found in surveys for each in found.open),
+            faults,
+            tuple(told for found in surveys for told in diagnostics.open_findings(found, faults)),
         )
         scenario = self._scenario or Scenario()
         search = Search(

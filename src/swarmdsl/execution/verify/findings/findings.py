@@ -31,7 +31,8 @@ class Survey:
     """States of a swarm that were looked at, and what was found.
 
     `missing` is the reason why not all states were looked at, or "". Findings are `open` if no run
-    to them could be played, each with the flaw of one.
+    to them could be played, each with the flaw of one. Nothing is said of what waits and never
+    happens if robots wait for `news` of others that do not come.
     """
 
     states: int
@@ -40,12 +41,14 @@ class Survey:
     findings: tuple[Finding, ...]
     full: tuple[str, ...] = ()
     open: tuple[tuple[Finding, str], ...] = ()
+    news: bool = False
 
 
 def survey(model: Model, budget: Budget) -> Survey:
     """Look at all states of a swarm; groups that do not exchange messages are looked at apart."""
     states = transitions = 0
     complete = True
+    news = False
     findings: list[Finding] = []
     full: set[str] = set()
     open_: list[tuple[Finding, str]] = []
@@ -55,7 +58,9 @@ def survey(model: Model, budget: Budget) -> Survey:
         graph = explore(network, budget)
         states += len(graph.seen)
         transitions += graph.transitions
-        sure = graph.complete and not model.doubts(groups) and not model.awaits_members(groups)
+        awaits_news = model.awaits_members(groups)
+        news |= awaits_news
+        sure = graph.complete and not model.doubts(groups) and not awaits_news
         complete &= graph.complete
         full.update(network.full)
         part = _Part(model, graph)
@@ -81,6 +86,7 @@ def survey(model: Model, budget: Budget) -> Survey:
         tuple(findings),
         tuple(sorted(full)),
         tuple(_not_shown(open_, findings)),
+        news,
     )
 
 

@@ -13,6 +13,7 @@ from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.execution.simulate.world.line import Line, as_text
 from swarmdsl.execution.verify.findings.finding import Fault, Finding
+from swarmdsl.execution.verify.findings.findings import Survey
 from swarmdsl.execution.verify.findings.reached import transitions_of
 from swarmdsl.execution.verify.proofs.verdict import Verdict, not_run
 from swarmdsl.execution.verify.report.hints import hint
@@ -61,7 +62,15 @@ def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
     )
 
 
-def open_finding(finding: Finding, flaw: str) -> str:
+def open_findings(found: Survey, faults: int) -> Iterator[str]:
+    """Yield what may be wrong with a swarm in which so many robots may be lost."""
+    yield from (_open_finding(*each) for each in found.open)
+    if found.news:
+        who = "comes back" if faults else "is lost: try `--faults 1`"
+        yield f"which robots wait, and what never happens, as some follow who {who}"
+
+
+def _open_finding(finding: Finding, flaw: str) -> str:
     """Return what may be wrong, and where, with the flaw of the run to it."""
     message = CODES[_CODES[finding.fault]].message.format(
         name=finding.name,
@@ -241,8 +250,10 @@ def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str
 
 def _times(model: Model) -> Iterator[str]:
     """Yield how long functions, delays and events take."""
+    has_messages = any(not each.is_heartbeat for each in model.alphabet.messages)
     if not model.options.exact:
-        yield "functions and delays take any time"
+        what = "functions, delays and messages" if has_messages else "functions and delays"
+        yield f"{what} take any time"
         return
     timing = model.options.timing
     calls: dict[Bounds, dict[str, None]] = {}
@@ -254,7 +265,7 @@ def _times(model: Model) -> Iterator[str]:
         who = "functions take" if len(calls) == 1 else f"{listed(list(names), 'and')} takes"
         yield f"{who} {_span(bounds)}"
     yield "delays take as long as the model says"
-    if any(not each.is_heartbeat for each in model.alphabet.messages):
+    if has_messages:
         least, most = timing.message(repeats=False)
         yield f"messages take {_span((least, most))}" if most else "messages arrive at once"
 

@@ -38,8 +38,8 @@ def summary(subject: Subject, results: Results, search: Search) -> Iterator[str]
         steps = diagnostics.counted_in_thousands(found.transitions, "step")
         rest = f"there are more, as {found.missing}" if found.missing else "all there are"
         yield f"  {states}, {steps}: {rest}"
-        for each in found.open:
-            yield printable(f"  open: {diagnostics.open_finding(*each)}")
+        for told in diagnostics.open_findings(found, results.faults):
+            yield printable(f"  open: {told}")
     if search.left:
         sizes_left = diagnostics.counted_in_thousands(search.left, "larger size")
         why = INTERRUPTED if search.interrupted else "the search came to its limit"
