@@ -48,7 +48,6 @@ def survey(model: Model, budget: Budget) -> Survey:
     """Look at all states of a swarm; groups that do not exchange messages are looked at apart."""
     states = transitions = 0
     complete = True
-    news = False
     findings: list[Finding] = []
     full: set[str] = set()
     open_: list[tuple[Finding, str]] = []
@@ -58,9 +57,7 @@ def survey(model: Model, budget: Budget) -> Survey:
         graph = explore(network, budget)
         states += len(graph.seen)
         transitions += graph.transitions
-        awaits_news = model.awaits_members(groups)
-        news |= awaits_news
-        sure = graph.complete and not model.doubts(groups) and not awaits_news
+        sure = graph.complete and not model.doubts(groups) and not model.awaits_members(groups)
         complete &= graph.complete
         full.update(network.full)
         part = _Part(model, graph)
@@ -86,7 +83,7 @@ def survey(model: Model, budget: Budget) -> Survey:
         tuple(findings),
         tuple(sorted(full)),
         tuple(_not_shown(open_, findings)),
-        news,
+        model.awaits_members(model.groups()),
     )
 
 
