@@ -28,7 +28,7 @@ from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.findings.findings import Survey, survey
 from swarmdsl.execution.verify.proofs.prove import prove
-from swarmdsl.execution.verify.proofs.verdict import INTERRUPTED, Verdict
+from swarmdsl.execution.verify.proofs.verdict import INTERRUPTED, Verdict, worst
 from swarmdsl.execution.verify.properties.sentence import is_about_ends
 from swarmdsl.execution.verify.report import diagnostics
 from swarmdsl.execution.verify.report.progress import Progress
@@ -46,8 +46,6 @@ from swarmdsl.execution.verify.search.run import Run, written
 from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.execution.verify.swarm.sizes import Size, bounds, shown, sizes, whole
 from swarmdsl.project.read_source import read_source
-
-_WORST = ("fails", "unknown", "up to", "holds")
 
 
 @dataclass(frozen=True)
@@ -199,7 +197,7 @@ class _Session:
                 verdict = Verdict(property_, "unknown", reason=INTERRUPTED)
             else:
                 verdict = prove_it(property_)
-            if known is None or _WORST.index(verdict.outcome) <= _WORST.index(known.outcome):
+            if known is None or worst((verdict, known)) is verdict:
                 verdicts[property_.name] = verdict
             self._write(property_.name, verdict.run)
             of = {**counts, **(verdict.size or {})}

@@ -10,11 +10,12 @@ from swarmdsl import ir
 from swarmdsl.execution.verify.any_size.coverability import Population, Rule, Token, Tokens
 from swarmdsl.execution.verify.any_size.upward_closed import Need, NotCoveredError, Wanted
 from swarmdsl.execution.verify.automata.labels import Move
-from swarmdsl.execution.verify.properties.sentence import table_of
+from swarmdsl.execution.verify.proofs.single_robot import Alone
 from swarmdsl.execution.verify.swarm.groups import Group
 from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.execution.verify.swarm.network import Network
-from swarmdsl.execution.verify.swarm.propositions import Terms, arriving, facts_of, is_act
+from swarmdsl.execution.verify.swarm.propositions import at_start, is_of_one
+from swarmdsl.execution.verify.swarm.subjects import place_of
 
 Bounds = Mapping[str, tuple[int, int | None]]
 """Roles with any number of robots: the least and the greatest number, None if there is none."""
@@ -33,13 +34,13 @@ def question(
 ) -> Question | None:
     """Return what to look for; None if the property holds from the start on."""
     network = Network(groups, model.alphabet, 1, lossy=True, faults=model.environment.faults)
-    mine = next((n for n, g in enumerate(groups) if me is not None and g.robots == (me,)), None)
+    mine = place_of(me, groups)
     swarm = [_population(number, groups, bounds) for number in range(len(groups))]
     try:
         return _Direct(property_, network, swarm, mine).question()
     except NotCoveredError:
         # With more memory of the one robot that it is about, it may be covered.
-        if mine is None or not _is_of_one(property_):
+        if mine is None or not is_of_one(property_):
             raise
         return _of_one(property_, network, swarm, mine)
 
@@ -120,7 +121,7 @@ class _Direct:
         """Return what to look for; None if it is allowed from the start on."""
         groups = self._network.groups
         for number, population in enumerate(self._swarm):
-            if self._is_end(number, _at_start(groups[number])):
+            if self._is_end(number, at_start(groups[number].automaton)):
                 if population.least:
                     return None
                 population.most = 0
@@ -175,7 +176,7 @@ class _Direct:
         for population in self._swarm:
             most = population.most if population.most is not None else population.least + more
             every.append(range(population.least, min(most, population.least + more) + 1))
-        bits = [_at_start(group) for group in self._network.groups]
+        bits = [at_start(group.automaton) for group in self._network.groups]
         for numbers in sorted(product(*every), key=sum):
             present = [(n, bits[n], number) for n, number in enumerate(numbers)]
             if self._bad.holds(present):
@@ -187,44 +188,17 @@ def _is_less(one: Sequence[bool], other: Sequence[bool]) -> bool:
     return all(not is_met or also for is_met, also in zip(one, other, strict=True))
 
 
-def _at_start(group: Group) -> int:
-    """Return the facts of a robot of a group when all robots have started: that is one moment."""
-    automaton = group.automaton
-    acts = sum(1 << n for n, each in enumerate(automaton.whole.kind.facts) if is_act(each))
-    bits = automaton.look(automaton.first.target).holding
-    for moment in automaton.first.moments:
-        bits |= moment.holding & acts
-    return bits
-
-
-# ---- properties of one robot
-
-
-def _is_of_one(property_: ir.Property) -> bool:
-    """Return True if a property is about one robot, and about what arrives from outside."""
-    return all(isinstance(f, ir.Fact) and f.robots is None for f in facts_of(property_))
-
-
 def _of_one(property_: ir.Property, network: Network, swarm: list[Population], me: int) -> Question:
     """Return what to look for: the states of one robot with those of the monitor.
 
     What other robots do ends what held for a moment. Here this may happen at any time.
     """
-    table = table_of(property_)
-    terms = Terms(property_, network)
-    scope = property_.scope.claims if property_.scope is not None else ()
-    claims = [terms.truth(each) for each in (*property_.claims, *scope)]
-    outside = list(arriving(terms.facts))
-
-    def step(memory: int, bits: int, others: frozenset[int] = frozenset()) -> int:
-        holding = [terms.holds(t, me, bits) or int(t in others) for t in range(len(terms))]
-        return table.step(memory, tuple(bool(each(holding, holding)) for each in claims))
-
-    automaton = network.groups[me].automaton
+    alone = Alone(property_, network.groups[me].automaton)
+    table = alone.table
     moves: dict[int, list[tuple[int | None, Move]]] = {}
     for state, message, move in _moves(network, swarm, me):
         moves.setdefault(state, []).append((message, move))
-    first = (automaton.first.target, step(0, _at_start(network.groups[me])))
+    first = alone.start()
     numbers = {first: 0}
     todo = [first]
     rules: list[Rule] = []
@@ -240,16 +214,10 @@ def _of_one(property_: ir.Property, network: Network, swarm: list[Population], m
         if table.is_settled(memory):
             continue
         following: list[tuple[int, int, int | None, tuple[int, ...]]] = []
-        for others in outside:
-            holding = automaton.look(state).holding
-            following.append((state, step(memory, holding, others), None, ()))
+        for now in alone.elsewhere(state, memory):
+            following.append((state, now, None, ()))
         for message, move in moves.get(state, ()):
-            now = memory
-            for moment in move.moments:
-                now = step(now, moment.holding)
-                if table.is_bad(now):
-                    break
-            following.append((move.target, now, message, move.sends))
+            following.append((move.target, alone.after(memory, move), message, move.sends))
         for target, now, message, sends in following:
             after = (target, now)
             if after not in numbers:

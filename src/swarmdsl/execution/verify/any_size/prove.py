@@ -18,9 +18,9 @@ from swarmdsl.execution.verify.proofs.single_robot import hearing_all, is_alone
 from swarmdsl.execution.verify.proofs.verdict import (
     ESTIMATE,
     INTERRUPTED,
-    Outcome,
     Verdict,
     unfinished,
+    worst,
 )
 from swarmdsl.execution.verify.properties.sentence import is_about_ends, not_covered
 from swarmdsl.execution.verify.swarm.groups import Group
@@ -31,7 +31,6 @@ from swarmdsl.execution.verify.swarm.subjects import about, place_of
 
 _SPARE = 3
 """Robots of a role beyond the least number, so that some are left that nothing tells apart."""
-_RANK: dict[Outcome, int] = {"fails": 0, "unknown": 1, "up to": 2, "holds": 3}
 
 
 def enough(bounds: Bounds, faults: int = 0) -> dict[str, int]:
@@ -73,8 +72,7 @@ def prove_any(
     if doubt is not None:
         return _smallest(property_, model, bounds, doubt, prove_at)
     found = [_one(property_, model, bounds, me, budget, prove_at) for me in robots]
-    absent = Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
-    return min(found, key=lambda each: _RANK[each.outcome], default=absent)
+    return worst(found) or Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
 
 
 def _answered_at_once(
@@ -205,7 +203,7 @@ def _one(
 ) -> Verdict:
     """Decide on a property, of one robot if it is about each."""
     every = model.groups([property_], me=me)
-    mine = next((n for n, g in enumerate(every) if me is not None and g.robots == (me,)), None)
+    mine = place_of(me, every)
     seen = set(about(property_, model, every))
     if mine is not None:
         seen.add(mine)

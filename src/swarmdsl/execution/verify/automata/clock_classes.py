@@ -12,6 +12,7 @@ from typing import Any
 
 from swarmdsl.execution.verify.automata.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.automata.labels import Look, Move
+from swarmdsl.execution.verify.automata.quotient import numbered
 from swarmdsl.execution.verify.robot.tasks import Task
 
 MOST_STATES = 2_000
@@ -158,7 +159,7 @@ class ClockClasses:
             for state in states
         ]
         late = [frozenset(m for m in self._heard if inner.is_late(s, m)) for s in states]
-        classes = _numbered(
+        classes = numbered(
             [
                 (inner.ended(s), inner.look(s).holding & self.mask, late[s], self._is_passive(s))
                 for s in states
@@ -174,7 +175,7 @@ class ClockClasses:
             ]
             inert = [[t for t in unseen[s] if classes[t] == classes[s] and t != s] for s in states]
             _spread(signs, inert)
-            classes = _numbered([(classes[state], frozenset(signs[state])) for state in states])
+            classes = numbered([(classes[state], frozenset(signs[state])) for state in states])
         return classes
 
     def _edges(self, state: int) -> Iterator[_Edge]:
@@ -203,8 +204,3 @@ def _spread(signs: Sequence[set[Any]], inert: Sequence[Sequence[int]]) -> None:
             if not signs[target] <= signs[state]:
                 signs[state] |= signs[target]
                 todo.append(state)
-
-
-def _numbered(keys: Sequence[Any]) -> list[int]:
-    numbers: dict[Any, int] = {}
-    return [numbers.setdefault(each, len(numbers)) for each in keys]

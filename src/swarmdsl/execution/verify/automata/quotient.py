@@ -29,11 +29,11 @@ class Quotient:
         self._has_tasks = tasks
         size = len(whole.steps)
         looks = [self._look(n) for n in range(size)]
-        blocks = _numbered(looks)
+        blocks = numbered(looks)
         count = -1
         while (found := max(blocks) + 1) != count:
             count = found
-            blocks = _numbered([(blocks[n], self._signature(n, blocks)) for n in range(size)])
+            blocks = numbered([(blocks[n], self._signature(n, blocks)) for n in range(size)])
         self.classes = blocks
         self._moves: dict[int, list[Move]] = {}
         self.count = count
@@ -137,6 +137,7 @@ class Quotient:
         return own, heard, frozenset(self.whole.late[number]), loses
 
 
-def _numbered(keys: Sequence[Any]) -> list[int]:
+def numbered(keys: Sequence[Any]) -> list[int]:
+    """Return for each key its number among different ones."""
     numbers: dict[Any, int] = {}
     return [numbers.setdefault(each, len(numbers)) for each in keys]

@@ -11,6 +11,7 @@ from swarmdsl.execution.verify.composition.plain_data import SETTLED, VIOLATED, 
 from swarmdsl.execution.verify.properties.clock_table import Table
 from swarmdsl.execution.verify.properties.observer import Observer
 from swarmdsl.execution.verify.swarm.groups import Group
+from swarmdsl.execution.verify.swarm.subjects import place_of
 from swarmdsl.ir import Count, Fact
 from swarmdsl.ir.sentences import claim
 
@@ -43,12 +44,11 @@ def watch_of(
             target = numbers.of(following)
             if target != source:
                 rules.append(Rule(source, when, target))
-    me = next((n for n, g in enumerate(groups) if robot is not None and g.robots == (robot,)), None)
     return Watch(
         property_.name,
         sentence_text(property_),
         robot,
-        me,
+        place_of(robot, groups),
         tuple(map(_fact_text, observer.terms.facts)),
         tuple((parts_text(claim(each)), observer.terms.reading(each)) for each in claims),
         first,
@@ -67,7 +67,7 @@ class _Numbers:
 
     @property
     def size(self) -> int:
-        """How many states were reached."""
+        """Number of states that were reached."""
         return len(self._states)
 
     def of(self, state: int) -> int:

@@ -22,11 +22,11 @@ from swarmdsl.execution.verify.proofs.timed import not_with_clocks, prove_exactl
 from swarmdsl.execution.verify.proofs.verdict import (
     ESTIMATE,
     UNSURE,
-    Outcome,
     Verdict,
     not_run,
     unfinished,
     violated,
+    worst,
 )
 from swarmdsl.execution.verify.properties.observer import Observer
 from swarmdsl.execution.verify.properties.sentence import is_about_ends, not_shown
@@ -61,11 +61,10 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     if property_.each is None:
         return _one(property_, model, None, budget)
     found = [_one(property_, model, robot, budget) for robot in model.one_of_each(property_)]
-    rank: dict[Outcome, int] = {"fails": 0, "unknown": 1, "up to": 2, "holds": 3}
-    worst = min(found, key=lambda each: rank[each.outcome], default=None)
-    if worst is None:
+    decisive = worst(found)
+    if decisive is None:
         return Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
-    return replace(worst, full=tuple(sorted({name for each in found for name in each.full})))
+    return replace(decisive, full=tuple(sorted({name for each in found for name in each.full})))
 
 
 def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:

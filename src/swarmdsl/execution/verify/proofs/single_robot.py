@@ -13,7 +13,7 @@ from swarmdsl.execution.verify.properties.sentence import table_of
 from swarmdsl.execution.verify.swarm.groups import Group, Local
 from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.execution.verify.swarm.network import Network
-from swarmdsl.execution.verify.swarm.propositions import Terms, arriving, facts_of
+from swarmdsl.execution.verify.swarm.propositions import Terms, arriving, at_start, is_of_one
 
 _COVERED = ("never", "always", "only", "times", "leads")
 """Patterns that a finite run violates, and what may be answered at once."""
@@ -21,9 +21,7 @@ _COVERED = ("never", "always", "only", "times", "leads")
 
 def is_alone(property_: ir.Property) -> bool:
     """Return True if a property is about one robot, and about what arrives from outside."""
-    if property_.kind not in _COVERED:
-        return False
-    return all(isinstance(f, ir.Fact) and f.robots is None for f in facts_of(property_))
+    return property_.kind in _COVERED and is_of_one(property_)
 
 
 def without_others(
@@ -113,21 +111,20 @@ class Alone:
 
     def start(self) -> tuple[int, int]:
         """Return the first state, with the memory of the monitor."""
-        first = self._automaton.first
-        bits = 0
-        for moment in first.moments:
-            bits |= moment.holding
-        return first.target, self._step(0, bits)
+        return self._automaton.first.target, self._step(0, at_start(self._automaton))
 
     def following(self, state: int, memory: int) -> set[tuple[int, int]]:
         """Return the states after a step, each with the memory of the monitor."""
-        # A line of another robot, on which an event may arrive from outside.
-        holding = self._automaton.look(state).holding
-        found = {(state, self._step(memory, holding, others)) for others in self._outside}
+        found = {(state, after) for after in self.elsewhere(state, memory)}
         for message in (None, *range(len(self._automaton.whole.alphabet.messages))):
             steps = self.steps(state, memory, message)
             found |= {(move.target, after) for move, after in steps}
         return found
+
+    def elsewhere(self, state: int, memory: int) -> set[int]:
+        """Return the memories after a line of another robot, with what arrives there."""
+        holding = self._automaton.look(state).holding
+        return {self._step(memory, holding, others) for others in self._outside}
 
     def steps(self, state: int, memory: int, message: int | None) -> Iterator[tuple[Move, int]]:
         """Yield moves on a message, or without one, each with the memory after it."""
@@ -138,7 +135,7 @@ class Alone:
             loss = automaton.loss(state)
             moves = [*(automaton.moves(state) or ()), *([loss] if loss is not None else ())]
         for move in moves:
-            yield move, self._after(memory, move)
+            yield move, self.after(memory, move)
 
     def is_bad(self, memory: int) -> bool:
         """Return True if the property is violated."""
@@ -149,7 +146,8 @@ class Alone:
         holding = [terms.holds(t, 0, bits) or int(t in others) for t in range(len(terms))]
         return self.table.step(memory, tuple(bool(each(holding, holding)) for each in self._claims))
 
-    def _after(self, memory: int, move: Move) -> int:
+    def after(self, memory: int, move: Move) -> int:
+        """Return the memory of the monitor after a move."""
         for moment in move.moments:
             memory = self._step(memory, moment.holding)
         return memory

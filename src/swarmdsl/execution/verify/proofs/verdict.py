@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Literal
 
 from swarmdsl import ir
@@ -23,7 +23,8 @@ UNSURE = f"some runs violate it: how probable they are is not covered: {ESTIMATE
 
 INTERRUPTED = "the search was interrupted"
 
-Outcome = Literal["holds", "fails", "up to", "unknown"]
+Outcome = Literal["fails", "unknown", "up to", "holds"]
+_WORST_FIRST: tuple[Outcome, ...] = ("fails", "unknown", "up to", "holds")
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,11 @@ class Verdict:
     """Data that the proof leaves open: conditions on them may hold or not, each time."""
     size: Mapping[str, int] | None = None
     """Numbers of members of a violation, of roles of which it is about every number."""
+
+
+def worst(verdicts: Iterable[Verdict]) -> Verdict | None:
+    """Return the first of the worst verdicts, None if there is none."""
+    return min(verdicts, key=lambda each: _WORST_FIRST.index(each.outcome), default=None)
 
 
 def violated(property_: ir.Property, run: Run, graph: Graph, me: str | None) -> Verdict:

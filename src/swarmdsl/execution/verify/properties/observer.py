@@ -11,8 +11,7 @@ from swarmdsl.execution.verify.properties.clock_table import Table
 from swarmdsl.execution.verify.properties.truths import Sight, Truths
 from swarmdsl.execution.verify.swarm.groups import Local, Step
 from swarmdsl.execution.verify.swarm.network import Network
-from swarmdsl.execution.verify.swarm.propositions import Terms, is_act
-from swarmdsl.ir import Count, Fact
+from swarmdsl.execution.verify.swarm.propositions import Terms, at_start, is_act
 
 
 class Observer:
@@ -51,11 +50,7 @@ class Observer:
         counts = [0] * len(self.terms)
         mine = [0] * len(self.terms)
         for number, group in enumerate(self.network.groups):
-            bits = 0
-            for moment in group.automaton.first.moments:
-                bits |= moment.holding & _momentary(group.automaton.whole.kind.facts)
-            look = group.automaton.look(group.automaton.first.target)
-            bits |= look.holding
+            bits = at_start(group.automaton)
             for term in range(len(self.terms)):
                 holds = self.terms.holds(term, number, bits)
                 counts[term] += holds * len(group.robots)
@@ -82,7 +77,7 @@ class Observer:
             yield after, step
 
     def passing(self, state: int) -> Iterator[tuple[int, Step, Sequence[int]]]:
-        """Yield the same, with the memories of the monitor at the moments of the step."""
+        """Yield the states after one step, each with the memories of the monitor at its moments."""
         network = self.network
         memory = state & self.mine
         present = network.present(state)
@@ -143,7 +138,7 @@ class Observer:
         return found
 
     def following(self, state: int) -> Iterator[int]:
-        """Yield the same states, each at least once."""
+        """Yield the states after one step, each at least once."""
         network = self.network
         if network.eager:
             yield from (after for after, _, _ in self.passing(state))
@@ -265,7 +260,3 @@ def is_silent(automaton: Local, state: int, move: Move) -> bool:
     """Return True if a move of a state changes no fact."""
     lasting = automaton.look(state).holding & automaton.mask
     return all(each.holding & automaton.mask == lasting for each in move.moments)
-
-
-def _momentary(facts: Sequence[Fact | Count]) -> int:
-    return sum(1 << n for n, each in enumerate(facts) if isinstance(each, Fact) and is_act(each))

@@ -8,6 +8,7 @@ from typing import Literal
 
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
+from swarmdsl.execution.verify.swarm.groups import Local
 from swarmdsl.execution.verify.swarm.network import Network
 from swarmdsl.ir import Claim, Count, Fact, Junction
 from swarmdsl.ir.sentences import facts_in
@@ -41,6 +42,20 @@ Truth = Callable[[Sequence[int], Sequence[int]], bool]
 def is_act(fact: Fact | Count) -> bool:
     """Return True for what happens, in contrast to what is."""
     return isinstance(fact, Fact) and fact.act not in ("in", "has")
+
+
+def at_start(automaton: Local) -> int:
+    """Return the facts of a robot when all robots have started: that is one moment."""
+    acts = sum(1 << n for n, each in enumerate(automaton.whole.kind.facts) if is_act(each))
+    found = automaton.look(automaton.first.target).holding
+    for moment in automaton.first.moments:
+        found |= moment.holding & acts
+    return found
+
+
+def is_of_one(property_: ir.Property) -> bool:
+    """Return True if a property is about one robot, and about what arrives from outside."""
+    return all(isinstance(each, Fact) and each.robots is None for each in facts_of(property_))
 
 
 class Terms:
