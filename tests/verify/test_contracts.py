@@ -92,13 +92,13 @@ endless statemachine Tick {
 member Clock { behavior Tick }
 swarm Field { uav : Uav; clock : Clock }
 """
-    model = MODEL.replace("swarm Field { uav : Uav[2]; big : Big }", ticking)
-    verdict = verdicts_of(modelled(model))["uav_Stops"]
+    model = modelled(MODEL.replace("swarm Field { uav : Uav[2]; big : Big }", ticking))
+    verdict = verdicts_of(model)["uav_Stops"]
     assert verdict.run is not None
     # The clock has the last line.
     assert [line.actor.name for line in verdict.run.lines][-1] == "clock[0]"
     report = Diagnostics()
-    report_verdict(verdict, "2 robots", report)
+    report_verdict(verdict, "2 robots", model.demands.fields, report)
     ((label,),) = [each.related for each in report]
     assert label.message == "the last transition of `uav[0]` in the run"
     assert label.span.text == "on Halt -> Pause"

@@ -99,6 +99,23 @@ def test_an_ignored_event_after_which_nothing_happens_is_named(verified: Verifie
     assert told.startswith("`drone[1]` ignores `Free` in `Circle`: handle it there with `on Free`")
 
 
+def test_data_on_which_anything_depends_are_shown(verified: Verified) -> None:
+    sorting = """package test
+message Part { weight : float64, label : string, fine : bool, code : uint8, number : int32 }
+event Seen : Part
+endless statemachine Sort {
+  initial Look
+  state Look { on Seen [event.weight > 2.5 and event.label == "x" and event.fine] -> Take }
+  state Take { on Seen [event.code == 7 and event.number < 0] -> Look }
+}
+member Arm { behavior Sort }
+swarm Cell { arm : Arm }
+property Takes of Cell : never arm in Take
+"""
+    shown = r"Seen -> Take  \(code = 0, fine = true, label = \"x\", number = 0, \.\.\., .*swarm:6\)"
+    assert re.search(shown, verified(sorting, "Takes"))
+
+
 def test_robots_that_only_start_are_left_out_of_long_runs(verified: Verified) -> None:
     out = verified(LANDING.replace("[2..4]", "[2..*]"), "OneLands", "--size", "drone=50")
 

@@ -33,6 +33,7 @@ from swarmdsl.execution.verify.properties.sentence import is_about_ends
 from swarmdsl.execution.verify.report import diagnostics
 from swarmdsl.execution.verify.report.progress import Progress
 from swarmdsl.execution.verify.report.results import Results, as_document, junit
+from swarmdsl.execution.verify.report.run_text import Fields
 from swarmdsl.execution.verify.report.saved_test import (
     Setting,
     Shown,
@@ -182,13 +183,14 @@ class _Session:
     ) -> None:
         """Look at a swarm with given numbers of members."""
         size = shown(model.subject, [counts])
+        fields = model.demands.fields
         prove_it = self._prover(model, counts, properties)
         if not self._request.properties:
             found = survey(model, self._budget)
             surveys.append(found)
             for finding in found.findings:
                 if all(each.about != finding.about for each in self._findings.values()):
-                    self._tell(finding, counts, size)
+                    self._tell(finding, counts, size, fields)
         for property_ in properties:
             known = verdicts.get(property_.name)
             if known is not None and known.outcome == "fails":
@@ -203,15 +205,15 @@ class _Session:
             of = {**counts, **(verdict.size or {})}
             if verdict.outcome == "fails":
                 self._shown.append(shown_by_verdict(verdict, of) or property_.name)
-            diagnostics.report_verdict(verdict, shown(model.subject, [of]), self._report)
+            diagnostics.report_verdict(verdict, shown(model.subject, [of]), fields, self._report)
 
-    def _tell(self, finding: Finding, counts: Mapping[str, int], size: str) -> None:
+    def _tell(self, finding: Finding, counts: Mapping[str, int], size: str, fields: Fields) -> None:
         name = fresh(finding.title, self._findings, gap="-")
         self._findings[name] = finding
         self._write(name, finding.run)
         if finding.run is not None:
             self._shown.append(shown_by_finding(finding, counts) or name)
-        diagnostics.report_finding(finding, size, self._report)
+        diagnostics.report_finding(finding, size, fields, self._report)
 
     def _prover(
         self, model: Model, counts: Mapping[str, int], properties: Sequence[ir.Property]

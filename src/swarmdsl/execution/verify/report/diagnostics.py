@@ -5,24 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from swarmdsl.base.diagnostics.catalog import CODES
-from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.diagnostics.render import counted
-from swarmdsl.base.diagnostics.render.printable import printable
-from swarmdsl.base.source import Span
-from swarmdsl.execution.monitor import LOST
 from swarmdsl.execution.simulate.scenario.durations import format_duration
-from swarmdsl.execution.simulate.world.line import Line, as_text
 from swarmdsl.execution.verify.findings.finding import Fault, Finding
 from swarmdsl.execution.verify.findings.findings import Survey
-from swarmdsl.execution.verify.findings.reached import transitions_of
 from swarmdsl.execution.verify.proofs.verdict import Verdict, not_run
 from swarmdsl.execution.verify.report.hints import hint
+from swarmdsl.execution.verify.report.run_text import Fields, last_taken, run_text
 from swarmdsl.execution.verify.robot.timing import Bounds
-from swarmdsl.execution.verify.search.run import Run
 from swarmdsl.execution.verify.swarm.model import Model
 
-_MOST_LINES = 40
-"""Maximum number of lines of a run in a diagnostic."""
 _CODES: Mapping[Fault, str] = {
     "loops": "endless-reaction",
     "fails": "failed-computation",
@@ -47,7 +40,7 @@ def code_of(finding: Finding) -> str:
     return CODES[_CODES[finding.fault]].code
 
 
-def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
+def report_verdict(verdict: Verdict, size: str, fields: Fields, report: Diagnostics) -> None:
     """Report a property that a run violates."""
     if verdict.outcome != "fails" or verdict.run is None:
         return
@@ -56,8 +49,8 @@ def report_verdict(verdict: Verdict, size: str, report: Diagnostics) -> None:
         verdict.property.origin,
         name=verdict.property.name,
         who=f" for `{verdict.robot}`" if verdict.robot is not None else "",
-        related=tuple(_last_taken(verdict.run, robot=verdict.robot)),
-        notes=(_head(verdict.run, size), *_lines(verdict.run)),
+        related=tuple(last_taken(verdict.run, robot=verdict.robot)),
+        notes=tuple(run_text(verdict.run, size, fields)),
         help=hint(verdict.run),
     )
 
@@ -82,100 +75,23 @@ def _open_finding(finding: Finding, flaw: str) -> str:
     return f"{message}{where}? {not_run(flaw)}"
 
 
-def report_finding(finding: Finding, size: str, report: Diagnostics) -> None:
+def report_finding(finding: Finding, size: str, fields: Fields, report: Diagnostics) -> None:
     """Report what is wrong with a swarm."""
     run = finding.run
     astray = finding.fault == "lost" and finding.detail
-    notes = (_head(run, size), *_lines(run)) if run is not None else (f"in {size}",)
+    notes = tuple(run_text(run, size, fields)) if run is not None else (f"in {size}",)
     report.report(
         _CODES[finding.fault],
         finding.place,
         name=finding.name,
         who=f"`{finding.role}`" if finding.role else "robot",
         reason=finding.detail,
-        related=tuple(_last_taken(run, finding.place)) if run is not None else (),
+        related=tuple(last_taken(run, finding.place)) if run is not None else (),
         notes=notes,
         help=(f"look at its address: {finding.detail} does not handle it" if astray else None)
         or (hint(run) if run is not None and finding.fault == "stuck" else None)
         or _HELP.get(finding.fault),
     )
-
-
-def _head(run: Run, size: str) -> str:
-    if run.loop:
-        return f"a run that goes on for ever, of {size}:"
-    return f"a shortest run, of {size}:" if run.shortest else f"a run, of {size}:"
-
-
-def _lines(run: Run) -> Iterator[str]:
-    """Format a run: a line a step, with the place of its transition."""
-    width = max((len(line.actor.name or "") for line in run.lines), default=0)
-    again = len(run.lines) - run.loop if run.loop else None
-    told = list(enumerate(run.lines))
-    if len(told) > _MOST_LINES:
-        busy = {line.actor.robot for line in run.lines if line.event is not None or line.sent}
-        told = [each for each in told if each[1].actor.robot in busy]
-        rest = len({line.actor.robot for line in run.lines} - busy)
-        if rest:
-            yield f"{counted(rest, 'robot')} only start, and are left out here"
-    for number, line in told[:_MOST_LINES]:
-        if number == again:
-            yield "from here on, again and again:"
-        yield from _losses(run, number)
-        yield from _quiet_losses(run, number)
-        place = place_of(line)
-        about = [f"from {line.envelope.sender}"] if line.envelope.sender else []
-        if place is not None:
-            about.append(f"{printable(place.source.name)}:{place.line}")
-        where = f"  ({', '.join(about)})" if about else ""
-        yield f"{as_text(line, width)}{where}"
-    if len(told) > _MOST_LINES:
-        yield f"... and {len(told) - _MOST_LINES} more"
-    else:
-        yield from _losses(run, len(run.lines))
-        yield from _quiet_losses(run, len(run.lines))
-        if run.loop == 0:
-            yield f"nothing happens{_to_whom(run)} any more"
-
-
-def _to_whom(run: Run) -> str:
-    """Name the robots of a run: others, of which these hear nothing, may go on."""
-    names = [name for name in dict.fromkeys(line.actor.robot.name for line in run.lines) if name]
-    if not names:
-        return ""
-    return f" to {listed(names, 'and') if len(names) <= 3 else 'these robots'}"
-
-
-def _quiet_losses(run: Run, number: int) -> Iterator[str]:
-    """Format the losses of robots that have no line: of those whose machines have ended."""
-    for loss in run.gone:
-        lines = run.lines[loss.at : loss.at + 1]
-        is_told = any(each.event == LOST and each.actor.robot.name == loss.robot for each in lines)
-        if loss.at == number and not is_told:
-            yield f"{loss.robot or 'the robot'} is lost"
-
-
-def _losses(run: Run, number: int) -> Iterator[str]:
-    """Format the messages that are lost after some lines of a run."""
-    return (f"{event} to {robot} is lost" for at, event, robot in run.lost if at == number)
-
-
-def place_of(line: Line) -> Span | None:
-    """Return the place of the first transition of a line."""
-    known = transitions_of(line.actor.machine)
-    called = line.actor.machine.called
-    found = (known[called(each)].origin for each in line.taken if called(each) in known)
-    return next(found, None)
-
-
-def _last_taken(run: Run, told: Span | None = None, robot: str | None = None) -> Iterator[Label]:
-    """Yield the place of the last transition of a run, of the given robot if it has taken one."""
-    taken = [(line, place) for line in reversed(run.lines) if (place := place_of(line)) is not None]
-    own = [each for each in taken if each[0].actor.robot.name == robot]
-    for _, place in (own or taken)[:1]:
-        if place != told:
-            whose = f"of `{robot}` in" if robot is not None and own else "of"
-            yield Label(place, f"the last transition {whose} the run")
 
 
 def rows(verdicts: Sequence[Verdict], faults: int = 0) -> Iterator[tuple[str, str, str]]:
