@@ -252,6 +252,14 @@ class Watch:
             self._attend(time, None)
             self._look_whether_to_stop()
 
+    def verdict(self, name: str, robot: str | None, time: int) -> Verdict:
+        """Return the verdict so far on a property, of a robot if it is about each one."""
+        if not self._begun:
+            self._begin()
+        self.advance(time)
+        watched = next(each for each in self._watched if each.rule.property.name == name)
+        return watched.states[robot].verdict
+
     def results(self, time: int, *, ended: bool) -> list[PropertyResult]:
         """Return the verdicts at the end of a run."""
         if not self._begun:

@@ -52,7 +52,7 @@ class Claim:
     `states` maps each selected machine to its expected states, `values` to its expected variables,
     of which `written` gives the names in the test;
     `action` and `name` are the expected action, `data` and `to` are the expected data and address
-    of a sent event.
+    of a sent event. Of a `property` that is about each robot, `who` has one machine of each, else any.
     Unnamed fields may have any value. `text` describes the claim.
     """
 
@@ -67,6 +67,7 @@ class Claim:
     name: str = ""
     data: Any = None
     to: str | None = None
+    property: Property | None = None
 
 
 @dataclass(frozen=True)
@@ -156,6 +157,14 @@ class Case:
     measures: tuple[ExpectedMeasure, ...] = ()
     skips: bool = False
     spaces: Spaces = field(default_factory=Spaces)
+
+    @property
+    def watched(self) -> tuple[Property, ...]:
+        """The properties that are named anywhere in the test."""
+        expected = (each.claim for each in self.steps if isinstance(each, Expect))
+        claimed = (each.property for each in (*expected, *self.always) if each.property)
+        named = (each for each, _ in (*self.properties, *self.violates))
+        return tuple(dict.fromkeys((*named, *claimed)))
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import replace
+from swarmdsl.execution.simulate.evaluation.properties import watchable
 from swarmdsl.execution.simulate.inputs.scenario_table import Table
 from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.execution.testing.case import ALL, ANY, NONE, ActionKind, Claim, Expect, Quantity
@@ -88,7 +89,8 @@ class ClaimReader:
             self._report.report("impossible-step", place, reason=reason, help=hint)
             return None
         word = table.values[key] if key is not None else ""
-        read = {"in": self._in, "has": self._has}.get(verb, self._does)
+        others = {"in": self._in, "has": self._has, "satisfies": self._satisfies}
+        read = others.get(verb, self._does)
         claim = read(table, verb, quantity, who, word)
         if claim is None or not claim.who:
             return None
@@ -114,6 +116,30 @@ class ClaimReader:
         text = f"to have `{describe_fields(table.values[verb], table.values[verb])}`"
         place = table.value_place((verb,))
         return Claim(place, text, quantity, tuple(values), values=values, written=written)
+
+    def _satisfies(
+        self, table: Table, verb: str, quantity: Quantity, who: list[int], word: str
+    ) -> Claim | None:
+        """Read the property that must be true, of robots or of all together."""
+        known = {each.name: each for each in watchable(self._names.subject)}
+        name = table.name(verb, known, "property")
+        if name is None:
+            return None
+        role, place = known[name].each, table.value_place((verb,))
+        first: dict[str | None, int] = {}
+        for number in who:
+            robot = self._names.cast[number].robot
+            if role in (None, robot.role):
+                first.setdefault(robot.name if role is not None else None, number)
+        if role is None and (word or quantity != ALL):
+            reason, help_ = f"`{name}` is not about each robot", "leave out the robots"
+        elif not first:
+            reason, help_ = f"`{name}` is about each `{role}`", f"name a `{role}`"
+        else:
+            text = f"{'' if word else 'the model '}to satisfy `{name}`"
+            return Claim(place, text, quantity, tuple(first.values()), property=known[name])
+        self._report.report("impossible-step", place, reason=reason, help=help_)
+        return None
 
     def _does(
         self, table: Table, verb: str, quantity: Quantity, who: list[int], word: str

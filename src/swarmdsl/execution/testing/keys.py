@@ -71,6 +71,7 @@ VERBS: Mapping[str, Key] = {
     "sends": Key(TEXT, "Event that must be sent."),
     "starts": Key(TEXT, "Function that must be called."),
     "cancels": Key(TEXT, "Function whose call must be left before it has ended."),
+    "satisfies": Key(TEXT, "Property that must be true, with nothing left to happen."),
 }
 """Verbs of claims about machines; a claim has one of them."""
 CLAIM: Mapping[str, Key] = {

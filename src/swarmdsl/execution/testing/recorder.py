@@ -8,11 +8,12 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import listed
 from swarmdsl.execution.engine import Machine
-from swarmdsl.execution.monitor import LOST
+from swarmdsl.execution.monitor import FALSE, LOST, TRUE, Verdict
 from swarmdsl.execution.simulate.machines.actors import Actor
 from swarmdsl.execution.simulate.world.line import Line
 from swarmdsl.execution.testing.case import ActionKind, Claim
 from swarmdsl.execution.testing.data import describe_fields, matches
+from swarmdsl.ir import Property
 
 _REMEMBERED = 8
 """Number of trace lines shown with a failure."""
@@ -35,9 +36,16 @@ class _Marks(dict[int, bool]):
 class Recorder:
     """Record states and actions of machines from trace lines."""
 
-    def __init__(self, cast: Sequence[Actor], data: Callable[[Actor], Any]) -> None:
+    def __init__(
+        self,
+        cast: Sequence[Actor],
+        data: Callable[[Actor], Any],
+        verdict: Callable[[str, str | None], Verdict],
+    ) -> None:
         self._cast = cast
         self._data = data
+        self._verdict = verdict
+        """Return the verdict so far on a property, of a robot if it is about each one."""
         self._numbers = {actor: number for number, actor in enumerate(cast)}
         self._states: list[list[str]] = [[] for _ in cast]
         self._lost: set[int] = set()
@@ -75,6 +83,11 @@ class Recorder:
 
     def holds(self, claim: Claim) -> bool:
         """Return True if a claim holds now; only past actions of lost machines count."""
+        if claim.property is not None:
+            # Also what other robots do, and time, change the verdict on a robot.
+            there = [n for n in claim.who if claim.property.each is None or n not in self._lost]
+            true = sum(self._judge(claim.property, number) == TRUE for number in there)
+            return claim.quantity.holds(true, len(there))
         if id(claim) not in self._satisfied:
             # Cached, because each line changes only one machine.
             self._satisfied[id(claim)] = (
@@ -100,6 +113,10 @@ class Recorder:
             return number not in self._lost and matches(claim.values[number], held)
         return number not in self._lost and self._active(number).issuperset(claim.states[number])
 
+    def _judge(self, property_: Property, number: int) -> Verdict:
+        robot = self._cast[number].robot.name if property_.each is not None else None
+        return self._verdict(property_.name, robot)
+
     def _active(self, number: int) -> frozenset[str]:
         """Return all active states of a machine."""
         machine, innermost = self._cast[number].machine, tuple(self._states[number])
@@ -115,6 +132,8 @@ class Recorder:
 
     def describe_actual(self, claim: Claim) -> str:
         """Describe the actual state of the machines of a claim."""
+        if claim.property is not None and claim.property.each is None:
+            return f"its verdict is {self._judge(claim.property, claim.who[0])}"
         groups: dict[str, list[str]] = {}
         for number in claim.who:
             groups.setdefault(self._describe(claim, number), []).append(
@@ -131,6 +150,10 @@ class Recorder:
     def _describe(self, claim: Claim, number: int) -> str:
         if number in self._lost and claim.action is None:
             return "is lost"
+        if claim.property is not None:
+            name = claim.property.name
+            said = {TRUE: f"satisfies `{name}`", FALSE: f"violates `{name}`"}
+            return said.get(self._judge(claim.property, number), f"leaves `{name}` open")
         if claim.values:
             held = self._data(self._cast[number])
             names = {claim.written.get(name, name): name for name in claim.values[number]}
@@ -153,7 +176,7 @@ def _sentence(names: Sequence[str], what: str) -> str:
     if names == [""]:
         return what
     if len(names) > 1:
-        verb = {"is": "are", "has": "have"}.get(verb, verb.removesuffix("s"))
+        verb = {"is": "are", "has": "have", "satisfies": "satisfy"}.get(verb, verb.removesuffix("s"))
     shown = [*names[:_SHOWN], *([f"{len(names) - _SHOWN} more"] if len(names) > _SHOWN else [])]
     return f"{_names(shown, len(names) > _SHOWN)} {verb} {rest}"
 

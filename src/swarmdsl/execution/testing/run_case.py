@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import LoopError
-from swarmdsl.execution.monitor import FALSE, Violation, Watch
+from swarmdsl.execution.monitor import FALSE, Verdict, Violation, Watch
 from swarmdsl.execution.simulate.evaluation.measures import evaluate, fitness_of, measures_of
 from swarmdsl.execution.simulate.evaluation.properties import plan, watch
 from swarmdsl.execution.simulate.evaluation.verdicts import violation_fields
@@ -88,9 +88,9 @@ class _CaseRun:
         robots = case.subject.create_robots(case.scenario.counts, case.scenario.alone)
         # Actors are not reusable: a run changes their data.
         self._cast = actors(case.subject, robots, case.scenario, Diagnostics())
-        self._recorder = Recorder(self._cast, lambda actor: self._world.data(actor))
+        self._recorder = Recorder(self._cast, lambda actor: self._world.data(actor), self._verdict)
         self._listeners = [self._recorder.see, listener]
-        watched = [each for each, _ in (*case.properties, *case.violates)]
+        watched = case.watched
         self._watch: Watch | None = None
         self._remarks: dict[str, str] = {}
         self._skipped = 0
@@ -160,6 +160,11 @@ class _CaseRun:
             fields = {"function": error.function, "time": time, "reason": error.reason}
             return self._failure("failed-model", place, fields, "the test ends here")
         return None
+
+    def _verdict(self, name: str, robot: str | None) -> Verdict:
+        """Return the verdict so far on a property that a claim names."""
+        assert self._watch is not None
+        return self._watch.verdict(name, robot, self._world.clock.now)
 
     def _check_properties(self) -> None:
         """Fail when a property is violated that must hold."""

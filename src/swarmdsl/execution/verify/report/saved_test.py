@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import fresh
 from swarmdsl.base.records import dataclass, field, replace
@@ -36,7 +35,7 @@ from swarmdsl.execution.verify.search.run import Run
 if TYPE_CHECKING:
     from swarmdsl.execution.testing.models import Models
 
-_PATIENCE = '"10 min"'
+_PATIENCE = "10 min"
 """Time that a mended model has to go on after the run."""
 _ACTIVITY = "do."
 _HEAD = """\
@@ -70,7 +69,8 @@ class Setting:
 def shown_by_verdict(verdict: Verdict, counts: Mapping[str, int]) -> Shown | None:
     """Return what a test can show of a property that does not hold, None if nothing.
 
-    After a run to where something is not possible, or goes on without it for ever, it is expected.
+    After a run to where something is not possible, or goes on without it for ever, the property
+    is to become true.
     """
     if verdict.outcome != "fails" or verdict.run is None:
         return None
@@ -78,16 +78,7 @@ def shown_by_verdict(verdict: Verdict, counts: Mapping[str, int]) -> Shown | Non
     name = property_.name + (f" for {robot}" if robot is not None else "")
     if property_.kind != "possible" and verdict.run.loop is None:
         return Shown(name, verdict.run, counts, property=property_.name)
-    match property_.claims[-1]:
-        case ir.Fact(act="in", name=state, robots=None):
-            who = f"who = {toml_text(robot)}, " if robot is not None else ""
-        case ir.Count(role=role, state=state, comparison=">" | ">=" | "==" as sign, number=number):
-            least = number + 1 if sign == ">" else number
-            count = f"{least}" if sign == "==" else f'"{least}..*"'
-            who = f"count = {count}, of = {toml_text(role)}, "
-        case _:
-            return Shown(name, verdict.run, counts, property=property_.name)
-    claim = f"{{ {who}in = {toml_text(state)}, within = {_PATIENCE} }}"
+    claim = step_text(who=robot, satisfies=property_.name, within=_PATIENCE)
     return Shown(name, verdict.run, counts, claim=claim)
 
 
@@ -110,8 +101,8 @@ def shown_by_finding(finding: Finding, counts: Mapping[str, int]) -> Shown | Non
     if not robots:
         return None
     robot = robots[0]
-    who = f"no = {toml_text(robot.name)}, " if robot.name is not None else "count = 0, "
-    claim = f"{{ {who}in = {toml_text(finding.name)}, within = {_PATIENCE} }}"
+    who: dict[str, Any] = {"no": robot.name} if robot.name is not None else {"count": 0}
+    claim = step_text(**who, **{"in": finding.name}, within=_PATIENCE)
     name = f"{robot.name or 'it'} goes on from {finding.name}"
     return Shown(name, run, counts, claim=claim)
 
