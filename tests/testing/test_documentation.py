@@ -6,13 +6,20 @@ import re
 from pathlib import Path
 
 from swarmdsl.base.diagnostics.catalog import CODES
-from swarmdsl.execution.testing.keys import ACTIONS, CLAIM, FILE, TEST, TIMES
+from swarmdsl.execution.testing.keys import ACTIONS, CLAIM, FILE, TEST, TIMES, WAIT
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "testing.md").read_text(encoding="utf-8")
 
 
 def test_all_keys() -> None:
-    keys = {*FILE, *TEST, *CLAIM, *TIMES, *(key for step in ACTIONS.values() for key in step)}
+    keys = {
+        *FILE,
+        *TEST,
+        *CLAIM,
+        *TIMES,
+        *WAIT,
+        *(key for step in ACTIONS.values() for key in step),
+    }
     code = " ".join(re.findall(r"```.*?```|`[^`]+`", PAGE, re.DOTALL))
 
     assert {"passing", "sends", "as"} <= keys

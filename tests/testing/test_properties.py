@@ -17,6 +17,7 @@ property Lit of Lamps : after Start, some lamp in On within 1 s
 property Out of Lamps : each lamp : eventually in Gone
 property Off of Blinking : in Off at all times
 """
+MEANWHILE = 'meanwhile = [{ pass = "4 s" }, { send = "Start" }]'
 Run = Callable[..., Ran]
 
 
@@ -43,6 +44,70 @@ def test_all_properties_but_one_that_the_test_breaks(run: Run) -> None:
 def test_a_property_that_is_open_fails_no_test(run: Run) -> None:
     test = '[[test]]\nname = "t"\nproperties = "Out"\nsteps = [{ pass = "1 min" }]\n'
     assert run(f'swarm = "Lamps"\n{test}').code == 0
+
+
+@pytest.mark.parametrize(
+    ("steps", "failed"),
+    [
+        # Machines that have just started owe something, some of them for ever.
+        ('{ no = "lamp", satisfies = "Out" }, { satisfies = "Lit" }', ""),
+        ('{ all = "lamp", satisfies = "Out", within = "1 min" }', "`lamp[0]`"),
+        ('{ satisfies = "Out" }', "to satisfy `Out`"),
+        ('{ who = "lamp[1]", satisfies = "Out", for = "1 s" }', "`lamp[1]` leaves `Out` open"),
+        ('{ send = "Start" }, { satisfies = "Dark" }', "its verdict is false"),
+        ('{ satisfies = "Rings" }', "its verdict is open"),
+        ('{ satisfies = "Rings", within = "9 s", meanwhile = [{ pass = "1 s" }] }', "after 9 s"),
+        (
+            f'{{ satisfies = "Rings", within = "9 s", {MEANWHILE} }}, {{ satisfies = "Rings" }}',
+            "",
+        ),
+    ],
+)
+def test_a_claim_that_a_property_is_true(run: Run, folder: Path, steps: str, failed: str) -> None:
+    rings = "property Rings of Lamps : eventually some lamp in On\n"
+    (folder / "lamps.swarm").write_text(MODEL + PROPERTIES + rings, encoding="utf-8")
+    ran = run(f'swarm = "Lamps"\n[[test]]\nname = "t"\nsteps = [{steps}]\n')
+    assert ran.code == bool(failed), ran.out + ran.err
+    assert failed in ran.out + ran.err
+
+
+@pytest.mark.parametrize(
+    ("step", "code", "told"),
+    [
+        ('{ satisfies = "Drk" }', "SW0202", "did you mean `Dark`?"),
+        ('{ satisfies = "Off" }', "SW0202", "no property called `Off`"),
+        ("{ satisfies = 3 }", "SW0013", ""),
+        ('{ who = "lamp", satisfies = "Dark" }', "SW1103", "leave out the robots"),
+        ('{ count = 0, satisfies = "Dark" }', "SW1103", "leave out the robots"),
+        ('{ who = "spare", satisfies = "Out" }', "SW1103", "`Out` is about each `lamp`"),
+        ('{ satisfies = "Out", in = "Off" }', "SW1103", "cannot be combined"),
+        (
+            '{ satisfies = "Lit", meanwhile = [{ pass = "1 s" }] }',
+            "SW1103",
+            "`meanwhile` requires `within`",
+        ),
+        (
+            '{ satisfies = "Lit", within = "1 s", meanwhile = [{ pass = "0 s" }] }',
+            "SW1103",
+            "no time passes `meanwhile`",
+        ),
+        (
+            '{ satisfies = "Lit", within = "1 s", meanwhile = [{ wait = "1 s" }] }',
+            "SW0012",
+            "write `pass`",
+        ),
+        ('{ satisfies = "Lit", within = "1 s", meanwhile = [{}] }', "SW0013", "takes"),
+        ('{ satisfies = "Lit", within = "1 s", meanwhile = 3 }', "SW0013", "takes tables"),
+        ('{ pass = "1 s", meanwhile = [{ pass = "1 s" }] }', "SW0012", "the keys are `pass`"),
+    ],
+)
+def test_claims_about_properties_that_make_no_sense(
+    run: Run, step: str, code: str, told: str
+) -> None:
+    ran = run(f'swarm = "Lamps"\n[[test]]\nname = "t"\nsteps = [{step}]\n')
+    assert ran.code == 1
+    assert re.findall(r"^error\[(\w+)\]", ran.out + ran.err, re.MULTILINE) == [code]
+    assert told in ran.out + ran.err
 
 
 def test_a_property_that_holds_is_not_violated(run: Run) -> None:

@@ -29,6 +29,91 @@ AGAIN = (("on Yes -> Land }", "on Yes -> Land\n    after 5 s / send Ask -> Wait 
 ADDRESSED = (("send Grant -> Busy", "send Grant to event.sender -> Busy"),)
 SHORTER = (("after 3 s -> Wait", "after 1 s -> Wait"),)
 
+# Runs that go on for ever: a function is aborted, an event comes, or a message is lost each time;
+# claims of all forms.
+EXAMPLES["trying"] = """package trying
+event Go : std_msgs/Empty
+event Stop : std_msgs/Empty
+function land : abstraction { service "land" : std_srvs/Empty }
+statemachine Fly {
+  var tries : uint8 = 0
+  initial Up
+  state Up {
+    on Go -> Land
+    on Stop -> Rest
+  }
+  state Land {
+    do land
+    on succeeded -> Down
+    on aborted -> Land
+  }
+  state Rest {
+    after 3 s -> Up
+    on Stop -> Rest
+  }
+  final Down
+  final Lost
+}
+member Drone { behavior Fly }
+swarm Field { drone : Drone[1..2] }
+property Or of Field : each drone : in Land leads to in Down or in Lost
+property And of Field : some drone in Land leads to not some drone in Land and no drone in Rest
+property Fewer of Field : some drone in Rest leads to count(drone in Rest) < 1
+property Has of Field : each drone : in Land leads to has [tries > 2] or in Down
+property Starts of Field : after Go, some drone in Rest leads to some drone in Up
+property Ends of Field : each drone : starts land leads to ends land as succeeded or in Lost
+property Again of Field : again and again drone[0] in Up or not drone[0] in Rest
+"""
+GIVES_UP = (
+    (
+        "on aborted -> Land",
+        "on aborted [tries < 3] / tries = tries + 1 -> Land\n    on aborted -> Lost",
+    ),
+    ("    on Stop -> Rest\n  }\n  final", "  }\n  final"),
+)
+EXAMPLES["losing"] = """package losing
+event Seen : std_msgs/Empty
+swarm event Ask : std_msgs/Empty
+swarm event Yes : std_msgs/Empty
+endless statemachine Fly {
+  initial Circle
+  state Circle { on Seen / send Ask -> Wait }
+  state Wait {
+    on Yes -> Circle
+    after 5 s / send Ask -> Wait
+  }
+}
+endless statemachine Watch {
+  initial Ready
+  state Ready { on Ask / send Yes -> Ready }
+}
+member Drone { behavior Fly }
+member Tower { behavior Watch }
+swarm Field {
+  drone : Drone
+  tower : Tower
+}
+property Answer of Field : drone in Wait leads to drone in Circle
+"""
+EXAMPLES["answering"] = """package answering
+event Go : std_msgs/Empty
+swarm event Ping : std_msgs/Empty
+swarm event Pong : std_msgs/Empty
+endless statemachine Fly {
+  initial Calm
+  state Calm {
+    on Go / send Ping -> Busy
+    on Ping / send Pong -> Calm
+  }
+  state Busy {
+    on Go -> Calm
+    on Pong / send Ping -> Busy
+  }
+}
+member Drone { behavior Fly }
+swarm Field { drone : Drone[2] }
+"""
+
 Saved = Callable[..., str]
 
 
@@ -57,6 +142,27 @@ def saved(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Saved:
         ("asking", ("--lossy",), ["drone[0] goes on from Wait", "CanLand for drone[0]"], AGAIN),
         ("courier", (), ["Waits for courier[0]"], SHORTER),
         ("charging", ("--size", "drone=any", "--property", "Alone"), ["Alone"], ADDRESSED),
+        (
+            "trying",
+            (),
+            [
+                "Or for drone[0]",
+                "And",
+                "Fewer",
+                "Has for drone[0]",
+                "Starts",
+                "Ends for drone[0]",
+                "Again",
+            ],
+            GIVES_UP,
+        ),
+        (
+            "losing",
+            ("--lossy",),
+            ["Answer"],
+            (("after 5 s / send Ask -> Wait", "after 5 s -> Circle"),),
+        ),
+        ("answering", (), ["answers to Ping come to rest"], (("Pong / send Ping", "Pong"),)),
     ],
 )
 def test_each_run_of_the_page_fails_until_the_model_is_mended(
@@ -213,8 +319,9 @@ def test_what_a_test_cannot_show_is_named(
     text = """package model
 swarm event Tell : std_msgs/Empty
 statemachine Work {
+  var n : uint8 = 100
   initial Idle
-  state Idle { after 1 s / send Tell -> Done }
+  state Idle { after 1 s / send Tell, n = n + 200 -> Done }
   final Done
 }
 statemachine Hear {
@@ -238,7 +345,9 @@ swarm Pair {
 
     out = capsys.readouterr().out
     assert "SW1706" in out
-    assert "not written as a test, which cannot show it: lost-Tell" in out
+    assert "not written as a test: lost-Tell: it is about all runs, and a test is about one" in out
+    assert "SW1708" in out
+    assert "not written as a test: fails-Work: a test warns of it, but does not fail" in out
     assert not path.exists()
 
 

@@ -52,7 +52,7 @@ class Claim:
     `states` maps each selected machine to its expected states, `values` to its expected variables,
     of which `written` gives the names in the test;
     `action` and `name` are the expected action, `data` and `to` are the expected data and address
-    of a sent event. Of a `property` that is about each robot, `who` has one machine of each, else any.
+    of a sent event. Of a `property` about each robot, `who` has one machine of each, else any.
     Unnamed fields may have any value. `text` describes the claim.
     """
 
@@ -122,17 +122,29 @@ class Arrive:
     lost: bool
 
 
+Action = Send | End | Pass | Lose | Arrive
+
+
 @dataclass(frozen=True)
 class Expect:
-    """Expectation: now, at some time `within` a duration, or during all of `lasting`."""
+    """Expectation: now, at some time `within` a duration, or during all of `lasting`.
+
+    The actions `meanwhile` happen again and again until then.
+    """
 
     place: Span
     claim: Claim
     within: int | None = None
     lasting: int | None = None
+    meanwhile: tuple[Action, ...] = ()
 
 
-Step = Send | End | Pass | Lose | Arrive | Expect
+Step = Action | Expect
+
+
+def actions(step: Step) -> tuple[Action, ...]:
+    """Return the actions of a step, or those during an expectation."""
+    return step.meanwhile if isinstance(step, Expect) else (step,)
 
 
 @dataclass(frozen=True)

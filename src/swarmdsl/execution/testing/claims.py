@@ -12,7 +12,7 @@ from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.execution.testing.case import ALL, ANY, NONE, ActionKind, Claim, Expect, Quantity
 from swarmdsl.execution.testing.data import describe_fields
 from swarmdsl.execution.testing.expected_data import event_data, variables
-from swarmdsl.execution.testing.keys import ACTIONS, CLAIM, COUNT, TIMES, VERBS
+from swarmdsl.execution.testing.keys import ACTIONS, CLAIM, COUNT, TIMES, VERBS, WAIT
 from swarmdsl.execution.testing.names import Names
 from swarmdsl.execution.testing.step_keys import check_keys, listed_names, named_machines
 
@@ -38,7 +38,7 @@ class ClaimReader:
 
     def expectation(self, table: Table) -> Expect | None:
         """Read a claim that must hold at once, within a time or during one."""
-        check_keys(table, (*ACTIONS, *CLAIM, *TIMES), "a step", self._report)
+        check_keys(table, (*ACTIONS, *CLAIM, *TIMES, *WAIT), "a step", self._report)
         claim = self._claim(table)
         times = [key for key in TIMES if key in table]
         lengths = {key: table.duration(key) for key in times}
@@ -202,7 +202,7 @@ class ClaimReader:
             return given[0]
         if given:
             self._one_of(table, given)
-        elif not any(key not in (*ACTIONS, *CLAIM, *TIMES) for key in table.values):
+        elif not any(key not in (*ACTIONS, *CLAIM, *TIMES, *WAIT) for key in table.values):
             place = table.value_place(())
             self._report.report(
                 "missing-key",

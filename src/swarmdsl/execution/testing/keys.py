@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from swarmdsl.driver.config.keys import (
     ANY,
@@ -94,12 +94,23 @@ TIMES: Mapping[str, Key] = {
 }
 
 
-def _step() -> Shape:
-    """Shape of a step: one action with its own keys, or an expectation."""
+def _step(more: Mapping[str, Key], verbs: Iterable[str]) -> Shape:
+    """Shape of a step: one action with its own keys, or one of more verbs with more keys."""
     words = {word: key for keys in ACTIONS.values() for word, key in keys.items()}
-    only = {verb: {"propertyNames": one_of(keys)} for verb, keys in ACTIONS.items()}
-    kinds = [{"required": [each]} for each in (*ACTIONS, *VERBS)]
-    return table({**words, **CLAIM, **TIMES}, oneOf=kinds, dependencies=only)
+    only: dict[str, Shape] = {
+        verb: {"propertyNames": one_of(keys)} for verb, keys in ACTIONS.items()
+    }
+    only.update({"meanwhile": {"required": ["within"]}} if "meanwhile" in more else {})
+    kinds = [{"required": [each]} for each in (*ACTIONS, *verbs)]
+    return table({**words, **more}, oneOf=kinds, dependencies=only)
+
+
+WAIT: Mapping[str, Key] = {
+    "meanwhile": Key(
+        {**list_of(_step({}, ())), "minItems": 1},
+        "Actions that happen again and again until it is so, with `within`.",
+    ),
+}
 
 
 _NUMBER_OR_TIME = {
@@ -127,7 +138,10 @@ _SHARED: Mapping[str, Key] = {
 TEST: Mapping[str, Key] = {
     "name": Key({"type": "string", "pattern": r"\S"}, "Name of the test: the fact that it shows."),
     **_SHARED,
-    "steps": Key({**list_of(_step()), "minItems": 1}, "Actions and expectations, in their order."),
+    "steps": Key(
+        {**list_of(_step({**CLAIM, **TIMES, **WAIT}, VERBS)), "minItems": 1},
+        "Actions and expectations, in their order.",
+    ),
     "always": Key(
         list_of(table(CLAIM, oneOf=[{"required": [each]} for each in VERBS])),
         "Claims that must hold all the time.",

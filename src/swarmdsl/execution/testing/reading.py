@@ -18,7 +18,7 @@ from swarmdsl.execution.simulate.inputs.scenario_table import Table
 from swarmdsl.execution.simulate.machines.actors import Actor, actors
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
-from swarmdsl.execution.testing.case import Case, End, InvalidTest, Step, TestFile
+from swarmdsl.execution.testing.case import Case, End, InvalidTest, Step, TestFile, actions
 from swarmdsl.execution.testing.claims import ClaimReader
 from swarmdsl.execution.testing.keys import FILE, IMPOSSIBLE, MOST_SEEDS, TEST
 from swarmdsl.execution.testing.measures import read_measures
@@ -272,9 +272,9 @@ def _named_properties(
 def _with_ends(scenario: Scenario, steps: list[Step], cast: list[Actor]) -> Scenario:
     """Return a scenario in which functions ended by the test do not end on their own."""
     functions = {key: dict(said) for key, said in scenario.functions.items()}
-    for step in steps:
-        if isinstance(step, End):
-            for number in step.of:
-                key = (step.function, cast[number].robot.name or "")
+    for action in (each for step in steps for each in actions(step)):
+        if isinstance(action, End):
+            for number in action.of:
+                key = (action.function, cast[number].robot.name or "")
                 functions[key] = {**functions.get(key, {}), **_NEVER}
     return replace(scenario, functions=functions)

@@ -176,7 +176,9 @@ def _sentence(names: Sequence[str], what: str) -> str:
     if names == [""]:
         return what
     if len(names) > 1:
-        verb = {"is": "are", "has": "have", "satisfies": "satisfy"}.get(verb, verb.removesuffix("s"))
+        verb = {"is": "are", "has": "have", "satisfies": "satisfy"}.get(
+            verb, verb.removesuffix("s")
+        )
     shown = [*names[:_SHOWN], *([f"{len(names) - _SHOWN} more"] if len(names) > _SHOWN else [])]
     return f"{_names(shown, len(names) > _SHOWN)} {verb} {rest}"
 

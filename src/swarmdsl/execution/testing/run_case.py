@@ -29,9 +29,10 @@ from swarmdsl.execution.testing.case import (
     Pass,
     Send,
     Step,
+    actions,
 )
 from swarmdsl.execution.testing.recorder import Recorder
-from swarmdsl.execution.testing.run_result import Failure, RunResult
+from swarmdsl.execution.testing.run_result import Failure, RunResult, endless_reaction
 
 _NOBODY = "nobody handles it"
 
@@ -98,9 +99,9 @@ class _CaseRun:
         self._arrivals: dict[tuple[str, str | None], int] = {}
         """Events and receivers that steps name, with the last of these steps."""
         for number, step in enumerate(case.steps):
-            if isinstance(step, Arrive):
-                named = ((step.event, robot) for robot in step.robots)
-                self._arrivals.update(dict.fromkeys(named, number))
+            for each in actions(step):
+                if isinstance(each, Arrive):
+                    self._arrivals.update({(each.event, robot): number for robot in each.robots})
         self._fitness = fitness_of(case.subject) if case.measures else None
         if watched or self._fitness is not None:
             planned = plan(watched, measures_of(self._fitness))
@@ -154,7 +155,9 @@ class _CaseRun:
         except _ViolatedError as violated:
             return self._violation(violated.place, violated.violation)
         except LoopError as error:
-            return self._loop(error, place)
+            now, last = self._world.clock.now, self._recorder.last
+            self._world.trace.flush()
+            return endless_reaction(error, place, self._case.subject.name, now, last)
         except ModelError as error:
             time = format_duration(self._world.clock.now)
             fields = {"function": error.function, "time": time, "reason": error.reason}
@@ -208,7 +211,7 @@ class _CaseRun:
         related = (Label(origin, "the property"),) if origin is not None else ()
         label = "this property must hold"
         return self._failure(
-            "violated-property", place, violation_fields(violation), label, related
+            "violated-property", place, violation_fields(violation), label, *related
         )
 
     def _do(self, step: Step) -> None:
@@ -290,12 +293,28 @@ class _CaseRun:
                 self._check(claim)
             return
         if not self._recorder.holds(claim) and step.within is not None:
-            for _ in self._moments(step.within):
+            for _ in self._wait(step, step.within):
                 self._check_always()
                 if self._recorder.holds(claim):
                     break
         self._check(claim)
         self._pass(0)
+
+    def _wait(self, step: Expect, length: int) -> Iterator[None]:
+        """Let time pass, and what happens meanwhile; yield after each action."""
+        if not step.meanwhile:
+            yield from self._moments(length)
+            return
+        clock = self._world.clock
+        end = clock.now + length
+        while clock.now < end:
+            for each in step.meanwhile:
+                self._reached(each.place)
+                if isinstance(each, Pass):
+                    yield from self._moments(min(each.length, end - clock.now))
+                else:
+                    self._do(each)
+                yield
 
     def _check(self, claim: Claim) -> None:
         if not self._recorder.holds(claim):
@@ -324,28 +343,7 @@ class _CaseRun:
 
     # ---- failures
 
-    def _loop(self, error: LoopError, place: Span) -> Failure:
-        self._world.trace.flush()
-        states = set(error.states)
-        actors = [line.actor for line in self._recorder.last]
-        going = [actor for actor in actors if states <= actor.machine.numbers.keys()]
-        who = going[-1].name or self._case.subject.name if going else self._case.subject.name
-        related = []
-        for state in error.states if going else ():
-            machine = going[-1].machine
-            origin = getattr(machine.states[machine.numbers[state]].origin, "origin", None)
-            if isinstance(origin, Span):
-                related.append(Label(origin, "part of the loop"))
-        fields = {"who": f"`{who}`", "time": format_duration(self._world.clock.now)}
-        label = f"it loops through {listed(error.states, 'and')}"
-        return self._failure("never-settles", place, fields, label, tuple(related))
-
     def _failure(
-        self,
-        code: str,
-        place: Span,
-        fields: dict[str, str],
-        label: str,
-        related: tuple[Label, ...] = (),
+        self, code: str, place: Span, fields: dict[str, str], label: str, *related: Label
     ) -> Failure:
         return Failure(code, place, fields, label, related, tuple(self._recorder.last))

@@ -1,12 +1,14 @@
-"""Result of one run of a test."""
+"""Result of one run of a test, and its failures."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
-from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
+from swarmdsl.execution.engine import LoopError
+from swarmdsl.execution.simulate.scenario.durations import format_duration
 from swarmdsl.execution.simulate.world.line import Line
 
 
@@ -34,3 +36,21 @@ class RunResult:
     faults: tuple[tuple[str, str], ...]
     remarks: Mapping[str, str]
     skipped: int = 0
+
+
+def endless_reaction(
+    error: LoopError, place: Span, subject: str, time: int, last: Sequence[Line]
+) -> Failure:
+    """Return the failure of a run that does not come to rest at a step, after the last lines."""
+    states = set(error.states)
+    going = [line.actor for line in last if states <= line.actor.machine.numbers.keys()]
+    related = []
+    for state in error.states if going else ():
+        machine = going[-1].machine
+        origin = getattr(machine.states[machine.numbers[state]].origin, "origin", None)
+        if isinstance(origin, Span):
+            related.append(Label(origin, "part of the loop"))
+    who = (going[-1].name if going else None) or subject
+    fields = {"who": f"`{who}`", "time": format_duration(time)}
+    label = f"it loops through {listed(error.states, 'and')}"
+    return Failure("never-settles", place, fields, label, tuple(related), tuple(last))

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.records import replace
 from swarmdsl.execution.simulate.inputs.scenario_table import Table
 from swarmdsl.execution.simulate.inputs.values import fitted, fitted_result
 from swarmdsl.execution.simulate.machines.table import OUTCOMES
-from swarmdsl.execution.testing.case import Arrive, End, Lose, Pass, Send, Step
+from swarmdsl.execution.testing.case import Action, Arrive, End, Lose, Pass, Send, Step
 from swarmdsl.execution.testing.claims import ClaimReader
 from swarmdsl.execution.testing.keys import ACTIONS
 from swarmdsl.execution.testing.names import Names
@@ -33,11 +34,49 @@ class StepReader:
     def step(self, table: Table) -> Step | None:
         """Read a step: an action or an expectation."""
         verbs = [key for key in table.values if key in ACTIONS]
-        if not verbs:
-            return self._claims.expectation(table)
-        verb = verbs[0]
+        if verbs:
+            return self._action(table, verbs[0])
+        expected = self._claims.expectation(table)
+        if "meanwhile" not in table:
+            return expected
+        meanwhile = self._meanwhile(table)
+        return replace(expected, meanwhile=meanwhile) if expected and meanwhile else None
+
+    def _meanwhile(self, table: Table) -> tuple[Action, ...]:
+        """Read what happens again and again while time passes."""
+        found: list[Action] = []
+        given = list(table.items("meanwhile"))
+        for each in given:
+            verb = next((key for key in each.values if key in ACTIONS), None)
+            action = self._action(each, verb) if verb is not None else None
+            if action is not None:
+                found.append(action)
+            elif verb is None and each.values:
+                check_keys(each, ACTIONS, "what happens meanwhile", self._report)
+            elif verb is None:
+                each.wrong((), listed(list(ACTIONS)), {})
+        if "within" not in table:
+            self._report.report(
+                "impossible-step",
+                table.key_place("meanwhile"),
+                reason="`meanwhile` requires `within`",
+                help="say how long to wait",
+            )
+        elif len(found) == len(given) > 0 and not any(
+            isinstance(a, Pass) and a.length for a in found
+        ):
+            self._report.report(
+                "impossible-step",
+                table.key_place("meanwhile"),
+                reason="no time passes `meanwhile`",
+                help='`{ pass = "1 s" }` in it lets a second pass each time',
+            )
+        return tuple(found)
+
+    def _action(self, table: Table, verb: str) -> Action | None:
+        """Read an action."""
         check_keys(table, ACTIONS[verb], f"a step with `{verb}`", self._report)
-        read: dict[str, Callable[[Table], Step | None]] = {
+        read: dict[str, Callable[[Table], Action | None]] = {
             "send": self._send,
             "end": self._end,
             "pass": self._pass,

@@ -34,12 +34,12 @@ from swarmdsl.execution.verify.report import diagnostics
 from swarmdsl.execution.verify.report.progress import Progress
 from swarmdsl.execution.verify.report.results import Results, as_document, junit
 from swarmdsl.execution.verify.report.run_text import Fields
-from swarmdsl.execution.verify.report.saved_test import (
-    Setting,
+from swarmdsl.execution.verify.report.saved_test import Setting, tests_of
+from swarmdsl.execution.verify.report.shown import (
     Shown,
+    Unshown,
     shown_by_finding,
     shown_by_verdict,
-    tests_of,
 )
 from swarmdsl.execution.verify.report.summary import Search, summary
 from swarmdsl.execution.verify.robot.environment import Options, check_silent
@@ -101,7 +101,7 @@ class _Session:
         self._findings: dict[str, Finding] = {}
         """Findings by the names of their runs, each of the smallest swarm that has it."""
         self._found: Results | None = None
-        self._shown: list[Shown | str] = []
+        self._shown: list[Shown | Unshown] = []
         """Findings that tests can show, and names of those that they cannot."""
         self._scenario: Scenario | None = None
         self._silent: tuple[str, ...] = ()
@@ -203,8 +203,8 @@ class _Session:
                 verdicts[property_.name] = verdict
             self._write(property_.name, verdict.run)
             of = {**counts, **(verdict.size or {})}
-            if verdict.outcome == "fails":
-                self._shown.append(shown_by_verdict(verdict, of) or property_.name)
+            if verdict.outcome == "fails" and verdict.run is not None:
+                self._shown.append(shown_by_verdict(verdict, verdict.run, of))
             diagnostics.report_verdict(verdict, shown(model.subject, [of]), fields, self._report)
 
     def _tell(self, finding: Finding, counts: Mapping[str, int], size: str, fields: Fields) -> None:
@@ -212,7 +212,7 @@ class _Session:
         self._findings[name] = finding
         self._write(name, finding.run)
         if finding.run is not None:
-            self._shown.append(shown_by_finding(finding, counts) or name)
+            self._shown.append(shown_by_finding(finding, finding.run, counts))
         diagnostics.report_finding(finding, size, fields, self._report)
 
     def _prover(
@@ -304,13 +304,13 @@ class _Session:
         path = self._request.saved_test
         if path is None:
             return
-        left = [each for each in self._shown if isinstance(each, str)]
-        shown = [each for each in self._shown if not isinstance(each, str)]
+        left = [each for each in self._shown if isinstance(each, Unshown)]
+        shown = [each for each in self._shown if isinstance(each, Shown)]
         text, others = tests_of(subject, self._models, path, shown, self._setting())
         if text and self._write_file(path, text):
             self._say(f"written: {printable(path.as_posix())}")
-        for name in dict.fromkeys([*left, *others]):
-            self._say(f"not written as a test, which cannot show it: {printable(name)}")
+        for name, reason in {each.name: each.reason for each in (*left, *others)}.items():
+            self._say(f"not written as a test: {printable(name)}: {reason}")
 
     def _setting(self) -> Setting:
         """Return what all tests need of the scenario, as it is written there."""

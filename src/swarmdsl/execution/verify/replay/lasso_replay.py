@@ -93,7 +93,7 @@ def _timed(
     times = [*first, *(time + length for time in first[len(lasso.stem) + 1 :])]
     laps = _Laps(network, times)
     laps.run(lasso.stem)
-    before = len(laps.lines)
+    before, lost_before = len(laps.lines), len(laps.lost)
     laps.go_on(lasso.loop)
     end = len(laps.lines)
     laps = _Laps(network, times)
@@ -107,7 +107,15 @@ def _timed(
         return Run((), flaw="the monitor does not see a violation in it")
     causes = {line: cause for line, cause in laps.causes.items() if line < end}
     gone = tuple(laps.gone)
-    return Run(tuple(laps.lines[:end]), lost, gone, loop=end - before, causes=causes)
+    return Run(
+        tuple(laps.lines[:end]),
+        lost,
+        gone,
+        loop=end - before,
+        causes=causes,
+        period=length,
+        lost_before=lost_before,
+    )
 
 
 def _shown(lines: Sequence[Line]) -> Iterator[tuple[Any, ...]]:

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
 from swarmdsl.base.naming import fresh
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Source
@@ -21,8 +21,7 @@ from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import MICROSECOND, SECOND
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.simulate.world.line import Line
-from swarmdsl.execution.verify.findings.finding import Finding
-from swarmdsl.execution.verify.proofs.verdict import Verdict
+from swarmdsl.execution.verify.report.shown import Shown, Unshown
 from swarmdsl.execution.verify.report.toml_text import (
     fields_with_times,
     step_text,
@@ -30,32 +29,16 @@ from swarmdsl.execution.verify.report.toml_text import (
     toml_text,
     with_times,
 )
-from swarmdsl.execution.verify.search.run import Run
 
 if TYPE_CHECKING:
     from swarmdsl.execution.testing.models import Models
 
-_PATIENCE = "10 min"
-"""Time that a mended model has to go on after the run."""
 _ACTIVITY = "do."
+_PASS = "pass"
 _HEAD = """\
 # Written by `swarmc verify --save-test`. Each test fails until the model is mended, and then says
 # that it stays so.
 """
-
-
-@dataclass(frozen=True)
-class Shown:
-    """Something that a run shows to be wrong, in a swarm with given numbers of members.
-
-    `claim` is an expectation after the run, which is in vain; `property` one that the run violates.
-    """
-
-    name: str
-    run: Run
-    counts: Mapping[str, int]
-    property: str | None = None
-    claim: str | None = None
 
 
 @dataclass(frozen=True)
@@ -66,55 +49,14 @@ class Setting:
     silent: tuple[str, ...] = ()
 
 
-def shown_by_verdict(verdict: Verdict, counts: Mapping[str, int]) -> Shown | None:
-    """Return what a test can show of a property that does not hold, None if nothing.
-
-    After a run to where something is not possible, or goes on without it for ever, the property
-    is to become true.
-    """
-    if verdict.outcome != "fails" or verdict.run is None:
-        return None
-    property_, robot = verdict.property, verdict.robot
-    name = property_.name + (f" for {robot}" if robot is not None else "")
-    if property_.kind != "possible" and verdict.run.loop is None:
-        return Shown(name, verdict.run, counts, property=property_.name)
-    claim = step_text(who=robot, satisfies=property_.name, within=_PATIENCE)
-    return Shown(name, verdict.run, counts, claim=claim)
-
-
-def shown_by_finding(finding: Finding, counts: Mapping[str, int]) -> Shown | None:
-    """Return what a test can show of a finding, None if nothing."""
-    run = finding.run
-    if run is None or finding.fault not in ("stuck", "waits", "loops"):
-        return None
-    if finding.fault == "loops":
-        return Shown(f"{finding.name} comes to rest", run, counts)
-    last = {line.actor: line.configuration for line in run.lines}
-    lost = {loss.robot for loss in run.gone}
-    robots = [
-        actor.robot
-        for actor, states in last.items()
-        if finding.name in states
-        and finding.role in ("", actor.robot.role)
-        and actor.robot.name not in lost
-    ]
-    if not robots:
-        return None
-    robot = robots[0]
-    who: dict[str, Any] = {"no": robot.name} if robot.name is not None else {"count": 0}
-    claim = step_text(**who, **{"in": finding.name}, within=_PATIENCE)
-    name = f"{robot.name or 'it'} goes on from {finding.name}"
-    return Shown(name, run, counts, claim=claim)
-
-
 def tests_of(
     subject: Subject,
     models: Sequence[Path],
     path: Path,
     shown: Sequence[Shown],
     setting: Setting,
-) -> tuple[str, list[str]]:
-    """Return a test file for a path, and the names of what its tests cannot show.
+) -> tuple[str, list[Unshown]]:
+    """Return a test file for a path, and what its tests cannot show.
 
     Each test was run, and fails.
     """
@@ -123,22 +65,21 @@ def tests_of(
 
     compiled = Models()
     chosen: list[str] = []
-    left: list[str] = []
+    left: list[Unshown] = []
     names: list[str] = []
     for each in shown:
         # Robots may wait in one state for several reasons.
         names.append(fresh(each.name, names, gap=" "))
         each = replace(each, name=names[-1])
-        variants = (
-            "".join(f"{line}\n" for line in _Test(subject, each, setting, early).lines())
-            for early in (0, MICROSECOND)
-        )
-        files = ((test, _file(subject, models, path, [test])) for test in variants)
-        test = next((test for test, text in files if _fails(text, path, compiled)), None)
-        if test is not None:
-            chosen.append(test)
+        reason = ""
+        for early in (0, MICROSECOND):
+            test = "".join(f"{line}\n" for line in _Test(subject, each, setting, early).lines())
+            reason = _flaw(_file(subject, models, path, [test]), path, compiled)
+            if not reason:
+                chosen.append(test)
+                break
         else:
-            left.append(each.name)
+            left.append(Unshown(each.name, reason))
     return _file(subject, models, path, chosen) if chosen else "", left
 
 
@@ -155,20 +96,21 @@ def _file(subject: Subject, models: Sequence[Path], path: Path, tests: Sequence[
     return "".join([*head, *(f"\n{test}" for test in tests)])
 
 
-def _fails(text: str, path: Path, compiled: Models) -> bool:
-    """Return True if the only test of a file fails."""
+def _flaw(text: str, path: Path, compiled: Models) -> str:
+    """Return why the only test of a file does not fail as it should, else an empty string."""
     from swarmdsl.execution.testing.case import InvalidTest
     from swarmdsl.execution.testing.reading import read_tests
     from swarmdsl.execution.testing.verdict import judge
 
     report = Diagnostics()
     tests = read_tests(Source(path.as_posix(), text, path), compiled, report)
-    if tests is None:
-        return False
-    (case,) = tests.cases
-    if isinstance(case, InvalidTest):
-        return False
-    return not judge(case, case.seeds, lambda _seed, _line: None).passed
+    for case in tests.cases if tests is not None else ():
+        if isinstance(case, InvalidTest):
+            report.include(case.problems)
+        elif not judge(case, case.seeds, lambda _seed, _line: None).passed:
+            return ""
+    error = next((each.message for each in report if each.severity is Severity.ERROR), None)
+    return error or "played as a test, the run goes on otherwise"
 
 
 class _Test:
@@ -196,7 +138,7 @@ class _Test:
     def lines(self) -> Iterator[str]:
         """Yield the lines of the test."""
         shown = self._shown
-        steps = list(self._steps()) or [step_text(**{"pass": "1 s"})]
+        steps = list(self._steps()) or [step_text(**{_PASS: "1 s"})]
         yield "[[test]]"
         yield f"name = {toml_text(shown.name)}"
         if shown.property is not None:
@@ -221,41 +163,52 @@ class _Test:
         return {key: values for key, values in found.items() if values}
 
     def _steps(self) -> Iterator[str]:
-        run = self._shown.run
-        before: Line | None = None
-        for number, line in enumerate(run.lines):
-            yield from self._losses(number)
+        run, claim = self._shown.run, self._shown.claim
+        end = len(run.lines)
+        first = end - run.loop if run.loop and run.period else end
+        yield from self._replay(0, first, run.lost[: run.lost_before] if first < end else run.lost)
+        now, wait, lap = self._now, [], []
+        if first < end:
+            wait = [*self._pass(run.lines[first].time - self._early)]
+            over = self._now + run.period
+            lap = [*self._replay(first, end, run.lost[run.lost_before :]), *self._pass(over)]
+        if all(step.startswith(f"{{ {_PASS} ") for step in lap):
+            # What only takes time goes on by itself.
+            self._now, wait, lap = now, [], []
+            yield from self._pass(run.lines[-1].time)
+            for event, sender, robot in self._on_way:
+                yield step_text(hear=event, by=robot, **{"from": sender})
+        yield from wait
+        if claim is not None:
+            yield _expectation(claim, lap, self._shown.note)
+
+    def _replay(self, begin: int, end: int, lost: Sequence[tuple[int, str, str]]) -> Iterator[str]:
+        """Yield the inputs of some lines, and losses of messages."""
+        lines = self._shown.run.lines
+        for number in range(begin, end + 1):
+            for _, event, robot in (each for each in lost if each[0] == number):
+                yield self._arrival("drop", event, robot, None)
             yield from self._gone(number)
-            if not (line.recalled or (before is not None and _is_one(before, line))):
+            if number == end:
+                return
+            line = lines[number]
+            if not (line.recalled or (number and _is_one(lines[number - 1], line))):
                 step = self._input(line)
                 if step is not None:
                     yield from self._pass(line.time - self._early)
                     yield step
             self._send(line)
-            before = line
-        yield from self._losses(len(run.lines))
-        yield from self._gone(len(run.lines))
-        yield from self._pass(run.lines[-1].time)
-        for event, sender, robot in self._on_way:
-            yield step_text(hear=event, by=robot, **{"from": sender})
-        if self._shown.claim is not None:
-            yield self._shown.claim
 
     def _pass(self, time: int) -> Iterator[str]:
         """Let time pass until a time of the run; delays end then."""
         if time > self._now:
-            yield step_text(**{"pass": time_text(time - self._now)})
+            yield step_text(**{_PASS: time_text(time - self._now)})
             self._now = time
-
-    def _losses(self, number: int) -> Iterator[str]:
-        for at, event, robot in self._shown.run.lost:
-            if at == number:
-                yield self._arrival("drop", event, robot, None)
 
     def _gone(self, number: int) -> Iterator[str]:
         """Yield the losses of robots, with what is on its way to them."""
         for loss in self._shown.run.gone:
-            if loss.at == number:
+            if loss.at == number and loss.robot not in self._lost:
                 yield from self._pass(loss.time - self._early)
                 for event, sender, _ in [each for each in self._on_way if each[2] == loss.robot]:
                     yield self._arrival("drop", event, loss.robot, sender)
@@ -328,6 +281,15 @@ class _Test:
                 is_there = robot is not source and robot.name not in self._lost
                 if is_there and listens and robot.is_meant_by(to):
                     self._on_way.append((event, source.name, robot.name))
+
+
+def _expectation(claim: Mapping[str, Any], meanwhile: Sequence[str], note: str) -> str:
+    """Return the step of what is expected at last, in vain, after a note."""
+    text = step_text(**claim)
+    if meanwhile:
+        laps = "".join(f"    {step},\n" for step in meanwhile)
+        text = f"{text.removesuffix(' }')}, meanwhile = [\n{laps}  ] }}"
+    return f"# {note}\n  {text}" if note else text
 
 
 def _is_one(one: Line, other: Line) -> bool:

@@ -36,6 +36,10 @@ class Run:
     flaw: str = ""
     loop: int | None = None
     shortest: bool = True
+    period: int = 0
+    """Length of a repetition in nanoseconds."""
+    lost_before: int = 0
+    """Number of messages that are lost before the first repetition."""
     causes: Mapping[int, int] = field(default_factory=dict)
     """For lines on which events of other robots arrive, those on which they were sent."""
 
