@@ -100,6 +100,17 @@ def test_valid_files_are_accepted() -> None:
             '[[test]]\nname = "a"\nsteps = [{ in = "A", sends = "B" }]',
             "is valid under each of",
         ),
+        ("tests", '[[test]]\nname = "a"\nsteps = [{ satisfies = 3 }]', "is not of type 'string'"),
+        (
+            "tests",
+            '[[test]]\nname = "a"\nsteps = [{ in = "A", meanwhile = [{ pass = "1 s" }] }]',
+            "'within' is a required property",
+        ),
+        (
+            "tests",
+            '[[test]]\nname = "a"\nsteps = [{ in = "A", within = "1 s", meanwhile = [{}] }]',
+            "is not valid under any",
+        ),
         (
             "tests",
             'seeds = 0\n[[test]]\nname = "a"\nsteps = [{ pass = "1 s" }]',

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import cycle
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.source import Span
@@ -241,7 +242,8 @@ class _CaseRun:
             self._check_always()
 
     def _end(self, step: End) -> None:
-        running = [actor for actor in self._actors(step.of) if self._events(actor, step)]
+        called = (self._cast[number] for number in step.of)
+        running = [actor for actor in called if self._events(actor, step)]
         if not running:
             expected = f"`{step.function}` to be running"
             self._impossible(step.place, expected, "it is not running")
@@ -279,9 +281,6 @@ class _CaseRun:
         runs = [run for run in self._world.runs(actor) if run.activity.name == step.function]
         return [run.activity.events[step.outcome] for run in runs]
 
-    def _actors(self, numbers: tuple[int, ...]) -> list[Actor]:
-        return [self._cast[number] for number in numbers]
-
     # ---- expectations
 
     def _expect(self, step: Expect) -> None:
@@ -307,14 +306,16 @@ class _CaseRun:
             return
         clock = self._world.clock
         end = clock.now + length
-        while clock.now < end:
-            for each in step.meanwhile:
-                self._reached(each.place)
-                if isinstance(each, Pass):
-                    yield from self._moments(min(each.length, end - clock.now))
-                else:
-                    self._do(each)
-                yield
+        for each in cycle(step.meanwhile):
+            if clock.now >= end:
+                break
+            self._reached(each.place)
+            if isinstance(each, Pass):
+                yield from self._moments(min(each.length, end - clock.now))
+            else:
+                self._do(each)
+            yield
+        self._reached(step.place)
 
     def _check(self, claim: Claim) -> None:
         if not self._recorder.holds(claim):
