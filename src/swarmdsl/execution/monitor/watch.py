@@ -254,16 +254,14 @@ class Watch:
 
     def verdict(self, name: str, robot: str | None, time: int) -> Verdict:
         """Return the verdict so far on a property, of a robot if it is about each one."""
-        if not self._begun:
-            self._begin()
+        self._begin()
         self.advance(time)
         watched = next(each for each in self._watched if each.rule.property.name == name)
         return watched.states[robot].verdict
 
     def results(self, time: int, *, ended: bool) -> list[PropertyResult]:
         """Return the verdicts at the end of a run."""
-        if not self._begun:
-            self._begin()
+        self._begin()
         found = []
         for each in self._watched:
             self._note(each, each.advance(time), time)
@@ -281,8 +279,7 @@ class Watch:
 
     def readings(self, time: int, limit: int | None = None) -> list[Reading]:
         """Return the values of the measures at a time; the run could last until the limit."""
-        if not self._begun:
-            self._begin()
+        self._begin()
         return [each.gauge.read(each.meters.values(), time, limit) for each in self._measured]
 
     def _join(self, actor: ActorLike) -> tuple[Followed, Kind]:
@@ -315,7 +312,9 @@ class Watch:
             self._common = -1
 
     def _begin(self) -> None:
-        """Take the first step, when all machines have started."""
+        """Take the first step, when all machines have started, unless it was taken."""
+        if self._begun:
+            return
         self._begun = True
         for gauge in self._measured:
             gauge.step(0, gauge.robots.values())
