@@ -230,3 +230,70 @@ property P of S : each last : never in B
     assert verdict.run is not None
     assert not verdict.run.shortest
     assert verdict.run.lines[-1].actor.name == "last[0]"
+
+
+SHOW = """package test
+event Begin : std_msgs/Empty
+event Stop : std_msgs/Empty
+swarm event Rise : std_msgs/Empty
+swarm event Ready : std_msgs/Empty
+swarm event Beat : std_msgs/Empty
+function climb : abstraction { service "climb" : std_srvs/Empty }
+endless statemachine Dance {
+  initial Ground
+  state Ground { on Rise -> Climb }
+  state Climb {
+    do climb
+    on succeeded / send Ready -> Air
+    on aborted -> Refused
+    on Stop -> Ground
+  }
+  state Refused { after 1 s -> Climb }
+  state Air {
+    on Beat -> Air
+    on Stop -> Ground
+  }
+}
+endless statemachine Conduct {
+  var ready : uint8 = 0
+  var beats : uint8 = 0
+  initial Idle
+  state Idle { on Begin -> Rising }
+  state Rising {
+    entry / ready = 0, beats = 0, send Rise
+    on Ready [ready < 4] / ready = ready + 1
+    on Ready -> Wave
+    after 30 s -> Idle
+  }
+  state Wave {
+    entry / beats = beats + 1, send Beat
+    after 5 s [beats < 3] -> Wave
+    %s
+  }
+}
+member Dancer { behavior Dance }
+member Desk { behavior Conduct }
+swarm Show { dancer : Dancer[5]; desk : Desk }
+property Ends of Show : each desk : in Rising leads to in Idle
+property Soon of Show : each desk : in Rising leads to in Idle within 2 min
+"""
+
+
+@pytest.mark.parametrize(
+    ("last", "outcomes"),
+    [("on Stop -> Idle", ["fails", "fails"]), ("after 5 s -> Idle", ["up to", "unknown"])],
+)
+def test_a_large_swarm_is_followed_to_where_it_rests(
+    modelled: Callable[..., Model], last: str, outcomes: list[str]
+) -> None:
+    """At the last beat, the desk waits for somebody to stop the show."""
+    model = modelled(SHOW % last)
+
+    found = [prove(each, model, Budget(Limits(states=2_000))) for each in watchable(model.subject)]
+
+    assert [each.outcome for each in found] == outcomes
+    for each in found:
+        if each.run is not None:
+            assert not each.run.shortest
+            desk = [line for line in each.run.lines if line.actor.name == "desk[0]"]
+            assert desk[-1].configuration == ["Wave"]

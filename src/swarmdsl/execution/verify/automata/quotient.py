@@ -79,14 +79,10 @@ class Quotient:
             loss = self.whole.losses[number]
             assert loss is not None, "robots in states that are one can be lost"
             return loss
-        wanted = self._label(move, move.target)
         following: Sequence[Move] = self.whole.steps[number] or ()
         if move.given.kind == "hear":
             following = self.whole.heard[number][move.given.choice]
-        for each in following:
-            if self._label(each, self.classes[each.target]) == wanted:
-                return each
-        raise AssertionError("states that are one have the same moves")
+        return self._firsts(following)[self._label(move, move.target)]
 
     def look(self, state: int) -> Look:
         """Return what a state shows."""
@@ -101,9 +97,17 @@ class Quotient:
         return self.look(state).ended
 
     def _chosen(self, found: Sequence[Move]) -> list[Move]:
-        """Return the first of all moves that nothing tells apart."""
-        chosen = {self._label(move, self.classes[move.target]): move for move in reversed(found)}
-        return [self._lifted(each) for each in reversed(chosen.values())]
+        """Return one of all moves that nothing tells apart."""
+        return [self._lifted(each) for each in self._firsts(found).values()]
+
+    def _firsts(self, found: Sequence[Move]) -> dict[Any, Move]:
+        """Return the first move in turn of those with the same label."""
+        chosen: dict[Any, Move] = {}
+        for move in found:
+            label = self._label(move, self.classes[move.target])
+            if label not in chosen or move.given.turn < chosen[label].given.turn:
+                chosen[label] = move
+        return chosen
 
     def _lifted(self, move: Move) -> Move:
         return move._replace(target=self.classes[move.target])

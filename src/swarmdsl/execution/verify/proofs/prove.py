@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import islice
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
 from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.proofs.liveness import in_the_end
 from swarmdsl.execution.verify.proofs.observation import observer_of, run_to
 from swarmdsl.execution.verify.proofs.overapproximation import with_open_data
 from swarmdsl.execution.verify.proofs.possible import prove_possible
@@ -18,22 +18,20 @@ from swarmdsl.execution.verify.proofs.single_robot import (
     is_alone,
     without_others,
 )
-from swarmdsl.execution.verify.proofs.timed import not_with_clocks, prove_exactly
+from swarmdsl.execution.verify.proofs.timed import not_with_clocks, prove_exactly, seek_late
 from swarmdsl.execution.verify.proofs.verdict import (
     ESTIMATE,
     UNSURE,
     Verdict,
     not_run,
-    unfinished,
+    not_violated,
     violated,
     worst,
 )
 from swarmdsl.execution.verify.properties.observer import Observer
 from swarmdsl.execution.verify.properties.sentence import is_about_ends, not_shown
-from swarmdsl.execution.verify.replay.lasso_replay import endless
 from swarmdsl.execution.verify.replay.spurious import OPEN
 from swarmdsl.execution.verify.search.explore import Graph, observe
-from swarmdsl.execution.verify.search.lassos import Lassos
 from swarmdsl.execution.verify.search.nearest import observe_nearest
 from swarmdsl.execution.verify.search.relaxed_plan import observe_planned
 from swarmdsl.execution.verify.swarm.groups import Group
@@ -41,12 +39,8 @@ from swarmdsl.execution.verify.swarm.influence import cone
 from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.execution.verify.swarm.subjects import about, place_of
 
-_MOST_LASSOS = 60
-"""Number of loops that are tried on the engine."""
 _MOST_NEAR = 2_000
 """Number of states among which a loop is looked for if a property is about time."""
-
-_WITH_A_TIME = "; with a time, such as `within 1 min`, `--time exact` may decide"
 
 
 def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
@@ -74,21 +68,25 @@ def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -
         # A longer run, in which robots are far from each other and hear of all, may violate it.
         again = _without_clocks(property_, model, me, budget, lonely=True)
         verdict = again if again.outcome == "fails" else verdict
+    if verdict.outcome not in ("unknown", "up to"):
+        return verdict
+    late = _never(property_, model, me, budget)
+    if late is not None:
+        return late
     has_clocks = model.options.exact and not model.environment.faults
-    if verdict.outcome == "up to" and has_clocks and not model.complete:
+    if has_clocks and verdict.outcome == "unknown" and verdict.place is None:
+        verdict = prove_exactly(property_, model, me, budget, verdict)
+    elif has_clocks and verdict.outcome == "up to" and not model.complete:
         # A robot with clocks may have fewer states than one that hears anything at any time.
         timed = prove_exactly(property_, model, me, budget, verdict)
-        return timed if timed.outcome in ("holds", "fails") else verdict
-    if verdict.outcome != "unknown":
+        verdict = timed if timed.outcome in ("holds", "fails") else verdict
+    if verdict.outcome in ("holds", "fails"):
         return verdict
-    if verdict.place is not None:
+    late = seek_late(property_, model, me, budget)
+    if late is not None:
+        return late
+    if has_clocks or verdict.outcome == "up to" or verdict.place is not None:
         return verdict
-    if property_.within is not None:
-        never = _never(property_, model, me, budget)
-        if never is not None:
-            return never
-    if has_clocks:
-        return prove_exactly(property_, model, me, budget, verdict)
     way_out = ""
     doubt = not_with_clocks(property_, _wider(property_, model, budget) or model, me)
     if doubt is not None and property_.within is not None:
@@ -131,10 +129,10 @@ def _wider(property_: ir.Property, model: Model, budget: Budget) -> Model | None
 def _never(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict | None:
     """Return a verdict if what must happen in time need not happen at all: a loop shows it."""
     endless = replace(property_, within=None, chance=None)
-    if not is_about_ends(endless):
+    if property_.within is None or not is_about_ends(endless):
         return None
     some = budget.some(_MOST_NEAR)
-    found = _in_the_end(endless, model, me, some, lonely=False, timed=True)
+    found = in_the_end(endless, model, me, some, lonely=False, timed=True)
     budget.interrupted |= some.interrupted
     if found.run is None:
         return None
@@ -169,7 +167,7 @@ def _without_clocks(
     if loose is not None and loose.outcome == "holds":
         return loose
     if is_about_ends(property_):
-        found = _in_the_end(property_, model, me, budget, lonely=lonely)
+        found = in_the_end(property_, model, me, budget, lonely=lonely)
     elif property_.kind == "possible":
         place = groups.index(every[mine]) if mine is not None else None
         network = model.network(groups, spared=me)
@@ -204,7 +202,7 @@ def _searched(
         if not graph.complete and not budget.interrupted:
             all_or_some = every if observer.others else groups
             near = _near(property_, model, all_or_some, me, budget, lonely=lonely)
-        return near or _not_violated(property_, model, graph, groups, me, budget)
+        return near or not_violated(property_, model, graph, groups, me, budget)
     found = violated(property_, run_to(property_, observer, graph, graph.bad), graph, me)
     if found.run is None and property_.chance is None:
         # A longer run, in which messages arrive first, may be one that can be.
@@ -256,86 +254,3 @@ def _tried(
     run = replace(run_to(property_, observer, graph, graph.bad), shortest=False)
     found = violated(property_, run, graph, me)
     return found if found.run is not None else None
-
-
-def _in_the_end(
-    property_: ir.Property,
-    model: Model,
-    me: str | None,
-    budget: Budget,
-    *,
-    lonely: bool,
-    timed: bool = False,
-) -> Verdict:
-    """Decide on a property that runs that go on for ever can violate; `timed` ones fit times.
-
-    If robots of a group must be told apart to decide, each is looked at by itself.
-    """
-    flaw = ""
-    for single in (False, True):
-        every = model.groups([property_], me=me, tasks=True, single=single)
-        seen = set(about(property_, model, every))
-        seen |= {number for number, group in enumerate(every) if group.robots == (me,)}
-        groups = cone(model, every, seen) or every
-        observer = observer_of(
-            property_,
-            model,
-            groups,
-            me,
-            lonely=lonely,
-            others=len(groups) < len(every),
-            timed=timed,
-        )
-        if observer.others:
-            # What holds for a moment ends when any robot does something.
-            groups = every
-            observer = observer_of(
-                property_, model, groups, me, lonely=lonely, others=False, timed=timed
-            )
-        graph = observe(observer.network, observer, budget)
-        if graph.bad is not None:
-            return violated(property_, run_to(property_, observer, graph, graph.bad), graph, me)
-        lassos = Lassos(graph, observer, budget)
-        doubts = model.doubts(groups)
-        found = 0
-        for lasso in islice(lassos, _MOST_LASSOS):
-            found += 1
-            if lasso.loop and any(not each.more for each in doubts):
-                # What is not covered may end the loop.
-                break
-            run = endless(observer.network, lasso, property_, me)
-            if not run.flaw:
-                return violated(property_, run, graph, me)
-            flaw = flaw or run.flaw
-        graph.complete &= lassos.complete
-        if doubts or not found:
-            return _not_violated(property_, model, graph, groups, me, budget)
-        if all(len(group.robots) == 1 for group in groups):
-            break
-    reason = not_run(flaw)
-    if (
-        property_.kind in ("eventually", "leads")
-        and flaw not in OPEN
-        and not model.environment.faults
-    ):
-        reason += _WITH_A_TIME
-    return Verdict(property_, "unknown", len(graph.seen), reason, robot=me)
-
-
-def _not_violated(
-    property_: ir.Property,
-    model: Model,
-    graph: Graph,
-    groups: Sequence[Group],
-    me: str | None,
-    budget: Budget,
-) -> Verdict:
-    """Return the verdict when no violation was found."""
-    states, full = len(graph.seen), tuple(sorted(graph.network.full))
-    doubts = model.doubts(groups)
-    if doubts:
-        return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
-    if not graph.complete:
-        reason = unfinished(model, budget)
-        return Verdict(property_, "up to", states, reason, robot=me, full=full)
-    return Verdict(property_, "holds", states, robot=me, full=full)

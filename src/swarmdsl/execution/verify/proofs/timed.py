@@ -27,6 +27,7 @@ from swarmdsl.execution.verify.properties.timed_observer import TimedObserver
 from swarmdsl.execution.verify.replay.timed_runs import violating
 from swarmdsl.execution.verify.search.explore import Graph, observe
 from swarmdsl.execution.verify.search.run import steps_between
+from swarmdsl.execution.verify.search.settling import observe_settling
 from swarmdsl.execution.verify.search.unfolding import unfold, unfolded
 from swarmdsl.execution.verify.swarm.groups import Group
 from swarmdsl.execution.verify.swarm.influence import cone
@@ -35,6 +36,9 @@ from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.execution.verify.swarm.propositions import facts_of, is_act, mask_of
 from swarmdsl.execution.verify.swarm.subjects import about, place_of
 from swarmdsl.execution.verify.swarm.timed_network import TimedNetwork
+
+_MOST_SOUGHT = 4_000
+"""Number of states of a search that is no proof."""
 
 
 def not_with_clocks(property_: ir.Property, model: Model, me: str | None) -> Doubt | None:
@@ -57,6 +61,19 @@ def prove_exactly(
         reason = f"{known.reason}; clocks do not decide: {unfinished(model, budget)}"
         return replace(known, reason=reason)
     return proof.verdict()
+
+
+def seek_late(
+    property_: ir.Property, model: Model, me: str | None, budget: Budget
+) -> Verdict | None:
+    """Look for a run with clocks in which what must happen in time does not, without a proof.
+
+    The search is a short one, from states near the start to rest.
+    """
+    proof = _Proof(property_, model, me, budget)
+    if property_.within is None or (not model.complete and proof.varies):
+        return None
+    return proof.sought()
 
 
 class _Proof:
@@ -96,6 +113,24 @@ class _Proof:
             if found.outcome == "fails":
                 return found
         return self._search(self.cone, self.cone)
+
+    def sought(self) -> Verdict | None:
+        """Return the verdict if a violation is near the way to rest."""
+        tick = self._tick_of(self._every)
+        groups = [self._clocked(each, tick) for each in self._every]
+        clock = self._clock(tick)
+        network = self._network(groups, tick, max(clock.size, 2).bit_length())
+        observer = self._observer(network, others=False)
+        some = self._budget.some(_MOST_SOUGHT)
+        graph = observe_settling(observer, some)
+        self._budget.interrupted |= some.interrupted
+        if graph.bad is None:
+            return None
+        way = graph.way(graph.bad)
+        steps = steps_between(way, lambda state: list(observer.successors(state)))
+        run = violating(network, steps, self._property, ended=False)
+        found = violated(self._property, replace(run, shortest=False), graph, self._me)
+        return found if found.run is not None else None
 
     def _search(self, groups: Sequence[Group], clocked: Collection[Group]) -> Verdict:
         """Look for a violation in a swarm in which some groups have clocks."""

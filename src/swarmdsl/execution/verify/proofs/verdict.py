@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Literal
 
 from swarmdsl import ir
@@ -13,6 +13,7 @@ from swarmdsl.execution.verify.replay.spurious import OPEN
 from swarmdsl.execution.verify.search.explore import Graph
 from swarmdsl.execution.verify.search.run import Run
 from swarmdsl.execution.verify.swarm.explosion import explain
+from swarmdsl.execution.verify.swarm.groups import Group
 from swarmdsl.execution.verify.swarm.model import Model
 
 ESTIMATE = "estimate it with `swarmc simulate --runs 1000`"
@@ -83,3 +84,22 @@ def unfinished(model: Model, budget: Budget) -> str:
         other = "another one with `--limit`, or fewer robots with `--size`"
         return f"the search came to its limit of {budget.reached}: set {other}"
     return f"a `{large.kind.role}` has too many states{explain(large, model)}"
+
+
+def not_violated(
+    property_: ir.Property,
+    model: Model,
+    graph: Graph,
+    groups: Sequence[Group],
+    me: str | None,
+    budget: Budget,
+) -> Verdict:
+    """Return the verdict when no violation was found."""
+    states, full = len(graph.seen), tuple(sorted(graph.network.full))
+    doubts = model.doubts(groups)
+    if doubts:
+        return Verdict(property_, "unknown", states, doubts[0].reason, doubts[0].place, me)
+    if not graph.complete:
+        reason = unfinished(model, budget)
+        return Verdict(property_, "up to", states, reason, robot=me, full=full)
+    return Verdict(property_, "holds", states, robot=me, full=full)

@@ -41,6 +41,7 @@ class Observer:
         self.forgets = any(map(is_act, self.terms.facts))
         """True if a fact holds for a moment: the next line, whatever it shows, ends it."""
         self.others = others and self.forgets
+        self._open: dict[int, bool] = {}
         self._rows: dict[int, _Row] = {}
         self._truths = Truths(network, self.terms, self._claims, me)
         self._singles: dict[int, list[tuple[Step, int, tuple[int, ...], bool]]] = {}
@@ -70,6 +71,14 @@ class Observer:
     def fails_at_end(self, state: int) -> bool:
         """Return True if the property is violated when nothing happens any more."""
         return self.table.fails_at_end(state & self.mine)
+
+    def is_open(self, memory: int) -> bool:
+        """Return True if the property is violated unless something happens."""
+        found = self._open.get(memory)
+        if found is None:
+            found = not self.table.is_bad(memory) and self.table.fails_at_end(memory)
+            self._open[memory] = found
+        return found
 
     def successors(self, state: int) -> Iterator[tuple[int, Step]]:
         """Yield the states after one step, each with the step."""

@@ -22,6 +22,19 @@ class Input(NamedTuple):
     near: tuple[int, ...] = ()
     """Numbers of robots that are near, in the order in which the machines ask."""
 
+    @property
+    def turn(self) -> int:
+        """Turn of the input: events arrive at once, functions take longer, delays longest.
+
+        Most runs in another order fit no times.
+        """
+        return _TURNS.get(self.kind, 0)
+
+
+_TURNS = {"end": 1, "time": 2, "return": 2}
+"""Turns of inputs that take time."""
+LAST_TURN = 3
+
 
 Task = tuple[str, int, str | int]
 """Task that is over some time: kind of input, machine, state or timer.

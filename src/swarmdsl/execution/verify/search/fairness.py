@@ -6,6 +6,7 @@ robot has sent to itself is handled, and each message arrives or is lost.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from swarmdsl.execution.verify.swarm.groups import Step
@@ -31,6 +32,11 @@ class Fairness:
         for place, _ in self._network.present(state):
             found |= self._at(place)
         return found
+
+    def load(self, state: int) -> int:
+        """Return the number of tasks and messages of all robots in a state."""
+        network = self._network
+        return sum(len(self._tasks(place)) * count for place, count in network.present(state))
 
     def over(self, state: int, step: Step) -> int:
         """Return what is over after a step from a state."""
@@ -63,17 +69,23 @@ class Fairness:
         """Return what is running at a place: tasks, and messages that are on their way."""
         found = self._running.get(place)
         if found is None:
-            group, state, bag = self._network.places[place]
-            robots = self._network.groups[group]
             found = 0
-            # A deferred event waits as long as the robot defers it.
-            bag = tuple(each for each in bag if not robots.automaton.is_late(state, each))
-            for task in (*robots.automaton.tasks(state), *bag):
+            group = self._network.places[place].group
+            for task in self._tasks(place):
                 found |= self._bit((group, task))
-            if found and len(robots.robots) > 1:
+            if found and len(self._network.groups[group].robots) > 1:
                 found |= self._bit(place)
             self._running[place] = found
         return found
+
+    def _tasks(self, place: int) -> Sequence[Any]:
+        group, state, bag = self._network.places[place]
+        automaton = self._network.groups[group].automaton
+        # A deferred event waits as long as the robot defers it.
+        return (
+            *automaton.tasks(state),
+            *(each for each in bag if not automaton.is_late(state, each)),
+        )
 
     def _bit(self, key: Any) -> int:
         return self._bits.setdefault(key, 1 << len(self._bits))

@@ -48,8 +48,6 @@ class Lassos:
         self._observer = observer
         self._budget = budget
         self._fairness = Fairness(observer.network)
-        self._mine = (1 << observer.network.base) - 1
-        self._open: dict[int, bool] = {}
         self._following: dict[int, list[tuple[int, Step]]] = {}
         """Steps of some states: loops from several states of a component share them."""
         self._states: list[int] = []
@@ -58,7 +56,7 @@ class Lassos:
         self._where: list[int] = []
         """Their numbers in the graph."""
         for number, state in enumerate(graph.seen):
-            if self._is_open(state & self._mine):
+            if observer.is_open(state & observer.mine):
                 self._numbers[state] = len(self._states)
                 self._states.append(state)
                 self._where.append(number)
@@ -84,13 +82,6 @@ class Lassos:
             self._budget.interrupted = True
             self.complete = False
 
-    def _is_open(self, memory: int) -> bool:
-        """Return True if the property is violated unless something happens."""
-        if memory not in self._open:
-            table = self._observer.table
-            self._open[memory] = not table.is_bad(memory) and table.fails_at_end(memory)
-        return self._open[memory]
-
     def _steps(self, number: int, without: _Delay | None = None) -> list[tuple[int, Step]]:
         """Return the states to which a step leads while the property stays open."""
         found = self._following.get(number)
@@ -98,7 +89,7 @@ class Lassos:
             found = [
                 (self._numbers[after], step)
                 for after, step, passed in self._observer.passing(self._states[number])
-                if after in self._numbers and all(map(self._is_open, passed))
+                if after in self._numbers and all(map(self._observer.is_open, passed))
             ]
             if len(self._following) < _MOST_FOLLOWING:
                 self._following[number] = found

@@ -59,8 +59,9 @@ def written(run: Run) -> Iterator[str]:
 
 
 def steps_between(states: Sequence[int], find: Find) -> list[Step]:
-    """Return the steps from each state to the next one."""
+    """Return the steps from each state to the next one, those in turn where there are several."""
     found = []
     for state, following in pairwise(states):
-        found.append(next(step for after, step in find(state) if after == following))
+        steps = (step for after, step in find(state) if after == following)
+        found.append(min(steps, key=lambda step: step.turn))
     return found

@@ -11,6 +11,7 @@ from swarmdsl.execution.verify.automata.clock_classes import ClockClasses
 from swarmdsl.execution.verify.automata.clocks import ClockedAutomaton
 from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.automata.quotient import Quotient
+from swarmdsl.execution.verify.robot.tasks import LAST_TURN
 
 Clocked = ClockedAutomaton | ClockClasses
 """Automaton of robots with clocks."""
@@ -59,6 +60,13 @@ class Step(NamedTuple):
     move: Move | None
     target: int
     lost: int | None = None
+
+    @property
+    def turn(self) -> int:
+        """Turn of the input of the robot; time passes when nothing else is left."""
+        if self.place < 0:
+            return LAST_TURN
+        return 0 if self.move is None else self.move.given.turn
 
 
 TICK = Step(-1, None, -1)
