@@ -286,6 +286,34 @@ endless statemachine N {{
     assert _outcome(modelled, both, times=scenario, exact=True) != "holds"
 
 
+def test_each_deferred_event_is_a_step(modelled: Modelled) -> None:
+    text = f"""statemachine M {{
+  initial S0
+  state S0 {{ after 1 s / send Ask -> S1 }}
+  state S1 {{ on Tell / send Ask -> S2 }}
+  state S2 {{ after 1 s -> End }}
+  final End
+}}
+endless statemachine N {{
+  initial S0
+  state S0 {{
+    defer Ask
+    after 10 s / send Tell -> S1
+  }}
+  state S1 {{
+    defer Ask
+    after 20 s -> S2
+  }}
+  state S2 {{ on Ask -> S2 }}
+}}
+{_TWO}property P of S : never (a in S2 and not a sends Ask)"""
+
+    (verdict,) = verdicts_of(modelled(_PRELUDE + text, exact=True)).values()
+
+    assert verdict.outcome == "unknown"
+    assert "defers several events of one name" in verdict.reason
+
+
 def test_a_reliable_event_is_late_where_robots_may_be_out_of_reach(modelled: Modelled) -> None:
     text = f"""swarm event Call : std_msgs/Empty {{ reliable }}
 endless statemachine M {{

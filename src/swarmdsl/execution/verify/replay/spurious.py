@@ -8,7 +8,8 @@ VIEWS = (
     "robots take each other for lost in it: whether they do depends on when faults begin and end; "
     "prove what robots do without others with `--faults`, and no scenario"
 )
-OPEN = (NEAR, VIEWS)
+DEFERS = "a robot defers several events of one name in it: when they arrive is not looked at"
+OPEN = (NEAR, VIEWS, DEFERS)
 """Flaws of runs that need not be flaws."""
 
 

@@ -11,8 +11,9 @@ from swarmdsl.execution.monitor import FALSE, Watch
 from swarmdsl.execution.simulate.evaluation.properties import plan
 from swarmdsl.execution.simulate.evaluation.properties import watch as watched
 from swarmdsl.execution.verify.automata.clocks import ClockedAutomaton
+from swarmdsl.execution.verify.properties.timed_observer import DEFERRAL
 from swarmdsl.execution.verify.replay.play import Play
-from swarmdsl.execution.verify.replay.spurious import exceeding
+from swarmdsl.execution.verify.replay.spurious import DEFERS, exceeding
 from swarmdsl.execution.verify.search.run import Run
 from swarmdsl.execution.verify.swarm.groups import TICK, Step
 from swarmdsl.execution.verify.swarm.timed_network import TimedNetwork
@@ -104,6 +105,9 @@ class _TimedPlay(Play):
 
     def take(self, step: Step) -> None:
         """Take a step, or let time pass."""
+        if step is DEFERRAL:
+            self.departs = DEFERS
+            return
         if step is not TICK:
             super().take(step)
             return
