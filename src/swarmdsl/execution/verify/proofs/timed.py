@@ -37,7 +37,7 @@ from swarmdsl.execution.verify.swarm.propositions import facts_of, is_act, mask_
 from swarmdsl.execution.verify.swarm.subjects import about, place_of
 from swarmdsl.execution.verify.swarm.timed_network import TimedNetwork
 
-_MOST_SOUGHT = 4_000
+_MOST_SOUGHT = 20_000
 """Number of states of a search that is no proof."""
 
 

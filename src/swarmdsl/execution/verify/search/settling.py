@@ -19,6 +19,8 @@ from swarmdsl.execution.verify.swarm.groups import Step
 
 _OFTEN = 256
 """Number of states between two looks at the limits."""
+_MOST_STEPS = 200_000
+"""Number of steps after which the search ends: states of a large swarm have many."""
 _FOREIGN = ("outside", "view", "lose")
 """Inputs that do not come by themselves."""
 
@@ -62,7 +64,7 @@ class _Search:
             turns += 1
             if not turns % _OFTEN and not budget.allows(len(self._states)):
                 break
-            if len(self._states) > budget.most:
+            if len(self._states) > budget.most or self.graph.transitions > _MOST_STEPS:
                 break
 
     def _follow(self, number: int, *, by_itself: bool) -> None:
@@ -72,6 +74,7 @@ class _Search:
             return
         is_open = self._observer.is_open(state & self._observer.mine)
         every = list(self._observer.successors(state))
+        self.graph.transitions += len(every)
         first = min((step.turn for _, step in every if not _is_foreign(step)), default=0)
         # States keep the first way that leads to them: one without detour, if there is one.
         for after, step in sorted(every, key=lambda each: each[1].turn):
