@@ -314,6 +314,25 @@ endless statemachine N {{
     assert "defers several events of one name" in verdict.reason
 
 
+@pytest.mark.parametrize(("delivery", "outcome"), [("", "holds"), ("{ deadline 1 s }", "unknown")])
+def test_a_missed_deadline_is_a_step(delivery: str, outcome: str, modelled: Modelled) -> None:
+    text = f"""swarm event Call : std_msgs/Empty {delivery}
+statemachine M {{
+  initial S0
+  state S0 {{ after 1 s / send Call -> S1 }}
+  state S1 {{ after 8 s -> End }}
+  final End
+}}
+endless statemachine N {{
+  initial S0
+  state S0 {{ on Call -> S0 }}
+}}
+{_TWO}property P of S : never (a in S1 and not a sends Call and not b hears Call)"""
+
+    assert _outcome(modelled, text) == outcome
+    assert _outcome(modelled, text, exact=True) == outcome
+
+
 def test_a_reliable_event_is_late_where_robots_may_be_out_of_reach(modelled: Modelled) -> None:
     text = f"""swarm event Call : std_msgs/Empty {{ reliable }}
 endless statemachine M {{

@@ -37,7 +37,7 @@ from swarmdsl.execution.verify.search.relaxed_plan import observe_planned
 from swarmdsl.execution.verify.swarm.groups import Group
 from swarmdsl.execution.verify.swarm.influence import cone
 from swarmdsl.execution.verify.swarm.model import Model
-from swarmdsl.execution.verify.swarm.subjects import about, place_of
+from swarmdsl.execution.verify.swarm.subjects import DEADLINES, about, expects_in_time, place_of
 
 _MOST_NEAR = 2_000
 """Number of states among which a loop is looked for if a property is about time."""
@@ -188,15 +188,17 @@ def _searched(
     lonely: bool,
 ) -> Verdict:
     """Look for a finite run of some groups that violates a property, or of all robots."""
-    observer = observer_of(
-        property_, model, groups, me, lonely=lonely, others=len(groups) < len(every)
-    )
+    in_time = expects_in_time(model, every)
+    others = len(groups) < len(every) or in_time
+    observer = observer_of(property_, model, groups, me, lonely=lonely, others=others)
     graph = observe(observer.network, observer, budget)
     if graph.bad is not None and observer.others:
         # Whether others act at that moment is known only with all of them.
         groups = every
         observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
         graph = observe(observer.network, observer, budget)
+        if graph.bad is None and in_time:
+            return Verdict(property_, "unknown", len(graph.seen), DEADLINES, robot=me)
     if graph.bad is None:
         near = None
         if not graph.complete and not budget.interrupted:

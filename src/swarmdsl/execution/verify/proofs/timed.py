@@ -34,7 +34,7 @@ from swarmdsl.execution.verify.swarm.influence import cone
 from swarmdsl.execution.verify.swarm.machines import delays_of
 from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.execution.verify.swarm.propositions import facts_of, is_act, mask_of
-from swarmdsl.execution.verify.swarm.subjects import about, place_of
+from swarmdsl.execution.verify.swarm.subjects import DEADLINES, about, expects_in_time, place_of
 from swarmdsl.execution.verify.swarm.timed_network import TimedNetwork
 
 _MOST_SOUGHT = 20_000
@@ -134,13 +134,18 @@ class _Proof:
 
     def _search(self, groups: Sequence[Group], clocked: Collection[Group]) -> Verdict:
         """Look for a violation in a swarm in which some groups have clocks."""
-        observer = self._classes(groups, clocked, others=len(groups) < len(self._every))
+        in_time = expects_in_time(self._model, self._every)
+        others = len(groups) < len(self._every) or in_time
+        observer = self._classes(groups, clocked, others=others)
         graph = observe(observer.network, observer, self._budget)
         if graph.bad is not None and observer.others:
             # Whether others act at that moment is known only with all of them.
             more = self._every if len(clocked) == len(groups) else clocked
             observer = self._classes(self._every, more, others=False)
             graph = observe(observer.network, observer, self._budget)
+            if graph.bad is None and in_time:
+                states = len(graph.seen)
+                return Verdict(self._property, "unknown", states, DEADLINES, robot=self._me)
         if graph.bad is not None:
             return self._violated(observer, graph)
         states, full = len(graph.seen), tuple(sorted(graph.network.full))
