@@ -77,6 +77,12 @@ def test_verify_writes_the_page_of_its_counterexample(capsys: pytest.CaptureFixt
     assert any("Work" in machine for machine in page["machines"])
     assert any(step.get("configuration") == ["On"] for step in page["lines"]["steps"])
 
+    # What else is wrong is told first, but the run of a property is played.
+    Path("model.swarm").write_text(MODEL.replace("On { on Go -> Off }", "On"), encoding="utf-8")
+    assert run(["verify", "model.swarm", "-o", "runs", "--play", "wrong.html"]) == 1
+    assert [path.stem for path in sorted(Path("runs").iterdir())] == ["Stays", "waits-On"]
+    assert "Stays: wrong.html" in capsys.readouterr().err
+
 
 def test_test_writes_the_page_of_the_first_failure(capsys: pytest.CaptureFixture[str]) -> None:
     Path("crew.swarmtest.toml").write_text(TEST, encoding="utf-8")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -401,12 +402,19 @@ def test_ctrl_c_ends_the_search(
 
 
 def test_sizes_after_a_violation_are_looked_at(
-    field: Path, capsys: pytest.CaptureFixture[str]
+    field: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run(["verify", str(field), "--size", "drone=2..3"]) == 1
+    results = tmp_path / "results.json"
+    options = ["--size", "drone=2..3", "--results", str(results)]
+    assert run(["verify", str(field), *options]) == 1
     out = capsys.readouterr().out
-    assert out.startswith("Field: 2 to 3 drone, 1 tower\n")
-    assert "Two      fails" in out
+    assert out.startswith("Field: 2 to 3 drone, 1 tower\n  2 drone, 1 tower: ")
+    assert re.search(r"Two +fails +of 2 drone, 1 tower\n", out)
+    sizes = {
+        each["name"]: each.get("size") for each in json.loads(results.read_text())["properties"]
+    }
+    assert sizes["Two"] == {"drone": 2, "tower": 1}
+    assert sizes["Granted"] is None
 
 
 def test_results_and_tests_have_the_robots_of_a_violation(

@@ -52,7 +52,7 @@ def test_wrong_arguments_are_told(
 
 def test_a_range_of_sizes_is_looked_at(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["verify", ABSENT, "--size", "seeker=2..3"]) == 0
-    assert capsys.readouterr().out.startswith("Seekers: 2 to 3 seeker\n  8 states, ")
+    assert capsys.readouterr().out.startswith("Seekers: 2 to 3 seeker\n  2 seeker: 8 states, ")
 
 
 def test_sizes_beyond_the_limit_are_told(capsys: pytest.CaptureFixture[str]) -> None:

@@ -48,13 +48,14 @@ def simulate_and_play(out: Path, request: Request, tell: Tell) -> bool | None:
 def play_counterexample(
     request: VerifyRequest, shown: Sequence[tuple[str, str]], out: Path
 ) -> bool:
-    """Write the page of the first run, if there is one; return False if that fails."""
+    """Write the page of a run, of a property if there is one; return False if that fails."""
     from swarmdsl.execution.simulate.run import prepare
     from swarmdsl.tools.player.command import play_lines
 
     if not shown:
         return True
-    (name, trace), *_ = shown
+    # Runs to other findings come first, and have names such as `stuck-Wait`.
+    name, trace = min(shown, key=lambda each: "-" in each[0])
     of = prepare.Request(request.paths, request.machine, request.swarm, only=request.properties)
     played = play_lines(of, name, trace, out, lambda each: render(each, "text", sys.stderr))
     if played.written is None:

@@ -164,7 +164,8 @@ def _new_test(_context: click.Context, _param: click.Parameter, path: Path | Non
     "--play",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Write a page that plays the first run that shows what is wrong, as HTML.",
+    help="Write a page that plays the first run that violates a property, else one that shows "
+    "what is wrong, as HTML.",
 )
 @click.option(
     "--results",

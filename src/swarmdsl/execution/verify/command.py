@@ -100,6 +100,7 @@ class _Session:
         self._written: dict[str, Path] = {}
         self._findings: dict[str, Finding] = {}
         """Findings by the names of their runs, each of the smallest swarm that has it."""
+        self._worst_at: dict[str, dict[str, int]] = {}
         self._found: Results | None = None
         self._shown: list[Shown | Unshown] = []
         """Findings that tests can show, and names of those that they cannot."""
@@ -149,7 +150,6 @@ class _Session:
         self._silent = tuple(model.silent)
         fair = any(is_about_ends(each.property) for each in verdicts.values())
         told = tuple(diagnostics.conditions(model, sorted(full), fair=fair))
-        faults = model.environment.faults
         self._found = Results(
             subject.name,
             tuple(whole(subject, counts) for counts in looked),
@@ -158,8 +158,9 @@ class _Session:
             self._findings,
             self._written,
             tuple(bounds(subject, self._request.sizes)),
-            faults,
-            tuple(told for found in surveys for told in diagnostics.open_findings(found, faults)),
+            model.environment.faults,
+            tuple(diagnostics.open_findings(surveys, model.environment.faults)),
+            self._worst_at if len(looked) > 1 and not bounds(subject, self._request.sizes) else {},
         )
         scenario = self._scenario or Scenario()
         search = Search(
@@ -201,6 +202,7 @@ class _Session:
                 verdict = prove_it(property_)
             if known is None or worst((verdict, known)) is verdict:
                 verdicts[property_.name] = verdict
+                self._worst_at[property_.name] = whole(model.subject, counts)
             self._write(property_.name, verdict.run)
             of = {**counts, **(verdict.size or {})}
             if verdict.outcome == "fails" and verdict.run is not None:

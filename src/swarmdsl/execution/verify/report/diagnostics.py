@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
@@ -55,12 +55,13 @@ def report_verdict(verdict: Verdict, size: str, fields: Fields, report: Diagnost
     )
 
 
-def open_findings(found: Survey, faults: int) -> Iterator[str]:
-    """Yield what may be wrong with a swarm in which so many robots may be lost."""
-    yield from (_open_finding(*each) for each in found.open)
-    if found.news:
-        who = "comes back" if faults else "is lost: try `--faults 1`"
-        yield f"which robots wait, and what never happens, as some follow who {who}"
+def open_findings(surveys: Iterable[Survey], faults: int) -> Iterator[str]:
+    """Yield what may be wrong with swarms in which so many robots may be lost."""
+    for found in surveys:
+        yield from (_open_finding(*each) for each in found.open)
+        if found.news:
+            who = "comes back" if faults else "is lost: try `--faults 1`"
+            yield f"which robots wait, and what never happens, as some follow who {who}"
 
 
 def _open_finding(finding: Finding, flaw: str) -> str:
@@ -94,8 +95,13 @@ def report_finding(finding: Finding, size: str, fields: Fields, report: Diagnost
     )
 
 
-def rows(verdicts: Sequence[Verdict], faults: int = 0) -> Iterator[tuple[str, str, str]]:
-    """Yield the names of the properties with their verdicts and reasons, if robots may be lost."""
+def rows(
+    verdicts: Sequence[Verdict], faults: int, worst_at: Mapping[str, Mapping[str, int]]
+) -> Iterator[tuple[str, str, str]]:
+    """Yield the names of the properties with their verdicts and reasons.
+
+    `faults` robots may be lost; `worst_at` has the sizes of the verdicts if there are several.
+    """
     for each in verdicts:
         reason = each.reason
         open_ = each.outcome == "up to"
@@ -109,6 +115,12 @@ def rows(verdicts: Sequence[Verdict], faults: int = 0) -> Iterator[tuple[str, st
             reason = f"for {each.robot}" + (f", {reason}" if reason else "")
         if faults and each.outcome in ("holds", "up to"):
             reason = ", ".join(filter(None, (reason, with_losses(faults))))
+        counts = worst_at.get(each.property.name)
+        if counts is not None and each.outcome != "holds":
+            size = f"of {', '.join(f'{number} {role}' for role, number in counts.items())}"
+            fails = each.outcome == "fails"
+            told = filter(None, (reason, size) if fails else (size, reason))
+            reason = (", " if fails else ": ").join(told)
         yield each.property.name, outcome, reason
 
 

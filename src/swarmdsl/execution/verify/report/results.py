@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Severity
-from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import dataclass, field
 from swarmdsl.execution.junit import Case, Remark, Suite, document
 from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.proofs.verdict import Verdict
@@ -34,6 +34,8 @@ class Results:
     free: tuple[str, ...] = ()
     faults: int = 0
     open: tuple[str, ...] = ()
+    worst_at: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+    """If several sizes were looked at, the one of each verdict."""
 
 
 def as_document(results: Results) -> str:
@@ -44,24 +46,26 @@ def as_document(results: Results) -> str:
         **({"any": list(results.free)} if results.free else {}),
         **({"lost": results.faults} if results.faults else {}),
         "conditions": list(results.conditions),
-        "properties": [_property(each, results.runs) for each in results.verdicts],
+        "properties": [_property(each, results) for each in results.verdicts],
         "findings": [_finding(*each, results.runs) for each in results.findings.items()],
         **({"open": list(results.open)} if results.open else {}),
     }
     return f"{json.dumps(values, indent=2)}\n"
 
 
-def _property(verdict: Verdict, runs: Mapping[str, Path]) -> dict[str, Any]:
+def _property(verdict: Verdict, results: Results) -> dict[str, Any]:
     fails, up_to = verdict.outcome == "fails", verdict.outcome == "up to"
+    size = verdict.size or results.worst_at.get(verdict.property.name)
+    size = size if verdict.outcome != "holds" else None
     return {
         "name": verdict.property.name,
         "verdict": "holds up to" if up_to else verdict.outcome,
         **({"states": verdict.states} if up_to else {}),
         **({"member": verdict.robot} if fails and verdict.robot is not None else {}),
-        **({"size": dict(verdict.size)} if fails and verdict.size is not None else {}),
+        **({"size": dict(size)} if size is not None else {}),
         **({"reason": verdict.reason} if verdict.reason else {}),
         **({"open": list(verdict.open)} if verdict.open else {}),
-        **_written(verdict.property.name, runs),
+        **_written(verdict.property.name, results.runs),
         **_loop(verdict),
     }
 
@@ -104,7 +108,8 @@ def junit(results: Results | None, report: Diagnostics) -> str:
 
 def _properties(results: Results, report: Diagnostics) -> Iterator[Case]:
     refuted = [each for each in report if each.name == _REFUTED]
-    shown = zip(results.verdicts, rows(results.verdicts, results.faults), strict=True)
+    told = rows(results.verdicts, results.faults, results.worst_at)
+    shown = zip(results.verdicts, told, strict=True)
     for verdict, (name, outcome, reason) in shown:
         remark = None
         if verdict.outcome == "fails":

@@ -33,18 +33,19 @@ def summary(subject: Subject, results: Results, search: Search) -> Iterator[str]
         yield "  in any way, and nobody sees anything or runs out of energy"
     if results.free and search.surveys:
         yield f"  of {shown(subject, results.sizes)}:"
-    for found in search.surveys:
+    for counts, found in zip(results.sizes, search.surveys, strict=False):
         states = diagnostics.counted_in_thousands(found.states, "state")
         steps = diagnostics.counted_in_thousands(found.transitions, "step")
         rest = f"there are more, as {found.missing}" if found.missing else "all there are"
-        yield f"  {states}, {steps}: {rest}"
-        for told in diagnostics.open_findings(found, results.faults):
+        size = f"{shown(subject, [counts])}: " if len(results.sizes) > 1 else ""
+        yield f"  {size}{states}, {steps}: {rest}"
+        for told in diagnostics.open_findings([found], results.faults):
             yield printable(f"  open: {told}")
     if search.left:
         sizes_left = diagnostics.counted_in_thousands(search.left, "larger size")
         why = INTERRUPTED if search.interrupted else "the search came to its limit"
         yield f"  {sizes_left} not looked at: {why}"
-    lines = list(diagnostics.rows(results.verdicts, results.faults))
+    lines = list(diagnostics.rows(results.verdicts, results.faults, results.worst_at))
     if lines:
         yield ""
     widths = [max(len(line[n]) for line in lines) for n in range(2)] if lines else []
