@@ -95,6 +95,23 @@ swarm Field {
 }
 property Answer of Field : drone in Wait leads to drone in Circle
 """
+# Events that come just when a delay ends, in one lap, and after no time, in the other.
+EXAMPLES["restarting"] = """package restarting
+event Go : std_msgs/Empty
+swarm event Tell : std_msgs/Empty
+endless statemachine Fly {
+  initial Up
+  state Up {
+    after 2 s -> Down
+    on Tell -> Up
+  }
+  state Down { on Go -> Down }
+}
+member Drone { behavior Fly }
+swarm Field { drone : Drone[2] }
+property Some of Field : each drone : in Up leads to some drone in Down
+property Mine of Field : each drone : after Go, eventually in Down
+"""
 EXAMPLES["answering"] = """package answering
 event Go : std_msgs/Empty
 swarm event Ping : std_msgs/Empty
@@ -161,6 +178,12 @@ def saved(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Saved:
             ("--lossy",),
             ["Answer"],
             (("after 5 s / send Ask -> Wait", "after 5 s -> Circle"),),
+        ),
+        (
+            "restarting",
+            ("--property", "Some", "--property", "Mine"),
+            ["Some for drone[1]", "Mine for drone[1]"],
+            (("    on Tell -> Up\n", ""),),
         ),
         ("answering", (), ["answers to Ping come to rest"], (("Pong / send Ping", "Pong"),)),
     ],

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +22,7 @@ from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.simulate.scenario.durations import MICROSECOND, SECOND
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.simulate.world.line import Line
-from swarmdsl.execution.verify.report.shown import Shown, Unshown
+from swarmdsl.execution.verify.report.shown import LONGEST, Shown, Unshown
 from swarmdsl.execution.verify.report.toml_text import (
     fields_with_times,
     step_text,
@@ -29,10 +30,14 @@ from swarmdsl.execution.verify.report.toml_text import (
     toml_text,
     with_times,
 )
+from swarmdsl.execution.verify.search.run import Run
 
 if TYPE_CHECKING:
     from swarmdsl.execution.testing.models import Models
 
+_MOST_LAPS = 1000
+"""Number of repetitions after which a test ends."""
+_OTHERWISE = "a test of it goes on otherwise, perhaps because of the order of what is at one time"
 _ACTIVITY = "do."
 _PASS = "pass"
 _HEAD = """\
@@ -72,8 +77,9 @@ def tests_of(
         names.append(fresh(each.name, names, gap=" "))
         each = replace(each, name=names[-1])
         reason = ""
-        for early in (0, MICROSECOND):
-            test = "".join(f"{line}\n" for line in _Test(subject, each, setting, early).lines())
+        for run, early in product(_with_laps(each.run), (0, MICROSECOND)):
+            made = _Test(subject, replace(each, run=run), setting, early)
+            test = "".join(f"{line}\n" for line in made.lines())
             reason = _flaw(_file(subject, models, path, [test]), path, compiled)
             if not reason:
                 chosen.append(test)
@@ -81,6 +87,13 @@ def tests_of(
         else:
             left.append(Unshown(each.name, reason))
     return _file(subject, models, path, chosen) if chosen else "", left
+
+
+def _with_laps(run: Run) -> Iterator[Run]:
+    """Yield a run with laps of a second at least, if time may pass in them, and as it is."""
+    if 0 < run.period < SECOND:
+        yield replace(run, period=SECOND)
+    yield run
 
 
 def _file(subject: Subject, models: Sequence[Path], path: Path, tests: Sequence[str]) -> str:
@@ -110,7 +123,7 @@ def _flaw(text: str, path: Path, compiled: Models) -> str:
         elif not judge(case, case.seeds, lambda _seed, _line: None).passed:
             return ""
     error = next((each.message for each in report if each.severity is Severity.ERROR), None)
-    return error or "played as a test, the run goes on otherwise"
+    return error or _OTHERWISE
 
 
 class _Test:
@@ -170,7 +183,7 @@ class _Test:
         now, wait, lap = self._now, [], []
         if first < end:
             wait = [*self._pass(run.lines[first].time - self._early)]
-            over = self._now + run.period
+            over = self._now + run.period - self._early
             lap = [*self._replay(first, end, run.lost[run.lost_before :]), *self._pass(over)]
         if all(step.startswith(f"{{ {_PASS} ") for step in lap):
             # What only takes time goes on by itself.
@@ -179,6 +192,8 @@ class _Test:
             for event, sender, robot in self._on_way:
                 yield step_text(hear=event, by=robot, **{"from": sender})
         yield from wait
+        if claim is not None and lap and run.period < LONGEST // _MOST_LAPS:
+            claim = {**claim, "within": time_text(run.period * _MOST_LAPS)}
         if claim is not None:
             yield _expectation(claim, lap, self._shown.note)
 

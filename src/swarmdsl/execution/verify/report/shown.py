@@ -6,12 +6,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.verify.findings.finding import Finding
 from swarmdsl.execution.verify.proofs.verdict import Verdict
 from swarmdsl.execution.verify.search.run import Run
 
-_PATIENCE = "10 min"
+LONGEST = 600 * SECOND
 """Time that a mended model has to go on after the run."""
+_PATIENCE = "10 min"
 _OUTSIDE = "Add here what must come from outside."
 
 
