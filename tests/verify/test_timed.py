@@ -609,6 +609,11 @@ def test_a_robot_with_too_many_states_has_few_when_time_counts(
     assert told[False] == {"Sells": "unknown", "Early": "fails", "Two": "up to"}
     assert told[True] == {"Sells": "holds", "Early": "fails", "Two": "holds"}
 
+    # After a limit, states with few messages on their way are looked at first.
+    times = Scenario(latency=Fixed(SECOND))
+    model = modelled(GROWING, exact=True, capacity=3, times=times)
+    assert verdicts_of(model, 30)["Sells"].outcome in ("fails", "up to")
+
 
 def test_delays_that_depend_on_data_have_no_clock_in_a_robot_with_too_many_states(
     modelled: Callable[..., Model], monkeypatch: pytest.MonkeyPatch

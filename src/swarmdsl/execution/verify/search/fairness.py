@@ -79,12 +79,14 @@ class Fairness:
         return found
 
     def _tasks(self, place: int) -> Sequence[Any]:
+        """Return the tasks of a robot at a place, and the messages on their way to it."""
         group, state, bag = self._network.places[place]
         automaton = self._network.groups[group].automaton
+        messages = map(self._network.message, bag)
         # A deferred event waits as long as the robot defers it.
         return (
             *automaton.tasks(state),
-            *(each for each in bag if not automaton.is_late(state, each)),
+            *(each for each in messages if not automaton.is_late(state, each)),
         )
 
     def _bit(self, key: Any) -> int:
