@@ -229,6 +229,9 @@ def test_options_that_do_not_go_together(replay: Replay) -> None:
 
     assert code == 2
     assert "`--replay` and `--trace` conflict" in err
+    code, err = replay(START, arguments=("--timeline", "run.svg"))
+    assert code == 2
+    assert "`--replay` and `--timeline` conflict: `--play` writes a page" in err
 
 
 @pytest.mark.parametrize(

@@ -247,6 +247,8 @@ def simulate(
         raise click.UsageError("`--play` and `--runs` conflict: a page plays one run")
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
+        if replay:
+            raise click.UsageError("`--replay` and `--timeline` conflict: `--play` writes a page")
     if map_file is not None:
         options.check_picture(map_file, "--map", ".svg", {})
     if animation is not None and animation.suffix.lower() != ".html":
