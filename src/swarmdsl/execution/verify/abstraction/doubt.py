@@ -10,7 +10,7 @@ from swarmdsl.base.source import Span
 class Doubt:
     """Reason why a proof is not complete, with its place in the model.
 
-    If there are only `more` runs than were looked at, nothing else ends those that were.
+    If it only adds `more` runs, those that were looked at are possible all the same.
     """
 
     reason: str

@@ -20,7 +20,7 @@ from swarmdsl.execution.verify.automata.labels import Look, Move, Slot
 from swarmdsl.execution.verify.automata.observations import moments_of
 from swarmdsl.execution.verify.automata.slots import Occupied, carried, occupied
 from swarmdsl.execution.verify.automata.state_key import StateKey
-from swarmdsl.execution.verify.automata.valuation import Holding
+from swarmdsl.execution.verify.automata.valuation import Valuation
 from swarmdsl.execution.verify.robot.body import Body
 from swarmdsl.execution.verify.robot.presence import Presence
 from swarmdsl.execution.verify.robot.robot_kind import Kind
@@ -65,9 +65,9 @@ class Automaton:
         """Names of the deferred events of each state."""
         self.values: list[tuple[tuple[str, Any], ...]] = []
         """For each state, the values of the variables that decide on anything."""
-        self._holding = Holding(kind)
+        self._valuation = Valuation(kind)
         self._presence = Presence(kind, alphabet)
-        self.gone = self._holding.gone
+        self.gone = self._valuation.gone
         self._listening: dict[str, bool] = {}
         self._begin()
 
@@ -290,7 +290,7 @@ class Automaton:
 
         def see(line: Line) -> None:
             actor = numbers[line.actor.name]
-            held[actor], momentary = self._holding.at(line, body)
+            held[actor], momentary = self._valuation.at(line, body)
             if line.event == LOST:
                 # No fact holds for a lost robot.
                 held[:] = [self.gone] + [0] * (len(held) - 1)

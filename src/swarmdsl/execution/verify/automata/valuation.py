@@ -14,8 +14,8 @@ from swarmdsl.execution.verify.robot.robot_kind import Kind
 from swarmdsl.ir import Count, Fact
 
 
-class Holding:
-    """Numbers of the facts of a kind of robot, which lines show to hold."""
+class Valuation:
+    """Facts of a kind of robot that hold at a line, as the bits of their numbers."""
 
     def __init__(self, kind: Kind) -> None:
         self._has = conditions(self._data)

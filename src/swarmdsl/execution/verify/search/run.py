@@ -24,10 +24,10 @@ class Run:
     """A run of a swarm: its trace lines, and the messages that are lost on the way.
 
     `lost` has the event and the receiver of each, with the number of lines before, `gone` the
-    robots that are lost. `flaw` says why
-    no swarm can run so, or is empty: then the model itself has run so. The last `loop` lines repeat
-    for ever; 0 says that nothing happens after the run, None that it can go on in any way. There
-    may be others that are shorter unless it is a `shortest` one.
+    robots that are lost. `flaw` says why no swarm can run so, or is empty: then the model itself
+    has run so. The last `loop` lines repeat for ever; 0 says that nothing happens after the run,
+    None that it can go on in any way. There may be others that are shorter unless it is a
+    `shortest` one.
     """
 
     lines: tuple[Line, ...]
