@@ -300,6 +300,9 @@ property Back of Work : always possible in Idle
 
     assert 'machine = "Work"' in text
     assert '{ send = "Go" }' in text
+    outside = "  # Add here what must come from outside.\n"
+    assert f'{outside}  {{ satisfies = "Back", within = "10 min" }},' in text
+    assert f'{outside}  {{ count = 0, in = "Busy", within = "10 min" }},' in text
     assert run(["test", "it.swarmtest.toml"]) == 1
     assert capsys.readouterr().out.count("FAILED") == 3
 

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 _MOST_LAPS = 1000
 """Number of repetitions after which a test ends."""
-_OTHERWISE = "a test of it goes on otherwise, perhaps because of the order of what is at one time"
+_OTHERWISE = "its test passes: what happens at one time may have another order in it"
 _ACTIVITY = "do."
 _PASS = "pass"
 _HEAD = """\

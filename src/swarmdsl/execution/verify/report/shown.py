@@ -84,4 +84,5 @@ def shown_by_finding(finding: Finding, run: Run, counts: Mapping[str, int]) -> S
     who: dict[str, Any] = {"no": robot.name} if robot.name is not None else {"count": 0}
     claim = {**who, "in": finding.name, "within": _PATIENCE}
     name = f"{robot.name or 'it'} goes on from {finding.name}"
-    return Shown(name, run, counts, claim=claim)
+    note = _OUTSIDE if finding.fault == "waits" else ""
+    return Shown(name, run, counts, claim=claim, note=note)
