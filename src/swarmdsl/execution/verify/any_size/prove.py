@@ -68,7 +68,9 @@ def prove_any(
         answered = _answered_at_once(property_, model, bounds, robots)
         if answered is not None:
             return answered
-    doubt = Doubt(reason) if reason else differing
+    # What is done in the same step could be proved if robots were alike.
+    is_alike = property_.kind != "leads" or differing is None
+    doubt = Doubt(reason) if reason and is_alike else differing
     if doubt is not None:
         return _smallest(property_, model, bounds, doubt, prove_at)
     found = [_one(property_, model, bounds, me, budget, prove_at) for me in robots]
