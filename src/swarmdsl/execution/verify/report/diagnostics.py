@@ -145,7 +145,7 @@ def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str
             loss += " of robots that are there" if environment.faults else ""
         yield f"messages between robots arrive in any order, {loss}"
         if full:
-            names = listed(list(full), "and")
+            names = ("each of " if len(full) > 1 else "") + listed(list(full), "and")
             yield f"of more than {options.capacity} {names} on the way to a robot, the rest is lost"
     yield from _times(model)
     if options.scenario is None:
