@@ -142,6 +142,47 @@ def test_functions_end_as_in_the_scenario(
     assert verified(tmp_path, capsys, mine, *asked)[0] == ["fails", "fails", "fails"]
 
 
+_RELIABLE = """package cut
+swarm event Tell : std_msgs/Empty { reliable }
+statemachine Say {
+  initial Wait
+  state Wait { after 5 s / send Tell -> Done }
+  final Done
+}
+statemachine Hear {
+  initial Wait
+  state Wait { on Tell -> Done }
+  final Done
+}
+member Speaker { behavior Say }
+member Hearer { behavior Hear }
+swarm Talk {
+  speaker : Speaker
+  hearer  : Hearer
+}
+property P of Talk : speaker sends Tell leads to hearer in Done
+"""
+_APART = '[[faults]]\nat = "1 s"\napart = [["speaker"], ["hearer"]]\n'
+
+
+def test_a_reliable_event_is_lost_in_a_network_that_is_cut_for_ever(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model, scenario = tmp_path / "cut.swarm", tmp_path / "cut.toml"
+    model.write_text(_RELIABLE, encoding="utf-8")
+    for text, outcome in {
+        "[network]\nloss = 0.5\n": "holds",
+        "[network]\nloss = 1.0\n": "fails",
+        f'{_APART}lasts = "1 min"\n': "holds",
+        _APART: "fails",
+    }.items():
+        scenario.write_text(text, encoding="utf-8")
+        run(["verify", str(model), "--property", "P", "--scenario", str(scenario)])
+        told = capsys.readouterr().out
+        assert (text, f"P  {outcome}" in told) == (text, True)
+        assert ("may be lost but `Tell`" in told) == (outcome == "holds")
+
+
 _PLACES = """package places
 function put : abstraction {
   service "put" : std_srvs/Empty

@@ -28,9 +28,13 @@ class Message:
 
 
 class Alphabet:
-    """Messages that robots send to each other."""
+    """Messages that robots send to each other.
 
-    def __init__(self, system: ir.System | None, demands: Demands) -> None:
+    If the network may be `cut` for ever, reliable ones may be lost, too.
+    """
+
+    def __init__(self, system: ir.System | None, demands: Demands, *, is_cut: bool = False) -> None:
+        self._is_cut = is_cut
         self.messages: list[Message] = []
         self.demands = demands
         self.system = system
@@ -48,6 +52,7 @@ class Alphabet:
             # Of events that wait for a robot out of reach, `keep` drops the oldest.
             told = event.name == DEPARTED
             is_sure = delivery is not None and bool(delivery.reliable) and delivery.keep is None
+            is_sure = is_sure and not self._is_cut
             repeats = delivery is not None and bool(delivery.reliable or delivery.latest)
             self.messages.append(Message(len(self.messages), event, told or is_sure, repeats, told))
         return self._known[key]

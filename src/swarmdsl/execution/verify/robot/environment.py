@@ -120,6 +120,8 @@ class Environment:
         """True if robots can lose sight of others that are there, or are there again."""
         self.is_deaf = self._scenario is not None and self._scenario.loss >= 1
         self.guesses |= self.is_deaf
+        self.is_cut = self.is_deaf or any(f.apart and f.lasts is None for f in self._faults)
+        """True if an event that is sent again and again may never arrive."""
         self.lossy = options.lossy or any(each.apart for each in self._faults)
         if self._scenario is not None:
             self.lossy |= self._scenario.loss > 0

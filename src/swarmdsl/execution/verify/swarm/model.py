@@ -89,7 +89,6 @@ class Model:
             data.setdefault(actor.machine.name, []).append({**actor.params, **actor.data})
         extra = conditions(self.cast, facts)
         self.demands = Demands(self.system, data, extra, lengths=options.exact)
-        self.alphabet = Alphabet(self.system, self.demands)
         robots = list(dict.fromkeys(actor.robot for actor in everybody))
         self.environment = Environment(
             self.system,
@@ -99,6 +98,7 @@ class Model:
             lambda names: self.sends(names or {each.machine.name for each in everybody}),
             has_places=has_places(scenario.world, subject, scenario),
         )
+        self.alphabet = Alphabet(self.system, self.demands, is_cut=self.environment.is_cut)
         self.returns = any(map(self.environment.absences, robots))
         """True if a robot is lost for a time."""
         self._crew = crew_of(subject, robots, self.environment)
