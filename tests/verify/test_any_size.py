@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import signal
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -15,6 +16,7 @@ from swarmdsl.cli import run
 from swarmdsl.execution.simulate.evaluation.properties import watchable
 from swarmdsl.execution.simulate.machines.subject import Subject
 from swarmdsl.execution.verify.any_size import prove as any_size
+from swarmdsl.execution.verify.any_size.coverability import Cover
 from swarmdsl.execution.verify.any_size.prove import enough, prove_any
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
 from swarmdsl.execution.verify.proofs.prove import prove
@@ -395,8 +397,9 @@ def test_a_limit_ends_the_search(field: Path, capsys: pytest.CaptureFixture[str]
 def test_ctrl_c_ends_the_search(
     field: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(*_: object) -> None:
-        raise KeyboardInterrupt
+    def interrupted(*_: object) -> Cover:
+        signal.raise_signal(signal.SIGINT)
+        return Cover(None, 0, complete=False)
 
     monkeypatch.setattr(any_size, "cover", interrupted)
 

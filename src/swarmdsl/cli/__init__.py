@@ -65,12 +65,16 @@ def _leave(code: int) -> NoReturn:
 def run(arguments: Sequence[str]) -> int:
     """Run a command line; return the exit code."""
     try:
-        code = _run_plainly(arguments)
-        if code is None:
-            from swarmdsl.cli import commands
+        try:
+            code = _run_plainly(arguments)
+            if code is None:
+                from swarmdsl.cli import commands
 
-            code = commands.run(arguments)
-        sys.stdout.flush()
+                code = commands.run(arguments)
+            sys.stdout.flush()
+        except Exception:
+            interrupts.raise_lost()  # an import may fail with another error then
+            raise
     except KeyboardInterrupt:
         sys.stderr.write("\n")
         return INTERRUPTED

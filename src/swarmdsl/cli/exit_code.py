@@ -1,12 +1,13 @@
-"""Exit codes, and the last lines of output."""
+"""Exit codes, and the last lines of output.
+
+It is imported before a Ctrl-C is caught, and so imports little.
+"""
 
 from __future__ import annotations
 
 import signal
 import sys
 from typing import TYPE_CHECKING, TextIO
-
-from swarmdsl.base.diagnostics.render import render, summary
 
 if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
@@ -22,6 +23,8 @@ _USAGE_FAULTS = frozenset({"unknown-target", "bad-option"})
 
 def conclude(result: Result, format_: str, stream: TextIO, *, about_files: bool = True) -> int:
     """Print diagnostics, written files and a summary; return the exit code."""
+    from swarmdsl.base.diagnostics.render import render, summary
+
     render(result.report, format_, stream)
     if result.written is not None and about_files:
         from swarmdsl.output.report_written import render_written
@@ -34,6 +37,8 @@ def conclude(result: Result, format_: str, stream: TextIO, *, about_files: bool 
 
 def briefly(result: Result, format_: str, stream: TextIO) -> str:
     """Print the diagnostics; return a summary in one line."""
+    from swarmdsl.base.diagnostics.render import render, summary
+
     render(result.report, format_, stream)
     said = summary(result.report, result.files)
     if result.written is None:

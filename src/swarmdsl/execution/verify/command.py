@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import gc
+import signal
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TextIO
 
 from swarmdsl import ir
+from swarmdsl.base import interrupts
+from swarmdsl.base.atomic_write import Staging
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import render
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.naming import fresh
-from swarmdsl.base.read_files import MOST_DATA
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.write_stream import write_stream
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
-from swarmdsl.driver.config.toml import parse_toml
 from swarmdsl.execution.simulate.evaluation.properties import watchable
 from swarmdsl.execution.simulate.inputs.choose_space import has_places
 from swarmdsl.execution.simulate.inputs.load_scenario import load_scenario
@@ -25,16 +25,15 @@ from swarmdsl.execution.simulate.machines.subject import Subject, choose
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.verify.any_size.prove import enough, prove_any
 from swarmdsl.execution.verify.automata.limits import Budget, Limits
-from swarmdsl.execution.verify.findings.finding import Finding
-from swarmdsl.execution.verify.findings.findings import Survey, survey
+from swarmdsl.execution.verify.findings.finding import Finding, Survey
+from swarmdsl.execution.verify.findings.findings import survey
 from swarmdsl.execution.verify.proofs.prove import prove
-from swarmdsl.execution.verify.proofs.verdict import INTERRUPTED, Verdict, worst
+from swarmdsl.execution.verify.proofs.verdict import Verdict, at_limit, worst
 from swarmdsl.execution.verify.properties.sentence import is_about_ends
 from swarmdsl.execution.verify.report import diagnostics
 from swarmdsl.execution.verify.report.progress import Progress
 from swarmdsl.execution.verify.report.results import Results, as_document, junit
 from swarmdsl.execution.verify.report.run_text import Fields
-from swarmdsl.execution.verify.report.saved_test import Setting, tests_of
 from swarmdsl.execution.verify.report.shown import (
     Shown,
     Unshown,
@@ -42,11 +41,11 @@ from swarmdsl.execution.verify.report.shown import (
     shown_by_verdict,
 )
 from swarmdsl.execution.verify.report.summary import Search, summary
+from swarmdsl.execution.verify.report.test_file import TestFile
 from swarmdsl.execution.verify.robot.environment import Options, check_silent
 from swarmdsl.execution.verify.search.run import Run, written
 from swarmdsl.execution.verify.swarm.model import Model
 from swarmdsl.execution.verify.swarm.sizes import Size, bounds, shown, sizes, whole
-from swarmdsl.project.read_source import read_source
 
 
 @dataclass(frozen=True)
@@ -80,11 +79,16 @@ def verify(request: Request, stdout: TextIO, stderr: TextIO) -> bool | None:
     gc.enable()
     report = Diagnostics()
     session = _Session(request, report, stdout, stderr)
-    finished = session.run()
-    session.write_files()
-    stdout.flush()
-    render(report, request.format, stdout)
-    return None if finished is None else not report.has_errors
+    subject = session.subject()
+    # Everything asks the budget: what was found is told, and files are whole.
+    with interrupts.first_one(signal.SIGINT, session.interrupt):
+        if subject is not None:
+            session.run(subject)
+        session.write_files()
+        stdout.flush()
+        render(report, request.format, stdout)
+        stdout.flush()
+    return None if session.interrupted else not report.has_errors
 
 
 class _Session:
@@ -102,17 +106,20 @@ class _Session:
         """Findings by the names of their runs, each of the smallest swarm that has it."""
         self._worst_at: dict[str, dict[str, int]] = {}
         self._found: Results | None = None
-        self._shown: list[Shown | Unshown] = []
-        """Findings that tests can show, and names of those that they cannot."""
+        self._tests: TestFile | None = None
         self._scenario: Scenario | None = None
-        self._silent: tuple[str, ...] = ()
-        """Functions that may never answer."""
 
-    def run(self) -> bool | None:
-        """Return None if interrupted."""
-        subject = self._subject()
-        if subject is None:
-            return False
+    def interrupt(self) -> None:
+        """Tell what was found, and end."""
+        self._budget.interrupt()
+
+    @property
+    def interrupted(self) -> bool:
+        """True if not all may have been looked at."""
+        return self._budget.interrupted
+
+    def run(self, subject: Subject) -> None:
+        """Verify a subject, and tell what was found."""
         properties = self._properties(subject)
         self._scenario = self._scenario_of(subject)
         known = self._scenario.counts if self._scenario is not None else {}
@@ -120,34 +127,31 @@ class _Session:
         assert subject.system is not None
         check_silent(self._request.silent, subject.system, self._report)
         if self._report.has_errors:
-            return False
+            return
+        asked = self._request
+        if asked.saved_test is not None:
+            self._tests = TestFile(
+                subject, self._models, asked.saved_test, asked.scenario, self._budget
+            )
         surveys: list[Survey] = []
         verdicts: dict[str, Verdict] = {}
         full: set[str] = set()
         looked: list[dict[str, int]] = []
-        model: Model | None = None
-        try:
-            for counts in every:
-                made = self._model(subject, counts, properties)
-                if made is None:
-                    return False
-                model = made
-                looked.append(counts)
-                self._size(model, whole(subject, counts), properties, verdicts, surveys)
-                if not self._budget.allows(0):
-                    break
-        except KeyboardInterrupt:
-            self._budget.interrupted = True
+        for counts in every:
+            model = self._model(subject, counts, properties)
+            if model is None:
+                return
+            looked.append(counts)
+            self._size(model, whole(subject, counts), properties, verdicts, surveys)
+            if not self._budget.allows(0):
+                break
         self._progress.clear()
-        if model is None:
-            self._say(f"{subject.name}: {INTERRUPTED} before there was anything to tell")
-            return None
+        assert model is not None, "there is a size to look at"
         for verdict in verdicts.values():
             full.update(verdict.full)
         for found in surveys:
             full.update(found.full)
         left = len(every) - len(looked)
-        self._silent = tuple(model.silent)
         fair = any(is_about_ends(each.property) for each in verdicts.values())
         told = tuple(diagnostics.conditions(model, sorted(full), fair=fair))
         self._found = Results(
@@ -171,8 +175,7 @@ class _Session:
         )
         for line in summary(subject, self._found, search):
             self._say(line)
-        self._save_test(subject)
-        return None if self._budget.interrupted else True
+        self._write_tests()
 
     def _size(
         self,
@@ -191,13 +194,13 @@ class _Session:
             surveys.append(found)
             for finding in found.findings:
                 if all(each.about != finding.about for each in self._findings.values()):
-                    self._tell(finding, counts, size, fields)
+                    self._tell(finding, model, counts, size, fields)
         for property_ in properties:
             known = verdicts.get(property_.name)
             if known is not None and known.outcome == "fails":
                 continue
-            if self._budget.interrupted:
-                verdict = Verdict(property_, "unknown", reason=INTERRUPTED)
+            if self._budget.is_over():
+                verdict = Verdict(property_, "unknown", reason=at_limit(self._budget))
             else:
                 verdict = prove_it(property_)
             if known is None or worst((verdict, known)) is verdict:
@@ -206,15 +209,17 @@ class _Session:
             self._write(property_.name, verdict.run)
             of = {**counts, **(verdict.size or {})}
             if verdict.outcome == "fails" and verdict.run is not None:
-                self._shown.append(shown_by_verdict(verdict, verdict.run, of))
+                self._save(shown_by_verdict(verdict, verdict.run, of), model)
             diagnostics.report_verdict(verdict, shown(model.subject, [of]), fields, self._report)
 
-    def _tell(self, finding: Finding, counts: Mapping[str, int], size: str, fields: Fields) -> None:
+    def _tell(
+        self, finding: Finding, model: Model, counts: Mapping[str, int], size: str, fields: Fields
+    ) -> None:
         name = fresh(finding.title, self._findings, gap="-")
         self._findings[name] = finding
         self._write(name, finding.run)
         if finding.run is not None:
-            self._shown.append(shown_by_finding(finding, finding.run, counts))
+            self._save(shown_by_finding(finding, finding.run, counts), model)
         diagnostics.report_finding(finding, size, fields, self._report)
 
     def _prover(
@@ -263,7 +268,8 @@ class _Session:
         self._report.include(report)
         return None if report.has_errors else made
 
-    def _subject(self) -> Subject | None:
+    def subject(self) -> Subject | None:
+        """Compile the model, and choose what to verify."""
         models = list(self._request.paths)
         settings = find_settings(models, self._report)
         if self._report.has_errors:
@@ -301,28 +307,20 @@ class _Session:
         if text and folder is not None and self._write_file(folder / f"{name}.jsonl", text):
             self._written[name] = folder / f"{name}.jsonl"
 
-    def _save_test(self, subject: Subject) -> None:
-        """Write what is wrong as behaviour tests."""
+    def _save(self, found: Shown | Unshown, model: Model) -> None:
+        """Keep what is wrong as a behaviour test."""
+        if self._tests is not None:
+            self._tests.add(found, model.silent)
+
+    def _write_tests(self) -> None:
         path = self._request.saved_test
-        if path is None:
+        if path is None or self._tests is None:
             return
-        left = [each for each in self._shown if isinstance(each, Unshown)]
-        shown = [each for each in self._shown if isinstance(each, Shown)]
-        text, others = tests_of(subject, self._models, path, shown, self._setting())
+        text = self._tests.text()
         if text and self._write_file(path, text):
             self._say(f"written: {printable(path.as_posix())}")
-        for name, reason in {each.name: each.reason for each in (*left, *others)}.items():
-            self._say(f"not written as a test: {printable(name)}: {reason}")
-
-    def _setting(self) -> Setting:
-        """Return what all tests need of the scenario, as it is written there."""
-        asked = self._request
-        params: Mapping[str, Any] = {}
-        if asked.scenario is not None:
-            source = read_source(asked.scenario, None, Diagnostics(), "a scenario", MOST_DATA)
-            document = parse_toml(source, Diagnostics()) if source is not None else None
-            params = document.values.get("params", {}) if document is not None else {}
-        return Setting(params, self._silent)
+        for line in self._tests.left_out():
+            self._say(printable(line))
 
     def write_files(self) -> None:
         """Write the results for programs, where they are asked for."""
@@ -334,10 +332,12 @@ class _Session:
     def _write_file(self, path: Path, text: str) -> bool:
         """Write a file; return False and report if that fails."""
         try:
-            if path.parent == self._request.output:
-                path.parent.mkdir(parents=True, exist_ok=True)
-            with write_stream(path) as stream:
-                stream.write(text)
+            if path.parent != self._request.output:
+                path.parent.stat()  # only the folder of the runs is made
+            with Staging() as staging:
+                staging.add(path, text.encode("utf-8"))
+                for _ in staging.move_in_place():
+                    pass
         except OSError as error:
             reason = str(error.strerror)
             self._report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import islice
 
 from swarmdsl import ir
@@ -105,8 +106,11 @@ class Subject:
         assert self.system is not None
         assert self.swarm is not None
         member = self.system.members_by_name[robot.kind]
-        role = next(each for each in self.swarm.roles if each.name == robot.role)
-        return role.configured(member, robot.index)
+        return self._roles[robot.role].configured(member, robot.index)
+
+    @cached_property
+    def _roles(self) -> Mapping[str, ir.Role]:
+        return {each.name: each for each in self.swarm.roles} if self.swarm else {}
 
     def table(self, machine: StateMachine) -> Machine:
         """Return the engine table of a machine, shared by all its instances."""

@@ -83,11 +83,7 @@ def cover(
     search.best = known
     for each in wanted:
         search.add(each)
-    try:
-        complete = search.run(budget)
-    except KeyboardInterrupt:
-        budget.interrupted = True
-        complete = False
+    complete = search.run(budget)
     return Cover(search.best, search.looked, complete)
 
 
@@ -126,7 +122,8 @@ class _Search:
             if self.best is not None and size >= sum(self.best):
                 return True
             looks += 1
-            if looks % _OFTEN == 1 and not budget.allows(self.looked):
+            is_asked = looks % _OFTEN == 1
+            if self.looked > budget.most or (is_asked and not budget.allows(self.looked)):
                 return False
             if self._is_outdone(tokens):
                 continue

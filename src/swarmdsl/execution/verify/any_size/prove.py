@@ -13,12 +13,12 @@ from swarmdsl.execution.verify.abstraction.doubt import Doubt
 from swarmdsl.execution.verify.any_size.cover_problem import Bounds, question
 from swarmdsl.execution.verify.any_size.coverability import Cover, cover
 from swarmdsl.execution.verify.any_size.upward_closed import NotCoveredError
-from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.automata.limits import Budget, LimitReachedError
 from swarmdsl.execution.verify.proofs.single_robot import hearing_all, is_alone
 from swarmdsl.execution.verify.proofs.verdict import (
     ESTIMATE,
-    INTERRUPTED,
     Verdict,
+    at_limit,
     unfinished,
     worst,
 )
@@ -53,6 +53,19 @@ def prove_any(
     The model has `enough` of them. `prove_at` proves it for given numbers of these roles: a
     violation is found by a search among so many.
     """
+    try:
+        return _prove_any(property_, model, bounds, budget, prove_at)
+    except LimitReachedError:
+        return Verdict(property_, "unknown", reason=at_limit(budget))
+
+
+def _prove_any(
+    property_: ir.Property,
+    model: Model,
+    bounds: Bounds,
+    budget: Budget,
+    prove_at: Callable[[Mapping[str, int]], Verdict],
+) -> Verdict:
     if property_.chance is not None and property_.chance.bound == "most":
         return Verdict(
             property_, "unknown", reason=f"a greatest probability is not covered: {ESTIMATE}"
@@ -204,6 +217,7 @@ def _one(
     prove_at: Callable[[Mapping[str, int]], Verdict],
 ) -> Verdict:
     """Decide on a property, of one robot if it is about each."""
+    budget.check()
     every = model.groups([property_], me=me)
     mine = place_of(me, every)
     seen = set(about(property_, model, every))
@@ -218,7 +232,7 @@ def _one(
     if asked is not None:
         found = cover(asked.swarm, asked.wanted, budget, asked.at_start)
     if budget.interrupted:
-        return Verdict(property_, "unknown", found.looked, INTERRUPTED, robot=me)
+        return Verdict(property_, "unknown", found.looked, at_limit(budget), robot=me)
     if found.numbers is not None:
         return _violated(property_, model, bounds, groups, found, prove_at, me)
     doubts = model.doubts(groups)

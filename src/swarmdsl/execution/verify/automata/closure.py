@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from swarmdsl.execution.verify.abstraction.alphabet import Alphabet
 from swarmdsl.execution.verify.automata.automaton import Automaton
-from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.automata.limits import Budget, LimitReachedError
 
 
 def close(
@@ -17,6 +17,18 @@ def close(
     Each robot hears each message at any time: this includes whatever happens in a swarm. The
     search in an automaton ends at a number of states or moves, or with the time or memory.
     """
+    try:
+        complete = _closed(automata, alphabet, states, moves, budget)
+    except LimitReachedError:
+        complete = False
+    for automaton in automata:
+        automaton.bodies.clear()
+    return complete
+
+
+def _closed(
+    automata: Sequence[Automaton], alphabet: Alphabet, states: int, moves: int, budget: Budget
+) -> bool:
     changed = True
     complete = True
     while changed:
@@ -35,9 +47,8 @@ def close(
                 for message in range(len(alphabet.messages)):
                     known = message in automaton.heard[number] or message in automaton.late[number]
                     if not known and automaton.listens(message):
+                        budget.check()
                         automaton.hear(number, message)
                         changed = True
                 number += 1
-    for automaton in automata:
-        automaton.bodies.clear()
     return complete

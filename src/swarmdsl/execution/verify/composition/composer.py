@@ -87,7 +87,7 @@ def compose(
 
 def _not_shown(model: Model) -> Iterator[tuple[str, Span | None]]:
     """Yield what a composition leaves out, or adds, each with its place."""
-    for doubt in dict.fromkeys(model.doubts(model.groups())):
+    for doubt in model.every_doubt:
         yield doubt.reason, doubt.place
     for automaton in model.kinds:
         for actor in automaton.kind.cast:

@@ -39,7 +39,9 @@ class Failures:
 def failures(
     graph: Graph, budget: Budget, begun: Callable[[], Run], played: Callable[[int, Move], Run]
 ) -> Failures:
-    """Find faults in the moves of robots; after the limits, one run to each fault is tried.
+    """Find faults in the moves of robots.
+
+    After the limits, one run to each fault is tried, as long as the budget spares a moment.
 
     `begun` returns a run of their start, `played` one to a place, and a move there.
     """
@@ -51,7 +53,7 @@ def failures(
         for key, fault in _faults(group, move):
             if key in result.found or tried[key] == MOST_RUNS:
                 continue
-            if tried[key] and not budget.allows(0):
+            if not (budget.spares_a_moment() if not tried[key] else budget.allows(0)):
                 continue
             tried[key] += 1
             run = run_of()

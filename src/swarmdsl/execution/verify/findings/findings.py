@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Hashable, Iterator
 from functools import partial
 from typing import Any
 
-from swarmdsl.base.records import dataclass, replace
+from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
 from swarmdsl.execution.engine import Machine
 from swarmdsl.execution.verify.automata.labels import Move
-from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.automata.limits import Budget, LimitReachedError
 from swarmdsl.execution.verify.findings.failures import MOST_RUNS, Failures, failures
-from swarmdsl.execution.verify.findings.finding import Finding
+from swarmdsl.execution.verify.findings.finding import Finding, Survey, not_shown
 from swarmdsl.execution.verify.findings.livelock import livelock
 from swarmdsl.execution.verify.findings.reached import Reached, place_of_change
 from swarmdsl.execution.verify.proofs.verdict import unfinished
@@ -26,24 +26,6 @@ from swarmdsl.execution.verify.swarm.influence import apart, sent_by
 from swarmdsl.execution.verify.swarm.model import Model
 
 
-@dataclass(frozen=True)
-class Survey:
-    """States of a swarm that were looked at, and what was found.
-
-    `missing` is the reason why not all states were looked at, or "". Findings are `open` if no run
-    to them could be played, each with the flaw of one. Nothing is said of what waits and never
-    happens if robots wait for `news` of others that do not come.
-    """
-
-    states: int
-    transitions: int
-    missing: str
-    findings: tuple[Finding, ...]
-    full: tuple[str, ...] = ()
-    open: tuple[tuple[Finding, str], ...] = ()
-    news: bool = False
-
-
 def survey(model: Model, budget: Budget) -> Survey:
     """Look at all states of a swarm; groups that do not exchange messages are looked at apart."""
     states = transitions = 0
@@ -52,7 +34,11 @@ def survey(model: Model, budget: Budget) -> Survey:
     full: set[str] = set()
     open_: list[tuple[Finding, str]] = []
     reached: dict[str, Reached] = {}
-    for groups in apart(model, model.groups(thorough=True)):
+    try:
+        parts = list(apart(model, model.groups(thorough=True)))
+    except LimitReachedError:
+        return Survey(0, 0, unfinished(model, budget), ())
+    for groups in parts:
         network = model.network(groups)
         graph = explore(network, budget)
         states += len(graph.seen)
@@ -66,7 +52,12 @@ def survey(model: Model, budget: Budget) -> Survey:
             # A longer run, in which robots are far from each other and hear of all, may show it.
             lonely = explore(model.network(groups, lonely=True), budget)
             failed.add(_Part(model, lonely).failures(budget))
-        found = [*failed.found.values(), *part.findings(sure=sure, budget=budget)]
+        found = list(failed.found.values())
+        try:
+            for each in part.findings(sure=sure, budget=budget):
+                found.append(each)
+        except LimitReachedError:
+            complete = sure = False
         findings += found
         open_ += [*failed.flaws.values(), *part.open.values()]
         # What ends or waits too early explains what does not happen after it.
@@ -82,20 +73,9 @@ def survey(model: Model, budget: Budget) -> Survey:
         missing,
         tuple(findings),
         tuple(sorted(full)),
-        tuple(_not_shown(open_, findings)),
-        model.awaits_members(model.groups()),
+        tuple(not_shown(open_, findings)),
+        model.awaits_members(group for groups in parts for group in groups),
     )
-
-
-def _not_shown(
-    open_: Iterable[tuple[Finding, str]], shown: Iterable[Finding]
-) -> Iterator[tuple[Finding, str]]:
-    """Yield what is open, once, unless it is shown with other values or in another part."""
-    told = {each.about for each in shown}
-    for finding, flaw in open_:
-        if finding.about not in told:
-            told.add(finding.about)
-            yield finding, flaw
 
 
 class _Part:
@@ -119,13 +99,18 @@ class _Part:
         return failures(self._graph, budget, partial(play, self._network, []), self._run)
 
     def findings(self, *, sure: bool, budget: Budget) -> Iterator[Finding]:
-        """Yield what else is wrong; what is missing only if the search has seen all."""
+        """Yield what else is wrong; what is missing only if the search has seen all.
+
+        Raises LimitReachedError.
+        """
         yield from self._answers(budget)
-        trapped = list(self._trapped()) if sure else []
-        yield from (finding for _, finding in trapped)
         if sure:
-            yield from self._stuck({place for place, _ in trapped})
-            yield from self._lost()
+            trapped = set()
+            for place, finding in self._trapped(budget):
+                trapped.add(place)
+                yield finding
+            yield from self._stuck(trapped, budget)
+            yield from self._lost(budget)
 
     def reach(self, reached: dict[str, Reached], *, sure: bool) -> None:
         """Note the states and transitions of each machine that occur."""
@@ -177,7 +162,7 @@ class _Part:
             place = place or place_of_change(machine, moment)
         yield Finding("answers", step.move.given.name, group.role, place, run=run)
 
-    def _trapped(self) -> Iterator[tuple[tuple[int, int], Finding]]:
+    def _trapped(self, budget: Budget) -> Iterator[tuple[tuple[int, int], Finding]]:
         """Find states that nothing leads on from, whatever comes."""
         told: dict[tuple[int, int], None] = {}
         tried: Counter[tuple[int, int]] = Counter()
@@ -188,6 +173,7 @@ class _Part:
             if key in told or tried[key] == MOST_RUNS or not self._is_trap(group, state):
                 continue
             tried[key] += 1
+            budget.check()
             run = self._run(number)
             cast = group.automaton.whole.kind.cast
             actor, name = group.automaton.look(state).innermost[0]
@@ -226,12 +212,16 @@ class _Part:
             for event in self._model.outside
         )
 
-    def _stuck(self, trapped: set[tuple[int, int]]) -> Iterator[Finding]:
+    def _stuck(self, trapped: set[tuple[int, int]], budget: Budget) -> Iterator[Finding]:
         """Find a state of the swarm in which nothing can happen, though not all have ended."""
-        for number in self._graph.stuck:
-            waiting = self._waiting(self._graph.way(number)[-1])
+        stuck = set(self._graph.stuck)
+        for number, state in enumerate(self._graph.seen):
+            if number not in stuck:
+                continue
+            waiting = self._waiting(state)
             if not waiting or set(waiting) & trapped:
                 continue
+            budget.check()
             run = play(self._network, self._steps(number), is_whole=True)
             group, local = waiting[0]
             whole = self._network.groups[group].automaton
@@ -270,7 +260,7 @@ class _Part:
             (patient if endless else waiting).append((group, local))
         return waiting if somebody_ended else waiting + patient
 
-    def _lost(self) -> Iterator[Finding]:
+    def _lost(self, budget: Budget) -> Iterator[Finding]:
         """Find events that are sent, but that no robot ever handles."""
         messages = self._model.alphabet.messages
         hears = [move for _, move in self._occurring() if move.given.kind == "hear"]
@@ -295,6 +285,7 @@ class _Part:
                 ),
                 None,
             )
+            budget.check()
             run = self._run(*first) if first is not None else None
             found = Finding("lost", name, "", place, "" if name in heard else astray[name])
             if run is not None and run.flaw:

@@ -15,15 +15,19 @@ from swarmdsl.execution.verify.search.lassos import Lasso, components
 from swarmdsl.execution.verify.search.run import Run, steps_between
 from swarmdsl.execution.verify.swarm.groups import Step
 
-_OFTEN = 1024
-"""Number of states between two looks at the limits."""
+_OFTEN = 256
+"""Number of states between two looks at the time."""
 _MOST_TRIES = 8
 
 
 def livelock(graph: Graph, budget: Budget) -> tuple[Run, Step] | None:
-    """Return a run that ends in a loop of answers, and the first step of the loop."""
-    loops = _Loops(graph)
-    for lasso in loops.find(budget):
+    """Return a run that ends in a loop of answers, and the first step of the loop.
+
+    Raises LimitReachedError.
+    """
+    loops = _Loops(graph, budget)
+    for lasso in loops.find():
+        budget.check()
         named = repeated(graph.network, lasso, fair=False)
         if isinstance(named, str):
             continue
@@ -37,12 +41,14 @@ def livelock(graph: Graph, budget: Budget) -> tuple[Run, Step] | None:
 class _Loops:
     """Loops of the steps at which an event of a robot arrives."""
 
-    def __init__(self, graph: Graph) -> None:
+    def __init__(self, graph: Graph, budget: Budget) -> None:
         self._graph = graph
+        self._budget = budget
+        self._asked = 0
         self._network = graph.network
         self._answers: dict[int, bool] = {}
 
-    def find(self, budget: Budget) -> Iterator[Lasso]:
+    def find(self) -> Iterator[Lasso]:
         """Yield shortest loops, the nearest ones first."""
         # Only robots that answer at once can go on so.
         if not any(map(self._can_answer, self._graph.first)):
@@ -51,15 +57,13 @@ class _Loops:
         states = list(numbers)
         starts = array("I", [0])
         targets = array("I")
-        for number, state in enumerate(states):
-            if not number % _OFTEN and not budget.allows(0):
-                return
+        for state in states:
             after = dict.fromkeys(numbers.get(after) for after, _ in self._steps(state))
             targets.extend(each for each in after if each is not None)
             starts.append(len(targets))
         found = [
             min(component)
-            for component in components(starts, targets)
+            for component in components(starts, targets, self._budget.check)
             if len(component) > 1
             or component[0] in targets[starts[component[0]] : starts[component[0] + 1]]
         ]
@@ -78,6 +82,9 @@ class _Loops:
         )
 
     def _steps(self, state: int) -> Iterator[tuple[int, Step]]:
+        self._asked += 1
+        if not self._asked % _OFTEN:
+            self._budget.check()
         network = self._network
         for place, _ in network.present(state):
             for step in network.row(place):

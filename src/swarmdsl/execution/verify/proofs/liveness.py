@@ -65,13 +65,12 @@ def in_the_end(
         doubts = model.doubts(groups)
         graph = observe(observer.network, observer, budget)
         violation, flaw = _violation(property_, observer, graph, doubts, me, budget)
-        if violation is None and not graph.complete and not budget.interrupted:
+        if violation is None and not graph.complete and not budget.is_over():
             some = budget.some(_MOST_SETTLING)
             settled = observe_settling(observer, some)
             violation, _ = _violation(
                 property_, observer, settled, doubts, me, some, shortest=False
             )
-            budget.interrupted |= some.interrupted
         if violation is not None:
             return violation
         if doubts or not flaw:

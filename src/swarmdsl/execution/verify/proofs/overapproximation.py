@@ -68,6 +68,7 @@ def _with_open_data(model: Model, budget: Budget) -> Model | None:
 def _with_open_variables(
     model: Model, properties: Sequence[ir.Property], budget: Budget, robot: str | None
 ) -> Model | None:
+    budget.check()
     variables = {
         ("var", f"{machine.name}.{each.name}", ())
         for machine in model.machines.values()
@@ -95,6 +96,7 @@ def _of(
 ) -> Model | None:
     if subject is None:
         return None
+    budget.check()
     report = Diagnostics()
     shown = (*model.open, *open_)
     made = Model(subject, model.counts, properties, model.options, budget, report, only, shown)

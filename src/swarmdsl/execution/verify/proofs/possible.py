@@ -19,6 +19,9 @@ from swarmdsl.execution.verify.swarm.network import Network
 from swarmdsl.execution.verify.swarm.propositions import Terms
 from swarmdsl.execution.verify.swarm.timed_network import TimedNetwork
 
+_OFTEN = 256
+"""Number of states between two looks at the time."""
+
 
 def prove_possible(
     property_: ir.Property,
@@ -28,7 +31,7 @@ def prove_possible(
     me: str | None,
     budget: Budget,
 ) -> Verdict:
-    """Search backwards from the states in which the claim holds."""
+    """Search backwards from the states in which the claim holds; raises LimitReachedError."""
     is_timed = isinstance(network, TimedNetwork)
     graph = follow(network, budget) if is_timed else explore(network, budget)
     states = len(graph.seen)
@@ -44,6 +47,8 @@ def prove_possible(
     before: dict[int, list[int]] = {}
     overflowing: list[int] = []
     for state, number in numbers.items():
+        if not number % _OFTEN:
+            budget.check()
         # A loss of a robot makes nothing possible.
         for following, step in network.followers(state):
             is_loss = step.move is not None and step.move.given.kind == "lose"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from swarmdsl import ir
 from swarmdsl.base.records import replace
-from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.automata.limits import Budget, LimitReachedError
 from swarmdsl.execution.verify.proofs.liveness import in_the_end
 from swarmdsl.execution.verify.proofs.observation import observer_of, run_to
 from swarmdsl.execution.verify.proofs.overapproximation import with_open_data
@@ -23,6 +23,7 @@ from swarmdsl.execution.verify.proofs.verdict import (
     ESTIMATE,
     UNSURE,
     Verdict,
+    at_limit,
     not_run,
     not_violated,
     violated,
@@ -53,12 +54,20 @@ def prove(property_: ir.Property, model: Model, budget: Budget) -> Verdict:
     if reason:
         return Verdict(property_, "unknown", reason=reason)
     if property_.each is None:
-        return _one(property_, model, None, budget)
-    found = [_one(property_, model, robot, budget) for robot in model.one_of_each(property_)]
+        return _within_limits(property_, model, None, budget)
+    robots = model.one_of_each(property_)
+    found = [_within_limits(property_, model, robot, budget) for robot in robots]
     decisive = worst(found)
     if decisive is None:
         return Verdict(property_, "holds", reason=f"there is no `{property_.each}`")
     return replace(decisive, full=tuple(sorted({name for each in found for name in each.full})))
+
+
+def _within_limits(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
+    try:
+        return _one(property_, model, me, budget)
+    except LimitReachedError:
+        return Verdict(property_, "unknown", reason=at_limit(budget), robot=me)
 
 
 def _one(property_: ir.Property, model: Model, me: str | None, budget: Budget) -> Verdict:
@@ -133,7 +142,6 @@ def _never(property_: ir.Property, model: Model, me: str | None, budget: Budget)
         return None
     some = budget.some(_MOST_NEAR)
     found = in_the_end(endless, model, me, some, lonely=False, timed=True)
-    budget.interrupted |= some.interrupted
     if found.run is None:
         return None
     if property_.chance is not None:
@@ -201,7 +209,7 @@ def _searched(
             return Verdict(property_, "unknown", len(graph.seen), DEADLINES, robot=me)
     if graph.bad is None:
         near = None
-        if not graph.complete and not budget.interrupted:
+        if not graph.complete and not budget.is_over():
             all_or_some = every if observer.others else groups
             near = _near(property_, model, all_or_some, me, budget, lonely=lonely)
         return near or not_violated(property_, model, graph, groups, me, budget)
@@ -237,11 +245,15 @@ def _near(
     automaton = groups[mine].automaton
     # A run in which robots are far from each other may be one that can be.
     for far in dict.fromkeys((lonely, True)):
+        if budget.is_over():
+            return None
         observer = observer_of(property_, model, groups, me, lonely=far, others=False)
         graph = observe_planned(observer, mine, Alone(property_, automaton), budget)
         found = _tried(property_, observer, graph, me)
         if found is not None:
             return found
+    if budget.is_over():
+        return None
     observer = observer_of(property_, model, groups, me, lonely=lonely, others=False)
     graph = observe_nearest(observer, mine, distances(property_, automaton), budget)
     return _tried(property_, observer, graph, me)

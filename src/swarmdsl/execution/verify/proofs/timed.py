@@ -55,7 +55,7 @@ def prove_exactly(
     if doubt is not None:
         reason = f"{known.reason}; clocks do not decide: {doubt.reason}"
         return replace(known, reason=reason, place=doubt.place)
-    if is_about_ends(property_) or budget.interrupted:
+    if is_about_ends(property_) or budget.is_over():
         return known
     if not model.complete and (property_.kind == "possible" or proof.varies):
         reason = f"{known.reason}; clocks do not decide: {unfinished(model, budget)}"
@@ -123,7 +123,6 @@ class _Proof:
         observer = self._observer(network, others=False)
         some = self._budget.some(_MOST_SOUGHT)
         graph = observe_settling(observer, some)
-        self._budget.interrupted |= some.interrupted
         if graph.bad is None:
             return None
         way = graph.way(graph.bad)

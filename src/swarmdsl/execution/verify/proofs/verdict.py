@@ -75,14 +75,19 @@ def not_run(flaw: str) -> str:
     return f"the run that was found is impossible: {flaw}"
 
 
-def unfinished(model: Model, budget: Budget) -> str:
-    """Return the reason why a search ended too early, with what makes the states so many."""
+def at_limit(budget: Budget) -> str:
+    """Return the limit that has ended a search."""
     if budget.interrupted:
         return INTERRUPTED
+    other = "another one with `--limit`, or fewer robots with `--size`"
+    return f"the search came to its limit of {budget.reached}: set {other}"
+
+
+def unfinished(model: Model, budget: Budget) -> str:
+    """Return the reason why a search ended too early, with what makes the states so many."""
     large = next((each for each in model.kinds if each.is_too_large), None)
-    if large is None:
-        other = "another one with `--limit`, or fewer robots with `--size`"
-        return f"the search came to its limit of {budget.reached}: set {other}"
+    if large is None or budget.interrupted:
+        return at_limit(budget)
     return f"a `{large.kind.role}` has too many states{explain(large, model)}"
 
 

@@ -8,8 +8,7 @@ from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.execution.simulate.scenario.durations import format_duration
-from swarmdsl.execution.verify.findings.finding import Fault, Finding
-from swarmdsl.execution.verify.findings.findings import Survey
+from swarmdsl.execution.verify.findings.finding import Fault, Finding, Survey
 from swarmdsl.execution.verify.proofs.verdict import Verdict, not_run
 from swarmdsl.execution.verify.report.hints import hint
 from swarmdsl.execution.verify.report.run_text import Fields, last_taken, run_text
@@ -170,7 +169,7 @@ def conditions(model: Model, full: Sequence[str], *, fair: bool) -> Iterator[str
     yield from _from_outside(model)
     if environment.said:
         yield f"values from outside: {', '.join(environment.said)}"
-    for doubt in dict.fromkeys(model.doubts(model.groups())):
+    for doubt in model.every_doubt:
         place = doubt.place
         where = f" ({place.source.name}:{place.line})" if place is not None else ""
         yield f"not all is shown: {doubt.reason}{where}"

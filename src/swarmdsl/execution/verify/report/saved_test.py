@@ -6,23 +6,17 @@ of each event between robots. Delays end by themselves while time passes.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
-from swarmdsl.base.naming import fresh
-from swarmdsl.base.records import dataclass, field, replace
-from swarmdsl.base.source import Source
+from swarmdsl.base.records import dataclass, field
 from swarmdsl.codegen.shared.default_values import default_result, default_value, result_fields
 from swarmdsl.execution.simulate.inputs.choose_space import has_geometry
 from swarmdsl.execution.simulate.machines.subject import Subject
-from swarmdsl.execution.simulate.scenario.durations import MICROSECOND, SECOND
+from swarmdsl.execution.simulate.scenario.durations import SECOND
 from swarmdsl.execution.simulate.scenario.scenario import Scenario
 from swarmdsl.execution.simulate.world.line import Line
-from swarmdsl.execution.verify.report.shown import LONGEST, Shown, Unshown
+from swarmdsl.execution.verify.report.shown import LONGEST, Shown
 from swarmdsl.execution.verify.report.toml_text import (
     fields_with_times,
     step_text,
@@ -30,20 +24,11 @@ from swarmdsl.execution.verify.report.toml_text import (
     toml_text,
     with_times,
 )
-from swarmdsl.execution.verify.search.run import Run
-
-if TYPE_CHECKING:
-    from swarmdsl.execution.testing.models import Models
 
 _MOST_LAPS = 1000
 """Number of repetitions after which a test ends."""
-_OTHERWISE = "its test passes: what happens at one time may have another order in it"
 _ACTIVITY = "do."
 _PASS = "pass"
-_HEAD = """\
-# Written by `swarmc verify --save-test`. Each test fails until the model is mended, and then says
-# that it stays so.
-"""
 
 
 @dataclass(frozen=True)
@@ -54,79 +39,7 @@ class Setting:
     silent: tuple[str, ...] = ()
 
 
-def tests_of(
-    subject: Subject,
-    models: Sequence[Path],
-    path: Path,
-    shown: Sequence[Shown],
-    setting: Setting,
-) -> tuple[str, list[Unshown]]:
-    """Return a test file for a path, and what its tests cannot show.
-
-    Each test was run, and fails.
-    """
-    # Most calls of the command write no test, and need not wait for this.
-    from swarmdsl.execution.testing.models import Models
-
-    compiled = Models()
-    chosen: list[str] = []
-    left: list[Unshown] = []
-    names: list[str] = []
-    for each in shown:
-        # Robots may wait in one state for several reasons.
-        names.append(fresh(each.name, names, gap=" "))
-        each = replace(each, name=names[-1])
-        reason = ""
-        for run, early in product(_with_laps(each.run), (0, MICROSECOND)):
-            made = _Test(subject, replace(each, run=run), setting, early)
-            test = "".join(f"{line}\n" for line in made.lines())
-            reason = _flaw(_file(subject, models, path, [test]), path, compiled)
-            if not reason:
-                chosen.append(test)
-                break
-        else:
-            left.append(Unshown(each.name, reason))
-    return _file(subject, models, path, chosen) if chosen else "", left
-
-
-def _with_laps(run: Run) -> Iterator[Run]:
-    """Yield a run with laps of a second at least, if time may pass in them, and as it is."""
-    if 0 < run.period < SECOND:
-        yield replace(run, period=SECOND)
-    yield run
-
-
-def _file(subject: Subject, models: Sequence[Path], path: Path, tests: Sequence[str]) -> str:
-    folder = path.parent.absolute()
-    named = [Path(os.path.relpath(each.absolute(), folder)).as_posix() for each in models]
-    kind = "swarm" if subject.swarm is not None else "machine"
-    head = [
-        _HEAD,
-        f"model = {toml_text(named[0] if len(named) == 1 else named)}\n",
-        f"{kind} = {toml_text(subject.name)}\n",
-        'impossible = "skip"  # a mended model may run otherwise\n',
-    ]
-    return "".join([*head, *(f"\n{test}" for test in tests)])
-
-
-def _flaw(text: str, path: Path, compiled: Models) -> str:
-    """Return why the only test of a file does not fail as it should, else an empty string."""
-    from swarmdsl.execution.testing.case import InvalidTest
-    from swarmdsl.execution.testing.reading import read_tests
-    from swarmdsl.execution.testing.verdict import judge
-
-    report = Diagnostics()
-    tests = read_tests(Source(path.as_posix(), text, path), compiled, report)
-    for case in tests.cases if tests is not None else ():
-        if isinstance(case, InvalidTest):
-            report.include(case.problems)
-        elif not judge(case, case.seeds, lambda _seed, _line: None).passed:
-            return ""
-    error = next((each.message for each in report if each.severity is Severity.ERROR), None)
-    return error or _OTHERWISE
-
-
-class _Test:
+class ReplayedTest:
     """A test that replays a run.
 
     Inputs are given `early`, in nanoseconds, to come before delays that end at the same time.

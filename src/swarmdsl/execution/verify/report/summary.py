@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.simulate.machines.subject import Subject
-from swarmdsl.execution.verify.findings.findings import Survey
+from swarmdsl.execution.verify.findings.finding import Survey
 from swarmdsl.execution.verify.proofs.verdict import INTERRUPTED
 from swarmdsl.execution.verify.report import diagnostics
 from swarmdsl.execution.verify.report.results import Results

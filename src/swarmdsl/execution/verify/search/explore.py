@@ -8,8 +8,13 @@ from swarmdsl.execution.verify.automata.limits import Budget
 from swarmdsl.execution.verify.properties.observer import Observer
 from swarmdsl.execution.verify.swarm.network import Network
 
-_OFTEN = 4096
-"""Number of states between two looks at the limits."""
+_OFTEN = 1024
+"""Number of states and steps between two looks at the limits, of one group of robots."""
+
+
+def often(network: Network) -> int:
+    """Return the number of states and steps between two looks at the limits."""
+    return max(_OFTEN // len(network.groups), 1)
 
 
 class Graph:
@@ -49,66 +54,64 @@ def explore(network: Network, budget: Budget) -> Graph:
     parents.append(0)
     level = [start]
     index = transitions = 0
+    pause = due = often(network)
     steps, plain, casts = network.steps, network.plain, network.casts
-    try:
-        while level:
-            following: list[int] = []
-            add, note = following.append, parents.append
-            for state in level:
-                present = network.present(state)
-                moved = False
-                known = None
-                total = 0
-                for place, _ in present:
-                    if steps[place] is None:
-                        network.row(place)
-                        graph.first[place] = index
-                    for change in plain[place]:
-                        moved = True
-                        transitions += 1
-                        new = state + change
-                        if new not in seen:
-                            seen[new] = None
-                            note(index)
-                            add(new)
-                    for change, shifts, sends, sender in casts[place]:
-                        moved = True
-                        transitions += 1
-                        if shifts is not known:
-                            known = shifts
-                            total = 0
-                            for where, count in present:
-                                shift = shifts.get(where)
-                                if shift is None:
-                                    shift = network.shift_of(where, sends, sender)
-                                if shift:
-                                    total += count * shift
-                        new = state + change + total - shifts[place]
-                        if new not in seen:
-                            seen[new] = None
-                            note(index)
-                            add(new)
-                for step in network.risks(present):
+    while level:
+        following: list[int] = []
+        add, note = following.append, parents.append
+        for state in level:
+            present = network.present(state)
+            moved = False
+            known = None
+            total = 0
+            for place, _ in present:
+                if steps[place] is None:
+                    network.row(place)
+                    graph.first[place] = index
+                for change in plain[place]:
+                    moved = True
                     transitions += 1
-                    new = network.after(state, step)
+                    new = state + change
                     if new not in seen:
                         seen[new] = None
                         note(index)
                         add(new)
-                if not moved:
-                    graph.stuck.append(index)
-                index += 1
-                if not index % _OFTEN and not budget.allows(len(seen)):
+                for change, shifts, sends, sender in casts[place]:
+                    moved = True
+                    transitions += 1
+                    if shifts is not known:
+                        known = shifts
+                        total = 0
+                        for where, count in present:
+                            shift = shifts.get(where)
+                            if shift is None:
+                                shift = network.shift_of(where, sends, sender)
+                            if shift:
+                                total += count * shift
+                    new = state + change + total - shifts[place]
+                    if new not in seen:
+                        seen[new] = None
+                        note(index)
+                        add(new)
+            for step in network.risks(present):
+                transitions += 1
+                new = network.after(state, step)
+                if new not in seen:
+                    seen[new] = None
+                    note(index)
+                    add(new)
+            if not moved:
+                graph.stuck.append(index)
+            index += 1
+            if index + transitions >= due:
+                due = index + transitions + pause
+                if not budget.allows(len(seen)):
                     graph.transitions = transitions
                     return graph
-            if len(seen) > budget.most:
-                graph.transitions = transitions
-                return graph
-            level = following
-    except KeyboardInterrupt:
-        budget.interrupted = True
-        graph.transitions = transitions
-        return graph
+        if len(seen) > budget.most:
+            graph.transitions = transitions
+            return graph
+        level = following
     graph.transitions = transitions
     graph.complete = not network.cut
     return graph
@@ -126,38 +129,37 @@ def observe(network: Network, observer: Observer, budget: Budget) -> Graph:
         return graph
     level = [first]
     index = 0
-    try:
-        while level:
-            following: list[int] = []
-            for state in level:
-                moved = False
-                if not observer.is_settled(state):
-                    for news, is_risk in (
-                        (observer.following(state), False),
-                        (observer.risking(state), True),
-                    ):
-                        for new in news:
-                            graph.transitions += 1
-                            if new not in seen:
-                                seen[new] = None
-                                parents.append(index)
-                                following.append(new)
-                                if observer.is_bad(new):
-                                    graph.bad = len(seen) - 1
-                                    return graph
-                            moved = moved or (new != state and not is_risk)
-                    if not moved and observer.fails_at_end(state) and not observer.is_busy(state):
-                        graph.bad = index
-                        return graph
-                index += 1
-                if not index % _OFTEN and not budget.allows(len(seen)):
+    pause = due = often(network)
+    while level:
+        following: list[int] = []
+        for state in level:
+            moved = False
+            if not observer.is_settled(state):
+                for news, is_risk in (
+                    (observer.following(state), False),
+                    (observer.risking(state), True),
+                ):
+                    for new in news:
+                        graph.transitions += 1
+                        if new not in seen:
+                            seen[new] = None
+                            parents.append(index)
+                            following.append(new)
+                            if observer.is_bad(new):
+                                graph.bad = len(seen) - 1
+                                return graph
+                        moved = moved or (new != state and not is_risk)
+                if not moved and observer.fails_at_end(state) and not observer.is_busy(state):
+                    graph.bad = index
                     return graph
-            if len(seen) > budget.most:
-                return graph
-            level = following
-    except KeyboardInterrupt:
-        budget.interrupted = True
-        return graph
+            index += 1
+            if index + graph.transitions >= due:
+                due = index + graph.transitions + pause
+                if not budget.allows(len(seen)):
+                    return graph
+        if len(seen) > budget.most:
+            return graph
+        level = following
     graph.complete = not network.cut
     return graph
 
@@ -170,18 +172,19 @@ def follow(network: Network, budget: Budget) -> Graph:
     seen[start] = None
     parents.append(0)
     todo = [start]
-    try:
-        for index, state in enumerate(todo):
-            for new, _ in network.followers(state):
-                graph.transitions += 1
-                if new not in seen:
-                    seen[new] = None
-                    parents.append(index)
-                    todo.append(new)
-            if len(seen) > budget.most or not (index % _OFTEN or budget.allows(len(seen))):
+    pause, due = often(network), 0
+    for index, state in enumerate(todo):
+        for new, _ in network.followers(state):
+            graph.transitions += 1
+            if new not in seen:
+                seen[new] = None
+                parents.append(index)
+                todo.append(new)
+        if len(seen) > budget.most:
+            return graph
+        if index + graph.transitions >= due:
+            due = index + graph.transitions + pause
+            if not budget.allows(len(seen)):
                 return graph
-    except KeyboardInterrupt:
-        budget.interrupted = True
-        return graph
     graph.complete = not network.cut
     return graph

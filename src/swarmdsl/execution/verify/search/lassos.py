@@ -8,18 +8,18 @@ from __future__ import annotations
 
 from array import array
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.execution.verify.automata.limits import Budget
+from swarmdsl.execution.verify.automata.limits import Budget, LimitReachedError
 from swarmdsl.execution.verify.properties.observer import Observer
 from swarmdsl.execution.verify.search.explore import Graph
 from swarmdsl.execution.verify.search.fairness import Fairness
 from swarmdsl.execution.verify.search.run import steps_between
 from swarmdsl.execution.verify.swarm.groups import Step
 
-_OFTEN = 1024
-"""Number of states between two looks at the limits."""
+_OFTEN = 256
+"""Number of states between two looks at the time."""
 _MOST_BEGINNINGS, _MOST_LOOPS = 12, 4
 """Maximum number of states of a component in which loops begin, twice, and of these loops."""
 _MOST_FOLLOWING = 10_000
@@ -55,35 +55,44 @@ class Lassos:
         self._numbers: dict[int, int] = {}
         self._where: list[int] = []
         """Their numbers in the graph."""
-        for number, state in enumerate(graph.seen):
-            if observer.is_open(state & observer.mine):
-                self._numbers[state] = len(self._states)
-                self._states.append(state)
-                self._where.append(number)
+        self._asked = 0
 
     def __iter__(self) -> Iterator[Lasso]:
         """Yield lassos, those first at whose ends nothing happens."""
         try:
-            for number, state in enumerate(self._states):
-                if not number % _OFTEN and not self._budget.allows(0):
-                    self.complete = False
-                    return
-                if not self._fairness.running(state):
-                    yield Lasso(self._stem(number), [])
-            for component in self._components():
-                found = self._fair_lassos(component)
-                yield from found
-                # The parts of an unfair component are unfair, too.
-                for delay in self._delays(component) if found else ():
-                    # Loops without the end of a delay, which may end too early in others.
-                    for part in self._components(component, delay):
-                        yield from self._fair_lassos(part, delay)
-        except KeyboardInterrupt:
-            self._budget.interrupted = True
+            for each in self._found():
+                yield each
+                self._budget.check()
+        except LimitReachedError:
             self.complete = False
+
+    def _found(self) -> Iterator[Lasso]:
+        for number, state in enumerate(self._graph.seen):
+            if not number % _OFTEN:
+                self._budget.check()
+            if self._observer.is_open(state & self._observer.mine):
+                self._numbers[state] = len(self._states)
+                self._states.append(state)
+                self._where.append(number)
+        for number, state in enumerate(self._states):
+            if not number % _OFTEN:
+                self._budget.check()
+            if not self._fairness.running(state):
+                yield Lasso(self._stem(number), [])
+        for component in self._components():
+            found = self._fair_lassos(component)
+            yield from found
+            # The parts of an unfair component are unfair, too.
+            for delay in self._delays(component) if found else ():
+                # Loops without the end of a delay, which may end too early in others.
+                for part in self._components(component, delay):
+                    yield from self._fair_lassos(part, delay)
 
     def _steps(self, number: int, without: _Delay | None = None) -> list[tuple[int, Step]]:
         """Return the states to which a step leads while the property stays open."""
+        self._asked += 1
+        if not self._asked % _OFTEN:
+            self._budget.check()
         found = self._following.get(number)
         if found is None:
             found = [
@@ -118,15 +127,12 @@ class Lassos:
         starts = array("I", [0])
         targets = array("I")
         for node in nodes:
-            if not node % _OFTEN and not self._budget.allows(0):
-                self.complete = False
-                return []
             after = dict.fromkeys(numbers.get(each) for each, _ in self._steps(node, without))
             targets.extend(each for each in after if each is not None)
             starts.append(len(targets))
         found = [
             sorted(nodes[each] for each in component)
-            for component in components(starts, targets)
+            for component in components(starts, targets, self._budget.check)
             if len(component) > 1
             or component[0] in targets[starts[component[0]] : starts[component[0] + 1]]
         ]
@@ -149,6 +155,7 @@ class Lassos:
     # ---- one run
 
     def _stem(self, number: int) -> list[Step]:
+        self._budget.check()
         way = self._graph.way(self._where[number])
         return steps_between(way, lambda state: list(self._observer.successors(state)))
 
@@ -226,10 +233,13 @@ def _way(first: int, last: int, before: dict[int, tuple[int, Step]]) -> list[Ste
     return steps[::-1]
 
 
-def components(starts: Sequence[int], targets: Sequence[int]) -> Iterator[list[int]]:
+def components(
+    starts: Sequence[int], targets: Sequence[int], check: Callable[[], None]
+) -> Iterator[list[int]]:
     """Yield the strongly connected components of a graph.
 
     The edges of node `n` lead to the nodes from `starts[n]` to `starts[n + 1]` in `targets`.
+    `check` is called now and then, and may raise an exception.
     """
     count = len(starts) - 1
     index = array("I", bytes(4 * count))
@@ -246,6 +256,8 @@ def components(starts: Sequence[int], targets: Sequence[int]) -> Iterator[list[i
         stack.append(root)
         on_stack[root] = 1
         while path:
+            if not clock % _OFTEN:
+                check()
             node, edge = path.pop()
             if edge < starts[node + 1]:
                 path.append((node, edge + 1))

@@ -7,10 +7,7 @@ from heapq import heappop, heappush
 
 from swarmdsl.execution.verify.automata.limits import Budget
 from swarmdsl.execution.verify.properties.observer import Observer
-from swarmdsl.execution.verify.search.explore import Graph
-
-_OFTEN = 4096
-"""Number of states between two looks at the limits."""
+from swarmdsl.execution.verify.search.explore import Graph, often
 
 
 def observe_nearest(
@@ -38,25 +35,27 @@ def observe_nearest(
     parents.append(0)
     todo = [(0, 0, first)]
     turns = 0
-    try:
-        while todo:
-            _, number, state = heappop(todo)
-            for news in (observer.following(state), observer.risking(state)):
-                for new in news:
-                    graph.transitions += 1
-                    if new in seen:
-                        continue
-                    seen[new] = None
-                    parents.append(number)
-                    if observer.is_bad(new):
-                        graph.bad = len(seen) - 1
-                        return graph
-                    distance = distance_of(new)
-                    if distance is not None:
-                        heappush(todo, (distance, len(seen) - 1, new))
-            turns += 1
-            if (not turns % _OFTEN and not budget.allows(len(seen))) or len(seen) > budget.most:
+    pause = due = often(network)
+    while todo:
+        _, number, state = heappop(todo)
+        for news in (observer.following(state), observer.risking(state)):
+            for new in news:
+                graph.transitions += 1
+                if new in seen:
+                    continue
+                seen[new] = None
+                parents.append(number)
+                if observer.is_bad(new):
+                    graph.bad = len(seen) - 1
+                    return graph
+                distance = distance_of(new)
+                if distance is not None:
+                    heappush(todo, (distance, len(seen) - 1, new))
+        turns += 1
+        if len(seen) > budget.most:
+            return graph
+        if turns + graph.transitions >= due:
+            due = turns + graph.transitions + pause
+            if not budget.allows(len(seen)):
                 return graph
-    except KeyboardInterrupt:
-        budget.interrupted = True
     return graph

@@ -15,11 +15,11 @@ from typing import NamedTuple, Protocol
 from swarmdsl.execution.verify.automata.labels import Move
 from swarmdsl.execution.verify.automata.limits import Budget
 from swarmdsl.execution.verify.properties.observer import Observer
-from swarmdsl.execution.verify.search.explore import Graph
+from swarmdsl.execution.verify.search.explore import Graph, often
 from swarmdsl.execution.verify.swarm.network import Network
 
 _OFTEN = 256
-"""Number of facts or states between two looks at the limits."""
+"""Number of facts between two looks at the limits."""
 
 Planned = tuple[int, int, Move]
 """A move of a group in a state."""
@@ -151,24 +151,26 @@ def observe_planned(observer: Observer, me: int, watched: Watched, budget: Budge
     seen[first] = None
     parents.append(0)
     todo = [first]
-    try:
-        moves = _Plan(network, me, watched).moves(budget)
-        for number, state in enumerate(todo):
-            for new, step in observer.successors(state):
-                graph.transitions += 1
-                place = network.places[step.place]
-                if step.move is None or (place.group, place.state, step.move) not in moves:
-                    continue
-                if new in seen:
-                    continue
-                seen[new] = None
-                parents.append(number)
-                todo.append(new)
-                if observer.is_bad(new):
-                    graph.bad = len(seen) - 1
-                    return graph
-            if (not number % _OFTEN and not budget.allows(len(seen))) or len(seen) > budget.most:
+    moves = _Plan(network, me, watched).moves(budget)
+    pause, due = often(network), 0
+    for number, state in enumerate(todo):
+        for new, step in observer.successors(state):
+            graph.transitions += 1
+            place = network.places[step.place]
+            if step.move is None or (place.group, place.state, step.move) not in moves:
+                continue
+            if new in seen:
+                continue
+            seen[new] = None
+            parents.append(number)
+            todo.append(new)
+            if observer.is_bad(new):
+                graph.bad = len(seen) - 1
                 return graph
-    except KeyboardInterrupt:
-        budget.interrupted = True
+        if len(seen) > budget.most:
+            return graph
+        if number + graph.transitions >= due:
+            due = number + graph.transitions + pause
+            if not budget.allows(len(seen)):
+                return graph
     return graph

@@ -13,12 +13,10 @@ from heapq import heappop, heappush
 
 from swarmdsl.execution.verify.automata.limits import Budget
 from swarmdsl.execution.verify.properties.observer import Observer
-from swarmdsl.execution.verify.search.explore import Graph
+from swarmdsl.execution.verify.search.explore import Graph, often
 from swarmdsl.execution.verify.search.fairness import Fairness
 from swarmdsl.execution.verify.swarm.groups import Step
 
-_OFTEN = 256
-"""Number of states between two looks at the limits."""
 _MOST_STEPS = 200_000
 """Number of steps after which the search ends: states of a large swarm have many."""
 _FOREIGN = ("outside", "view", "lose")
@@ -31,10 +29,7 @@ def observe_settling(observer: Observer, budget: Budget) -> Graph:
     A state in which the property is violated ends the search.
     """
     search = _Search(observer)
-    try:
-        search.run(budget)
-    except KeyboardInterrupt:
-        budget.interrupted = True
+    search.run(budget)
     return search.graph
 
 
@@ -57,13 +52,16 @@ class _Search:
         observer = self._observer
         self._add(observer.start(observer.network.start()), 0, 0)
         turns = 0
+        pause = due = often(observer.network)
         while self._near and self.graph.bad is None:
             self._follow(self._near.popleft(), by_itself=False)
             if self._restless:
                 self._follow(heappop(self._restless)[-1], by_itself=True)
             turns += 1
-            if not turns % _OFTEN and not budget.allows(len(self._states)):
-                break
+            if turns + self.graph.transitions >= due:
+                due = turns + self.graph.transitions + pause
+                if not budget.allows(len(self._states)):
+                    break
             if len(self._states) > budget.most or self.graph.transitions > _MOST_STEPS:
                 break
 

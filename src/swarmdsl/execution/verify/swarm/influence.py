@@ -8,28 +8,41 @@ from swarmdsl.execution.verify.swarm.groups import Group
 from swarmdsl.execution.verify.swarm.model import Model
 
 
-def influences(model: Model, groups: Sequence[Group]) -> list[set[int]]:
-    """Return for each group those that can send it a message."""
-    sent = list(map(sent_by, groups))
-    more = [model.may_send(each) for each in groups]
-    return [
-        {
-            other
-            for other, source in enumerate(groups)
-            if any(map(group.automaton.whole.kind.listens, more[other]))
-            or any(group.hears(message, source) for message in sent[other])
-        }
-        for group in groups
-    ]
+class Influences:
+    """The groups that can send each group a message."""
+
+    def __init__(self, model: Model, groups: Sequence[Group]) -> None:
+        self._groups = groups
+        self._senders = [
+            (number, sent, more)
+            for number, group in enumerate(groups)
+            for sent, more in ((sent_by(group), model.may_send(group)),)
+            if sent or more
+        ]
+        self._found: dict[int, set[int]] = {}
+
+    def on(self, number: int) -> set[int]:
+        """Return the groups that can send a group a message; of few groups anybody asks."""
+        found = self._found.get(number)
+        if found is None:
+            group = self._groups[number]
+            listens = group.automaton.whole.kind.listens
+            found = self._found[number] = {
+                other
+                for other, sent, more in self._senders
+                if any(map(listens, more))
+                or any(group.hears(message, self._groups[other]) for message in sent)
+            }
+        return found
 
 
 def cone(model: Model, groups: Sequence[Group], about: Iterable[int]) -> list[Group]:
     """Return the groups that can influence some of them."""
-    sources = influences(model, groups)
+    sources = Influences(model, groups)
     found = set(about)
     todo = list(found)
     while todo:
-        for each in sources[todo.pop()] - found:
+        for each in sources.on(todo.pop()) - found:
             found.add(each)
             todo.append(each)
     return [group for number, group in enumerate(groups) if number in found]
@@ -40,19 +53,21 @@ def apart(model: Model, groups: Sequence[Group]) -> Iterator[list[Group]]:
 
     A robot that no other one influences stands for all of its group.
     """
-    sources = influences(model, groups)
+    sources = Influences(model, groups)
     left = set(range(len(groups)))
     while left:
         part = {min(left)}
         grown = True
         while grown:
             more = {
-                n for n in left - part if sources[n] & part or any(n in sources[m] for m in part)
+                n
+                for n in left - part
+                if sources.on(n) & part or any(n in sources.on(m) for m in part)
             }
             grown = bool(more)
             part |= more
         left -= part
-        if len(part) == 1 and not sources[next(iter(part))]:
+        if len(part) == 1 and not sources.on(min(part)):
             (only,) = part
             yield [Group(groups[only].automaton, groups[only].robots[:1])]
         else:

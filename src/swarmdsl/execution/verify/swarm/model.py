@@ -107,6 +107,7 @@ class Model:
         self._robots: list[list[str | None]] = []
         self._gather(facts)
         self._quotients: dict[tuple[int, int, bool, bool], Quotient] = {}
+        self._budget = budget
         self.wider: dict[Any, Model | None] = {}
         """Models with more runs, by what they leave open."""
         self.complete = close(self.kinds, self.alphabet, MOST_STATES, MOST_MOVES, budget)
@@ -183,7 +184,8 @@ class Model:
     ) -> list[Group]:
         """Return the groups of robots, with those by themselves that something tells apart.
 
-        With `single`, each robot is a group. The automata tell apart what `Quotient` says.
+        With `single`, each robot is a group. The automata tell apart what `Quotient` says. Raises
+        LimitReachedError.
         """
         made = []
         named = self.named(properties)
@@ -221,11 +223,13 @@ class Model:
 
     def doubts(self, groups: Iterable[Group]) -> list[Doubt]:
         """Return the reasons why proofs about some groups are not complete."""
-        found: dict[Doubt, None] = {}
-        for group in groups:
-            number = self.kinds.index(group.automaton.whole)
-            found.update(dict.fromkeys(self._doubts[number]))
-        return list(found)
+        numbers = (self.kinds.index(group.automaton.whole) for group in groups)
+        return list(dict.fromkeys(doubt for number in numbers for doubt in self._doubts[number]))
+
+    @property
+    def every_doubt(self) -> list[Doubt]:
+        """The reasons why proofs about all robots are not complete."""
+        return list(dict.fromkeys(doubt for found in self._doubts.values() for doubt in found))
 
     def may_send(self, group: Group) -> set[str]:
         """Return the events that a group may send other robots, beyond those that it was seen to.
@@ -241,6 +245,7 @@ class Model:
     def _quotient(self, number: int, mask: int, *, thorough: bool, tasks: bool) -> Quotient:
         key = (number, mask, thorough, tasks)
         if key not in self._quotients:
+            self._budget.check()
             self._quotients[key] = Quotient(
                 self.kinds[number], mask, thorough=thorough, tasks=tasks
             )
