@@ -1,4 +1,4 @@
-"""What is wrong with a swarm, as behaviour tests can show it."""
+"""Claims of behaviour tests about findings and violated properties."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Shown:
     property: str | None = None
     claim: Mapping[str, Any] | None = None
     note: str = ""
-    """What to mind before the claim."""
+    """Comment before the claim."""
 
 
 @dataclass(frozen=True)
